@@ -1,0 +1,1 @@
+"""The web server: projects, sessions, and the command line."""

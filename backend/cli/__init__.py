@@ -1,0 +1,1 @@
+"""The `bt-studio` program, the one place that imports every part."""

@@ -1,0 +1,45 @@
+import math
+
+import py_trees
+from rclpy.qos import qos_profile_sensor_data
+from sensor_msgs.msg import LaserScan
+
+from tree_gardener.ports import Port, get_input
+
+
+class CheckObstacle(py_trees.behaviour.Behaviour):
+    """Succeeds if the LIDAR sees something near, ahead of the robot."""
+
+    NODE_KIND = "Condition"
+    INPUT_PORTS = {
+        "obs_dist": Port(float, default=1.0, description="How near counts as an obstacle, in m."),
+        "amplitude": Port(float, default=30.0, description="How far to each side to look, in degrees."),
+    }
+
+    def setup(self, **kwargs):
+        self.scan = None
+        self.subscription = kwargs["node"].create_subscription(
+            LaserScan, "/scan", self.on_scan, qos_profile_sensor_data
+        )
+
+    def on_scan(self, scan):
+        self.scan = scan
+
+    def update(self):
+        if self.scan is None:
+            # Nothing is known yet: stay where we are rather than drive blind.
+            return py_trees.common.Status.SUCCESS
+        if self.nearest_ahead() < get_input(self, "obs_dist"):
+            return py_trees.common.Status.SUCCESS
+        return py_trees.common.Status.FAILURE
+
+    def nearest_ahead(self):
+        scan = self.scan
+        half_width = math.radians(get_input(self, "amplitude"))
+        nearest = math.inf
+        for i, distance in enumerate(scan.ranges):
+            angle = scan.angle_min + i * scan.angle_increment
+            ahead = abs(math.atan2(math.sin(angle), math.cos(angle))) <= half_width
+            if ahead and scan.range_min <= distance <= scan.range_max:
+                nearest = min(nearest, distance)
+        return nearest

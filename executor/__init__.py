@@ -1,0 +1,1 @@
+"""The robotics executor: manager, world and application, each a process of its own."""

@@ -1,0 +1,496 @@
+"""Every message of the native session protocol `bt-studio.v1`, defined once.
+
+TypeScript types are generated from this module (`frontend/src/generated/messages.ts`), and so is the
+reference page of the protocol. Units are SI; frames follow REP-103; times are simulated seconds.
+
+Control socket (JSON text frames)
+    client to server: ``{"id", "command", "data"}`` with one of `COMMANDS`;
+    server to client: ``{"id", "command", "data", "seq", "t", "tick"}`` with one of `EVENTS`. A reply
+    (``ack`` or ``error``) repeats the id of its command, other messages carry an id of their own.
+Stream socket (MessagePack binary frames), server to client only: one of `FRAMES`, told by ``type``.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final, Literal
+
+import msgspec
+from msgspec import UNSET, Struct, UnsetType
+
+PROTOCOL: Final = "bt-studio.v1"
+
+State = Literal[
+    "idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused"
+]
+Rung = Literal["connect", "launch_universe", "prepare_visualization", "run_application"]
+NodeStatus = Literal["IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"]
+StreamName = Literal["poses", "scan", "camera", "view"]
+LogSource = Literal["action", "world", "manager", "launch"]
+LogLevel = Literal["debug", "info", "warning", "error"]
+Role = Literal["driver", "viewer"]
+OnFinish = Literal["stop", "repeat"]
+OnError = Literal["stop", "failure"]
+FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
+
+
+# --- commands: what a client may ask -------------------------------------------------------------
+
+
+class Empty(Struct, forbid_unknown_fields=True):
+    """A command without arguments."""
+
+
+class UniverseDocument(Struct, forbid_unknown_fields=True):
+    """A universe of the project: its YAML text and the assets that it names."""
+
+    document: str
+    assets_zip_base64: str = ""
+
+
+class LaunchUniverse(Struct, forbid_unknown_fields=True):
+    """Starts world and robots, paused. `universe` is a built-in id or a document."""
+
+    universe: str | UniverseDocument
+    robot: str | None = None
+    seed: int = 0
+    speed: float = 1.0
+
+
+class RunApplication(Struct, forbid_unknown_fields=True):
+    """(Re)starts the application from an app zip and un-pauses the world."""
+
+    app_zip_base64: str
+    tick_hz: float = 20.0
+    on_finish: OnFinish = "stop"
+    on_error: OnError = "stop"
+
+
+class Run(Struct, forbid_unknown_fields=True):
+    """Climbs all missing rungs of the ladder up to `application_running`."""
+
+    universe: LaunchUniverse
+    application: RunApplication
+
+
+class SetTickRate(Struct, forbid_unknown_fields=True):
+    """Ticks a second of simulated time, from the next tick on."""
+
+    tick_hz: float
+
+
+class SetSpeed(Struct, forbid_unknown_fields=True):
+    """Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can."""
+
+    speed: float
+
+
+class SetBlackboard(Struct, forbid_unknown_fields=True):
+    """Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused."""
+
+    scope: str
+    key: str
+    value: Any
+
+
+class Teleop(Struct, forbid_unknown_fields=True):
+    """Drives the robot by hand: linear x in m/s, angular z in rad/s."""
+
+    linear: float
+    angular: float
+
+
+class MoveBody(Struct, forbid_unknown_fields=True):
+    """Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
+
+    id: str
+    pose: tuple[float, float, float, float, float, float]
+
+
+class CameraPose(Struct, forbid_unknown_fields=True):
+    """Where the server's own view looks from: eye and target in m, world frame."""
+
+    eye: tuple[float, float, float]
+    target: tuple[float, float, float]
+
+
+class Subscribe(Struct, forbid_unknown_fields=True):
+    """Asks for a stream on this client's stream socket; again with other values changes them."""
+
+    stream: StreamName
+    max_hz: float = 30.0
+    width: int | None = None
+    camera_pose: CameraPose | None = None
+
+
+class Unsubscribe(Struct, forbid_unknown_fields=True):
+    """Ends a stream."""
+
+    stream: StreamName
+
+
+class EchoTopic(Struct, forbid_unknown_fields=True):
+    """Sends each message of a topic as a `topic_message`, at most `max_hz`; 0 ends it."""
+
+    topic: str
+    max_hz: float = 10.0
+
+
+class PublishTopic(Struct, forbid_unknown_fields=True):
+    """Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`)."""
+
+    topic: str
+    type: str
+    message: dict[str, Any]
+
+
+COMMANDS: Final[dict[str, type[Struct]]] = {
+    "connect": Empty,
+    "launch_universe": LaunchUniverse,
+    "prepare_visualization": Empty,
+    "run_application": RunApplication,
+    "run": Run,
+    "pause": Empty,
+    "resume": Empty,
+    "step": Empty,
+    "cancel": Empty,
+    "set_tick_rate": SetTickRate,
+    "set_speed": SetSpeed,
+    "restart_application": Empty,
+    "reset_world": Empty,
+    "terminate_application": Empty,
+    "terminate_visualization": Empty,
+    "terminate_universe": Empty,
+    "disconnect": Empty,
+    "set_blackboard": SetBlackboard,
+    "teleop": Teleop,
+    "move_body": MoveBody,
+    "subscribe": Subscribe,
+    "unsubscribe": Unsubscribe,
+    "list_topics": Empty,
+    "echo_topic": EchoTopic,
+    "publish_topic": PublishTopic,
+}
+
+
+class ClientMessage(Struct):
+    """The envelope of a command; `data` is decoded as `COMMANDS[command]`."""
+
+    id: str
+    command: str
+    data: msgspec.Raw | None = None
+
+
+# --- events: what the server says ----------------------------------------------------------------
+
+
+class Ack(Struct):
+    """The command was done."""
+
+
+class Error(Struct):
+    """The command was refused or failed; nothing else changed."""
+
+    code: str
+    message: str
+    hint: str = ""
+
+
+class Introspection(Struct):
+    """First message on a connection. `client_id` names this client when it opens the stream socket."""
+
+    protocol: str
+    client_id: str
+    role: Role
+    state: State
+    version: str
+    ros_distro: str
+    ros_domain_id: int
+    renderer: str
+    tf: bool
+
+
+class StateChanged(Struct):
+    """The ladder stands on another rung; `reason` is for people, empty when it was asked for."""
+
+    state: State
+    reason: str = ""
+
+
+class Progress(Struct):
+    """A long step goes on: fraction 0 to 1 of this rung, and a sentence."""
+
+    rung: Rung
+    fraction: float
+    message: str
+
+
+class TreeNode(Struct):
+    """One node of the running tree. `node_id` is the diagram's id, `tree_id` its diagram."""
+
+    uid: int
+    parent: int
+    type: str
+    kind: str
+    name: str
+    path: str
+    node_id: str
+    tree_id: str
+
+
+class Tree(Struct):
+    """The running tree, in pre-order; subtrees are expanded in place."""
+
+    nodes: list[TreeNode]
+
+
+class Tick(Struct):
+    """What one tick changed."""
+
+    n: int
+    changed: list[tuple[int, NodeStatus]]
+    flashed: list[tuple[int, NodeStatus]]
+    duration_ms: float
+
+
+class BlackboardEntry(Struct):
+    """One changed entry; large values come as a preview (text), told by `preview`."""
+
+    scope: str
+    key: str
+    type: str
+    value: Any
+    preview: bool = False
+    removed: bool = False
+
+
+class Blackboard(Struct):
+    """Entries that changed since the last such message."""
+
+    entries: list[BlackboardEntry]
+
+
+class Log(Struct):
+    """One line of output."""
+
+    source: LogSource
+    level: LogLevel
+    text: str
+    node_id: str = ""
+    node_path: str = ""
+    time: float = 0.0
+
+
+class Fault(Struct):
+    """Something broke: an exception in an action, or a process that died or hangs."""
+
+    kind: Literal["exception", "process", "timeout", "load"]
+    message: str
+    hint: str = ""
+    node_id: str = ""
+    tree_id: str = ""
+    node_path: str = ""
+    file: str = ""
+    line: int = 0
+    traceback: str = ""
+
+
+class Finished(Struct):
+    """The run ended."""
+
+    status: NodeStatus
+    reason: FinishReason
+    message: str = ""
+
+
+class Sim(Struct):
+    """How well the simulation keeps up, about once a second."""
+
+    real_time_factor: float
+    speed: float
+    paused: bool
+    tick_ms: float
+    tick_budget_ms: float
+    collisions: int
+    distance_m: float
+    pose: tuple[float, float, float]
+    """True pose of the first robot: x and y in m, yaw in rad, world frame."""
+
+
+class TopicInfo(Struct):
+    """One ROS topic and how often it was heard."""
+
+    name: str
+    type: str
+    hz: float
+    bytes_per_s: float
+
+
+class Topics(Struct):
+    """The topics of the session's ROS graph."""
+
+    topics: list[TopicInfo]
+
+
+class TopicMessage(Struct):
+    """One message of a topic that a client echoes."""
+
+    topic: str
+    type: str
+    message: dict[str, Any]
+
+
+class Snapshot(Struct):
+    """Everything a client that joins late needs; deltas follow."""
+
+    state: State
+    tree: Tree | None
+    statuses: list[tuple[int, NodeStatus]]
+    blackboard: list[BlackboardEntry]
+    logs: list[Log]
+    faults: list[Fault]
+    tick_hz: float
+    speed: float
+    universe: str
+
+
+EVENTS: Final[dict[str, type[Struct]]] = {
+    "ack": Ack,
+    "error": Error,
+    "introspection": Introspection,
+    "state-changed": StateChanged,
+    "snapshot": Snapshot,
+    "progress": Progress,
+    "tree": Tree,
+    "tick": Tick,
+    "blackboard": Blackboard,
+    "log": Log,
+    "fault": Fault,
+    "finished": Finished,
+    "sim": Sim,
+    "topics": Topics,
+    "topic_message": TopicMessage,
+}
+
+
+class ServerMessage(Struct):
+    """The envelope of an event."""
+
+    id: str
+    command: str
+    data: Any
+    seq: int
+    t: float
+    tick: int | UnsetType = UNSET
+
+
+# --- frames of the stream socket ------------------------------------------------------------------
+
+
+class Shape(Struct, omit_defaults=True):
+    """A visual shape in its object's frame.
+
+    Args:
+        shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+            capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
+        pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
+        color: [r, g, b, a], each 0 to 1, sRGB.
+        mesh: key in `Scene.meshes` for a mesh, else "".
+    """
+
+    shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
+    size: list[float]
+    pose: list[float]
+    color: list[float]
+    mesh: str = ""
+    texture: str = ""
+
+
+class SceneObject(Struct):
+    """One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]."""
+
+    id: int
+    body: str
+    link: str
+    kind: Literal["static", "dynamic", "robot", "actor"]
+    shapes: list[Shape]
+    pose: list[float]
+
+
+class Mesh(Struct):
+    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32."""
+
+    positions: bytes
+    normals: bytes
+    indices: bytes
+
+
+class Light(Struct):
+    """A directional light; the direction is the one in which it shines."""
+
+    direction: list[float]
+    intensity: float
+
+
+class SensorPlacement(Struct):
+    """Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad."""
+
+    name: str
+    kind: Literal["lidar", "camera"]
+    object_id: int
+    pose: list[float]
+    fov: float
+    range: float
+
+
+class Scene(Struct, tag="scene", tag_field="type"):
+    """The world, once for each client and again when it changes."""
+
+    name: str
+    t: float
+    objects: list[SceneObject]
+    meshes: dict[str, Mesh]
+    lights: list[Light]
+    ground_color: list[float]
+    sensors: list[SensorPlacement]
+
+
+class Poses(Struct, tag="poses", tag_field="type"):
+    """Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id."""
+
+    t: float
+    ids: bytes
+    poses: bytes
+
+
+class Scan(Struct, tag="scan", tag_field="type"):
+    """One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world."""
+
+    t: float
+    sensor: str
+    pose: list[float]
+    angle_min: float
+    angle_increment: float
+    range_max: float
+    ranges: bytes
+
+
+class Camera(Struct, tag="camera", tag_field="type"):
+    """One image of a robot's camera, or of the server's view of the world (`view`)."""
+
+    t: float
+    sensor: str
+    width: int
+    height: int
+    jpeg: bytes
+
+
+class View(Struct, tag="view", tag_field="type"):
+    """The world as the server draws it."""
+
+    t: float
+    width: int
+    height: int
+    jpeg: bytes
+
+
+FRAMES: Final[tuple[type[Struct], ...]] = (Scene, Poses, Scan, Camera, View)

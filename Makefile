@@ -1,0 +1,48 @@
+# `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
+.DEFAULT_GOAL := help
+.PHONY: help run test test-full lint format bench clean setup setup-test test-frontend test-python generate
+
+PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
+# Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
+SETUP_PYTHON := $(or $(PYTHON),$(shell command -v python3))
+BIN := .venv/bin
+
+help: ## shows this list
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+
+setup:
+	@if [ -z "$(SETUP_PYTHON)" ]; then echo "set-up: Python is missing; install CPython 3.11 so that \`python3.11\` is found." >&2; exit 1; fi
+	@$(SETUP_PYTHON) backend/setup run
+
+setup-test:
+	@if [ -z "$(SETUP_PYTHON)" ]; then echo "set-up: Python is missing; install CPython 3.11 so that \`python3.11\` is found." >&2; exit 1; fi
+	@$(SETUP_PYTHON) backend/setup test
+
+run: setup ## sets up what is missing, then serves the IDE on http://127.0.0.1:8000 and opens the browser
+	@$(BIN)/bt-studio serve $(ARGS)
+
+test: setup-test lint test-frontend test-python ## sets up what is missing, then runs the whole test suite, browser tests included
+
+test-full: export BT_STUDIO_FULL = 1
+test-full: setup-test lint test-frontend test-python ## the same with the large counts of tests/budget.toml (hours)
+
+test-frontend:
+	@cd frontend && npm run --silent test
+
+test-python:
+	@$(BIN)/python -m pytest tests
+
+lint: ## style, types and the direction of imports, in Python and TypeScript
+	@$(BIN)/ruff check . && $(BIN)/ruff format --check .
+	@$(BIN)/mypy
+	@$(BIN)/lint-imports
+	@cd frontend && npm run --silent lint
+
+format: ## rewrites the sources in the project's style
+	@$(BIN)/ruff check --fix . ; $(BIN)/ruff format . ; cd frontend && npm run --silent format
+
+bench: setup-test ## the benchmarks, side by side with their rivals
+	@$(BIN)/python -m tests.benchmarks
+
+clean: ## removes everything that set-up and runs made, but for your projects in var/data
+	rm -rf .venv frontend/node_modules frontend/dist var/setup .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -1,0 +1,25 @@
+"""How a verb of the command line ends badly: one sentence a problem, never a traceback."""
+
+from __future__ import annotations
+
+import sys
+from typing import NoReturn
+
+WORK_FAILED = 1
+BAD_ARGUMENTS = 2
+
+
+class CliError(Exception):
+    """A verb could not do its work; `lines` are for stderr, one problem each."""
+
+    def __init__(self, *lines: str, status: int = WORK_FAILED) -> None:
+        super().__init__("\n".join(lines))
+        self.lines = lines
+        self.status = status
+
+
+def exit_with(error: CliError) -> NoReturn:
+    """Prints the problems on stderr and ends the program with the error's status."""
+    for line in error.lines:
+        print(line, file=sys.stderr)
+    sys.exit(error.status)

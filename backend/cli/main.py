@@ -1,0 +1,94 @@
+"""`bt-studio`: each verb is a plain function in a module of its own, imported only when it is used."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import tempfile
+import traceback
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, NamedTuple
+
+import typer
+from typer.core import TyperGroup
+from typer.main import get_command as command_of
+
+from backend.cli.errors import WORK_FAILED, CliError, exit_with
+
+if TYPE_CHECKING:
+    from typer._click import Command, Context
+
+
+class Verb(NamedTuple):
+    """Where a verb is written, and what it does in one line."""
+
+    module: str
+    function: str
+
+
+VERBS: Final[dict[str, Verb]] = {
+    "serve": Verb("serve", "serve"),
+    "run": Verb("run", "run"),
+    "check": Verb("check", "check"),
+    "translate": Verb("translate", "translate"),
+    "import": Verb("import_", "import_"),
+    "package": Verb("package", "package"),
+    "conformance": Verb("conformance", "conformance"),
+    "manager": Verb("manager", "manager"),
+    "new": Verb("new", "new"),
+    "export": Verb("export", "export"),
+    "projects": Verb("projects", "projects"),
+}
+
+
+class VerbGroup(TyperGroup):
+    """Finds a verb's module by name, so that `check` does not load ROS and `run` not Django."""
+
+    def list_commands(self, ctx: Context) -> list[str]:
+        return list(VERBS)
+
+    def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
+        if cmd_name not in VERBS:
+            return None
+        verb = VERBS[cmd_name]
+        module = importlib.import_module(f"backend.cli.{verb.module}")
+        app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        app.command(name=cmd_name)(getattr(module, verb.function))
+        return command_of(app)
+
+
+app = typer.Typer(
+    cls=VerbGroup,
+    name="bt-studio",
+    help="A web IDE for programming robots with behaviour trees.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+@app.callback()
+def _root() -> None:
+    """A web IDE for programming robots with behaviour trees."""
+
+
+def main() -> None:
+    """Runs one verb. Exit status: 0 done, 1 the work failed, 2 bad arguments."""
+    try:
+        app()
+    except CliError as error:
+        exit_with(error)
+    except Exception as error:  # noqa: BLE001, RUF100 - the last resort: no traceback in a user's face
+        report = _write_report()
+        sentence = f"bt-studio: this is a defect of BT Studio: {type(error).__name__}: {error}"
+        exit_with(CliError(sentence, f"The details are in {report}; please report them.", status=WORK_FAILED))
+
+
+def _write_report() -> Path:
+    with tempfile.NamedTemporaryFile("w", prefix="bt-studio-", suffix=".log", delete=False) as file:
+        traceback.print_exc(file=file)
+    return Path(file.name)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,262 @@
+"""Makes a fresh clone ready: `python3.11 backend/setup {run|test}`.
+
+Runs on the bare standard library, before anything is installed. Every step is skipped when what it made
+is still current, so that a second start costs a few hundred milliseconds. Everything lands in the clone:
+`.venv`, `frontend/node_modules`, `frontend/dist`, `var`. The one exception are the Debian packages that
+the browser tests need; they are installed by root alone, and said aloud.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import venv
+from pathlib import Path
+from typing import Callable, Iterable, List, NamedTuple, NoReturn, Optional, Tuple
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+VENV = ROOT / ".venv"
+PYTHON = VENV / "bin" / "python"
+FRONTEND = ROOT / "frontend"
+STAMPS = ROOT / "var" / "setup"
+NEEDED_NODE = (20, 19)
+TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri")
+
+
+class Step(NamedTuple):
+    """One thing to make: done again when what it is made from has changed, or what it makes is gone."""
+
+    name: str
+    sentence: str
+    sources: Iterable[Path]
+    product: Path
+    make: Callable[[], None]
+
+
+def main(arguments: List[str]) -> None:
+    """Prepares for `run` or for `test`."""
+    goal = arguments[0] if arguments else "run"
+    if goal not in ("run", "test"):
+        stop(f"The goal is run or test, not {goal}.")
+    check_machine()
+    check_node()
+    steps = [python_step(), packages_step(goal), own_package_step(), node_step(), front_end_step(), tf2_step()]
+    for step in steps:
+        take(step)
+    if goal == "test":
+        ensure_debian_packages()
+
+
+def stop(sentence: str) -> NoReturn:
+    """Says in one sentence why set-up cannot go on."""
+    print(f"set-up: {sentence}", file=sys.stderr)
+    sys.exit(1)
+
+
+def say(sentence: str) -> None:
+    """Tells what set-up does now."""
+    print(f"set-up: {sentence}", flush=True)
+
+
+# --- what the machine must have -------------------------------------------------------------------
+
+
+def check_machine() -> None:
+    """PyBullet and ROS 2 come as wheels for one kind of machine."""
+    if sys.platform != "linux" or platform.machine() not in ("x86_64", "AMD64"):
+        stop(
+            "BT Studio runs on Linux x86-64 with CPython 3.11; "
+            f"this is {platform.system()} on {platform.machine()}."
+        )
+    if sys.version_info[:2] != (3, 11) or platform.python_implementation() != "CPython":
+        stop(
+            f"BT Studio needs CPython 3.11 and this is {platform.python_implementation()} "
+            f"{platform.python_version()}; install it (Debian: apt install python3.11 python3.11-venv; "
+            "anywhere: pyenv install 3.11, or uv python install 3.11) so that `python3.11` is found."
+        )
+
+
+def check_node() -> None:
+    """The front end is built on this machine."""
+    remedy = "install Node 20.19 or newer with npm (see nodejs.org) so that `node` and `npm` are found."
+    if shutil.which("node") is None or shutil.which("npm") is None:
+        stop(f"Node.js is missing; {remedy}")
+    version = output_of(["node", "--version"]) or ""
+    found = re.match(r"v(\d+)\.(\d+)", version)
+    if not found or (int(found[1]), int(found[2])) < NEEDED_NODE:
+        stop(f"Node.js {version.strip() or 'of an unknown version'} is too old; {remedy}")
+
+
+def output_of(command: List[str]) -> Optional[str]:
+    """Standard output of a command, or None when it fails."""
+    try:
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return None
+
+
+# --- the steps ------------------------------------------------------------------------------------
+
+
+def python_step() -> Step:
+    """A virtual environment of this very Python."""
+    return Step("python", "making .venv", [], PYTHON, make_venv)
+
+
+def make_venv() -> None:
+    try:
+        venv.create(VENV, with_pip=True, clear=VENV.exists())
+    except (subprocess.CalledProcessError, ImportError):
+        stop("Python's venv module is incomplete; install it (Debian: apt install python3.11-venv).")
+
+
+def packages_step(goal: str) -> Step:
+    """The Python packages of the lock; the one for tests holds all of the other."""
+    run_lock, test_lock, build_lock = (
+        ROOT / name for name in ("requirements.lock", "requirements-dev.lock", "requirements-build.lock")
+    )
+    lock = test_lock if goal == "test" or stamp_file("packages-test").exists() else run_lock
+    name = "packages-test" if lock is test_lock else "packages"
+    return Step(
+        name,
+        "installing the Python packages (about 1 GB, from a hash-pinned lock)",
+        [lock, build_lock],
+        VENV / "bin" / "uv",
+        lambda: install_packages(lock, build_lock),
+    )
+
+
+def install_packages(lock: Path, build_lock: Path) -> None:
+    pip = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    run([*pip, "--require-hashes", "-r", str(build_lock)])
+    uv = [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
+    run([*uv, "--require-hashes", "-r", str(lock)])
+
+
+def own_package_step() -> Step:
+    """The `bt-studio` program, pointing at this clone."""
+    return Step(
+        "bt-studio",
+        "installing bt-studio itself into .venv",
+        [ROOT / "pyproject.toml"],
+        VENV / "bin" / "bt-studio",
+        lambda: run(
+            [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet", "--no-deps"]
+            + ["--no-build-isolation", "--editable", str(ROOT)]
+        ),
+    )
+
+
+def node_step() -> Step:
+    """The npm packages of the lock."""
+    return Step(
+        "npm",
+        "installing the npm packages",
+        [FRONTEND / "package-lock.json"],
+        FRONTEND / "node_modules" / ".package-lock.json",
+        lambda: run(["npm", "ci", "--no-audit", "--no-fund", "--loglevel=error"], cwd=FRONTEND),
+    )
+
+
+def front_end_step() -> Step:
+    """The built front end, made again when one of its sources has changed."""
+    sources = [*sorted((FRONTEND / "src").rglob("*")), *sorted((FRONTEND / "public").rglob("*"))]
+    configuration = [FRONTEND / name for name in ("index.html", "vite.config.ts", "package-lock.json")]
+    catalog = ROOT / "tree_gardener" / "catalog.json"
+    return Step(
+        "front-end",
+        "building the front end",
+        [*sources, *configuration, catalog],
+        FRONTEND / "dist" / "index.html",
+        lambda: run(["npm", "run", "--silent", "build"], cwd=FRONTEND),
+    )
+
+
+def tf2_step() -> Step:
+    """ROS 2's transform messages, of which there is no wheel; without a compiler /tf is left out."""
+    script = ROOT / "executor" / "ros" / "build_tf2_msgs.py"
+    return Step(
+        "tf2_msgs",
+        "building ROS 2's tf2_msgs",
+        [script, ROOT / "requirements.lock"],
+        VENV,
+        lambda: run([str(PYTHON), "-m", "executor.ros.build_tf2_msgs"], cwd=ROOT),
+    )
+
+
+# --- taking a step --------------------------------------------------------------------------------
+
+
+def take(step: Step) -> None:
+    """Does a step unless it is done already."""
+    stamp = stamp_file(step.name)
+    digest = digest_of(step.sources)
+    if step.product.exists() and stamp.exists() and stamp.read_text() == digest:
+        return
+    say(f"{step.sentence} …")
+    step.make()
+    stamp.parent.mkdir(parents=True, exist_ok=True)
+    stamp.write_text(digest)
+
+
+def stamp_file(name: str) -> Path:
+    """Where the digest of a step's sources is kept."""
+    return STAMPS / name
+
+
+def digest_of(sources: Iterable[Path]) -> str:
+    """A digest of names and contents, and of where the clone lies: scripts in .venv hold its path."""
+    digest = hashlib.sha256(str(ROOT).encode())
+    for path in sources:
+        if path.is_file():
+            digest.update(str(path.relative_to(ROOT)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def run(command: List[str], cwd: Path = ROOT) -> None:
+    """Runs a command and stops with a sentence when it fails; what it printed stands above."""
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": ""}
+    try:
+        subprocess.run(command, cwd=cwd, env=environment, check=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        shown = " ".join(command[:4])
+        stop(f"`{shown} …` failed ({error}); what it says stands above. Mend it and run make again.")
+
+
+# --- Debian packages for the tests ----------------------------------------------------------------
+
+
+def ensure_debian_packages() -> None:
+    """Chromium and EGL, which the browser tests need; installed by root alone."""
+    missing = [name for name, present in test_programs() if not present]
+    if not missing:
+        return
+    install = ["apt-get", "install", "-y", "--no-install-recommends", *missing]
+    if os.geteuid() != 0 or shutil.which("apt-get") is None:
+        stop(f"the browser tests need {' and '.join(missing)}; install them with: sudo {' '.join(install)}")
+    say(f"installing the Debian packages {' '.join(missing)} on this machine, for the browser tests …")
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    subprocess.run(["apt-get", "update", "-q"], env=quiet, check=False, stdout=subprocess.DEVNULL)
+    if subprocess.run(install, env=quiet, check=False, stdout=subprocess.DEVNULL).returncode:
+        stop(f"`{' '.join(install)}` failed; what it says stands above.")
+
+
+def test_programs() -> List[Tuple[str, bool]]:
+    """The Debian packages and whether what they bring is here."""
+    libraries = output_of(["ldconfig", "-p"]) or ""
+    drivers = [*Path("/usr/lib").glob("*/dri/swrast_dri.so"), *Path("/usr/lib").glob("*/libgallium*.so")]
+    present = (
+        shutil.which("chromium") is not None,
+        "libEGL.so.1" in libraries,
+        bool(drivers),
+    )
+    return list(zip(TEST_PACKAGES, present))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

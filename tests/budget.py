@@ -1,0 +1,19 @@
+"""Counts of the tests that can run for as long as one likes."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+
+_BUDGET = Path(__file__).with_name("budget.toml")
+
+
+def count(name: str) -> int:
+    """How many cases the counted test `name` runs in this run.
+
+    Raises:
+        KeyError: `tests/budget.toml` has no such table.
+    """
+    table = tomllib.loads(_BUDGET.read_text())[name]
+    return int(table["full" if os.environ.get("BT_STUDIO_FULL") == "1" else "test"])

@@ -45,9 +45,11 @@ class VerbGroup(TyperGroup):
     """Finds a verb's module by name, so that `check` does not load ROS and `run` not Django."""
 
     def list_commands(self, ctx: Context) -> list[str]:
+        """The verbs, in the order of the table."""
         return list(VERBS)
 
     def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
+        """The verb's command, made from its function's signature."""
         if cmd_name not in VERBS:
             return None
         verb = VERBS[cmd_name]

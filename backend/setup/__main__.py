@@ -1,6 +1,7 @@
 """Makes a fresh clone ready: `python3.11 backend/setup {run|test}`.
 
-Runs on the bare standard library, before anything is installed. Every step is skipped when what it made
+Runs on the bare standard library, before anything is installed; any Python 3.7 can read it, to say that it
+is the wrong one. Every step is skipped when what it made
 is still current, so that a second start costs a few hundred milliseconds. Everything lands in the clone:
 `.venv`, `frontend/node_modules`, `frontend/dist`, `var`. The one exception are the Debian packages that
 the browser tests need; they are installed by root alone, and said aloud.
@@ -17,7 +18,10 @@ import subprocess
 import sys
 import venv
 from pathlib import Path
-from typing import Callable, Iterable, List, NamedTuple, NoReturn, Optional, Tuple
+from typing import TYPE_CHECKING, NamedTuple, NoReturn
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 VENV = ROOT / ".venv"
@@ -38,14 +42,21 @@ class Step(NamedTuple):
     make: Callable[[], None]
 
 
-def main(arguments: List[str]) -> None:
+def main(arguments: list[str]) -> None:
     """Prepares for `run` or for `test`."""
     goal = arguments[0] if arguments else "run"
     if goal not in ("run", "test"):
         stop(f"The goal is run or test, not {goal}.")
     check_machine()
     check_node()
-    steps = [python_step(), packages_step(goal), own_package_step(), node_step(), front_end_step(), tf2_step()]
+    steps = [
+        python_step(),
+        packages_step(goal),
+        own_package_step(),
+        node_step(),
+        front_end_step(),
+        tf2_step(),
+    ]
     for step in steps:
         take(step)
     if goal == "test":
@@ -92,7 +103,7 @@ def check_node() -> None:
         stop(f"Node.js {version.strip() or 'of an unknown version'} is too old; {remedy}")
 
 
-def output_of(command: List[str]) -> Optional[str]:
+def output_of(command: list[str]) -> str | None:
     """Standard output of a command, or None when it fails."""
     try:
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout
@@ -109,6 +120,7 @@ def python_step() -> Step:
 
 
 def make_venv() -> None:
+    """Makes the environment anew."""
     try:
         venv.create(VENV, with_pip=True, clear=VENV.exists())
     except (subprocess.CalledProcessError, ImportError):
@@ -132,10 +144,15 @@ def packages_step(goal: str) -> Step:
 
 
 def install_packages(lock: Path, build_lock: Path) -> None:
+    """Installs the build tools by pip, and with them the lock; each file is checked by its hash."""
     pip = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run([*pip, "--require-hashes", "-r", str(build_lock)])
-    uv = [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
-    run([*uv, "--require-hashes", "-r", str(lock)])
+    run([*uv_install(), "--require-hashes", "-r", str(lock)])
+
+
+def uv_install() -> list[str]:
+    """The command that installs into .venv, quickly."""
+    return [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
 
 
 def own_package_step() -> Step:
@@ -145,10 +162,7 @@ def own_package_step() -> Step:
         "installing bt-studio itself into .venv",
         [ROOT / "pyproject.toml"],
         VENV / "bin" / "bt-studio",
-        lambda: run(
-            [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet", "--no-deps"]
-            + ["--no-build-isolation", "--editable", str(ROOT)]
-        ),
+        lambda: run([*uv_install(), "--no-deps", "--no-build-isolation", "--editable", str(ROOT)]),
     )
 
 
@@ -218,7 +232,7 @@ def digest_of(sources: Iterable[Path]) -> str:
     return digest.hexdigest()
 
 
-def run(command: List[str], cwd: Path = ROOT) -> None:
+def run(command: list[str], cwd: Path = ROOT) -> None:
     """Runs a command and stops with a sentence when it fails; what it printed stands above."""
     environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": ""}
     try:
@@ -246,7 +260,7 @@ def ensure_debian_packages() -> None:
         stop(f"`{' '.join(install)}` failed; what it says stands above.")
 
 
-def test_programs() -> List[Tuple[str, bool]]:
+def test_programs() -> list[tuple[str, bool]]:
     """The Debian packages and whether what they bring is here."""
     libraries = output_of(["ldconfig", "-p"]) or ""
     drivers = [*Path("/usr/lib").glob("*/dri/swrast_dri.so"), *Path("/usr/lib").glob("*/libgallium*.so")]
@@ -255,7 +269,7 @@ def test_programs() -> List[Tuple[str, bool]]:
         "libEGL.so.1" in libraries,
         bool(drivers),
     )
-    return list(zip(TEST_PACKAGES, present))
+    return list(zip(TEST_PACKAGES, present, strict=True))
 
 
 if __name__ == "__main__":

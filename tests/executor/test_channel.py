@@ -37,6 +37,11 @@ def frame(data, client="c1", stream="camera", **more):
     return {"type": "frame", "client": client, "stream": stream, "data": data, **more}
 
 
+def send_many(channel, message, count):
+    for _ in range(count):
+        channel.send(message)
+
+
 def test_messages_arrive_in_order(ends):
     ours, child = ends
     for n in range(100):
@@ -118,8 +123,7 @@ def test_closing_the_other_end_is_told(ends):
     with pytest.raises(ChannelClosed):
         child.receive(1)
     with pytest.raises(ChannelClosed):
-        for _ in range(3):
-            child.send({"type": "log"})
+        send_many(child, {"type": "log"}, 3)
 
 
 def test_a_peer_that_never_reads_is_given_up(ends, monkeypatch):
@@ -127,8 +131,7 @@ def test_a_peer_that_never_reads_is_given_up(ends, monkeypatch):
     monkeypatch.setattr(channel_module, "STALL_TIMEOUT_S", 0.05)
     monkeypatch.setattr(channel_module, "MAX_QUEUED_BYTES", 100_000)
     with pytest.raises(ChannelClosed):
-        for _ in range(200):
-            child.send({"type": "log", "text": "x" * 10_000})
+        send_many(child, {"type": "log", "text": "x" * 10_000}, 200)
 
 
 @pytest.mark.parametrize("body", [b"\xc1", b"\x01", b"\x80", b"\x81\xa4type\x01"])
@@ -193,6 +196,5 @@ async def test_the_manager_gives_up_a_child_that_does_not_read(ends, monkeypatch
     monkeypatch.setattr(channel_module, "MAX_QUEUED_BYTES", 100_000)
     manager = await AsyncChannel.open(ours)
     with pytest.raises(ChannelClosed, match="does not read"):
-        for _ in range(2000):
-            manager.send({"type": "teleop", "pad": "x" * 1000})
+        send_many(manager, {"type": "teleop", "pad": "x" * 1000}, 2000)
     manager._writer.transport.abort()

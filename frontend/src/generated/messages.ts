@@ -1,0 +1,437 @@
+// Generated from executor/messages.py by `python -m executor.typescript`. Do not edit.
+
+export const PROTOCOL = "bt-studio.v1";
+
+export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused";
+
+export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
+
+export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
+
+export type StreamName = "poses" | "scan" | "camera" | "view";
+
+export type LogSource = "action" | "world" | "manager" | "launch";
+
+export type LogLevel = "debug" | "info" | "warning" | "error";
+
+export type Role = "driver" | "viewer";
+
+export type OnFinish = "stop" | "repeat";
+
+export type OnError = "stop" | "failure";
+
+export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
+
+/** A command without arguments. */
+export type Empty = Record<string, never>;
+
+/** A universe of the project: its YAML text and the assets that it names. */
+export interface UniverseDocument {
+  document: string;
+  assets_zip_base64?: string;
+}
+
+/** Starts world and robots, paused. `universe` is a built-in id or a document. */
+export interface LaunchUniverse {
+  universe: string | UniverseDocument;
+  robot?: string | null;
+  seed?: number;
+  speed?: number;
+}
+
+/** (Re)starts the application from an app zip and un-pauses the world. */
+export interface RunApplication {
+  app_zip_base64: string;
+  tick_hz?: number;
+  on_finish?: OnFinish;
+  on_error?: OnError;
+}
+
+/** Climbs all missing rungs of the ladder up to `application_running`. */
+export interface Run {
+  universe: LaunchUniverse;
+  application: RunApplication;
+}
+
+/** Ticks a second of simulated time, from the next tick on. */
+export interface SetTickRate {
+  tick_hz: number;
+}
+
+/** Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can. */
+export interface SetSpeed {
+  speed: number;
+}
+
+/** Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused. */
+export interface SetBlackboard {
+  scope: string;
+  key: string;
+  value: unknown;
+}
+
+/** Drives the robot by hand: linear x in m/s, angular z in rad/s. */
+export interface Teleop {
+  linear: number;
+  angular: number;
+}
+
+/** Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused. */
+export interface MoveBody {
+  id: string;
+  pose: [number, number, number, number, number, number];
+}
+
+/** Where the server's own view looks from: eye and target in m, world frame. */
+export interface CameraPose {
+  eye: [number, number, number];
+  target: [number, number, number];
+}
+
+/** Asks for a stream on this client's stream socket; again with other values changes them. */
+export interface Subscribe {
+  stream: StreamName;
+  max_hz?: number;
+  width?: number | null;
+  camera_pose?: CameraPose | null;
+}
+
+/** Ends a stream. */
+export interface Unsubscribe {
+  stream: StreamName;
+}
+
+/** Sends each message of a topic as a `topic_message`, at most `max_hz`; 0 ends it. */
+export interface EchoTopic {
+  topic: string;
+  max_hz?: number;
+}
+
+/** Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`). */
+export interface PublishTopic {
+  topic: string;
+  type: string;
+  message: Record<string, unknown>;
+}
+
+/** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
+export interface ClientMessage {
+  id: string;
+  command: string;
+  data?: unknown;
+}
+
+/** The command was done. */
+export type Ack = Record<string, never>;
+
+/** The command was refused or failed; nothing else changed. */
+export interface Error {
+  code: string;
+  message: string;
+  hint: string;
+}
+
+/** First message on a connection. `client_id` names this client when it opens the stream socket. */
+export interface Introspection {
+  protocol: string;
+  client_id: string;
+  role: Role;
+  state: State;
+  version: string;
+  ros_distro: string;
+  ros_domain_id: number;
+  renderer: string;
+  tf: boolean;
+}
+
+/** The ladder stands on another rung; `reason` is for people, empty when it was asked for. */
+export interface StateChanged {
+  state: State;
+  reason: string;
+}
+
+/** A long step goes on: fraction 0 to 1 of this rung, and a sentence. */
+export interface Progress {
+  rung: Rung;
+  fraction: number;
+  message: string;
+}
+
+/** One node of the running tree. `node_id` is the diagram's id, `tree_id` its diagram. */
+export interface TreeNode {
+  uid: number;
+  parent: number;
+  type: string;
+  kind: string;
+  name: string;
+  path: string;
+  node_id: string;
+  tree_id: string;
+}
+
+/** The running tree, in pre-order; subtrees are expanded in place. */
+export interface Tree {
+  nodes: TreeNode[];
+}
+
+/** What one tick changed. */
+export interface Tick {
+  n: number;
+  changed: [number, NodeStatus][];
+  flashed: [number, NodeStatus][];
+  duration_ms: number;
+}
+
+/** One changed entry; large values come as a preview (text), told by `preview`. */
+export interface BlackboardEntry {
+  scope: string;
+  key: string;
+  type: string;
+  value: unknown;
+  preview: boolean;
+  removed: boolean;
+}
+
+/** Entries that changed since the last such message. */
+export interface Blackboard {
+  entries: BlackboardEntry[];
+}
+
+/** One line of output. */
+export interface Log {
+  source: LogSource;
+  level: LogLevel;
+  text: string;
+  node_id: string;
+  node_path: string;
+  time: number;
+}
+
+/** Something broke: an exception in an action, or a process that died or hangs. */
+export interface Fault {
+  kind: "exception" | "load" | "process" | "timeout";
+  message: string;
+  hint: string;
+  node_id: string;
+  tree_id: string;
+  node_path: string;
+  file: string;
+  line: number;
+  traceback: string;
+}
+
+/** The run ended. */
+export interface Finished {
+  status: NodeStatus;
+  reason: FinishReason;
+  message: string;
+}
+
+/** How well the simulation keeps up, about once a second. */
+export interface Sim {
+  real_time_factor: number;
+  speed: number;
+  paused: boolean;
+  tick_ms: number;
+  tick_budget_ms: number;
+  collisions: number;
+  distance_m: number;
+  pose: [number, number, number];
+}
+
+/** One ROS topic and how often it was heard. */
+export interface TopicInfo {
+  name: string;
+  type: string;
+  hz: number;
+  bytes_per_s: number;
+}
+
+/** The topics of the session's ROS graph. */
+export interface Topics {
+  topics: TopicInfo[];
+}
+
+/** One message of a topic that a client echoes. */
+export interface TopicMessage {
+  topic: string;
+  type: string;
+  message: Record<string, unknown>;
+}
+
+/** Everything a client that joins late needs; deltas follow. */
+export interface Snapshot {
+  state: State;
+  tree: Tree | null;
+  statuses: [number, NodeStatus][];
+  blackboard: BlackboardEntry[];
+  logs: Log[];
+  faults: Fault[];
+  tick_hz: number;
+  speed: number;
+  universe: string;
+}
+
+/** The envelope of an event. */
+export interface ServerMessage {
+  id: string;
+  command: string;
+  data: unknown;
+  seq: number;
+  t: number;
+  tick: number;
+}
+
+/**
+ * A visual shape in its object's frame.
+ *
+ * Args:
+ *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+ *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
+ *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
+ *     color: [r, g, b, a], each 0 to 1, sRGB.
+ *     mesh: key in `Scene.meshes` for a mesh, else "".
+ */
+export interface Shape {
+  shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
+  size: number[];
+  pose: number[];
+  color: number[];
+  mesh?: string;
+  texture?: string;
+}
+
+/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
+export interface SceneObject {
+  id: number;
+  body: string;
+  link: string;
+  kind: "actor" | "dynamic" | "robot" | "static";
+  shapes: Shape[];
+  pose: number[];
+}
+
+/** Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32. */
+export interface Mesh {
+  positions: Uint8Array;
+  normals: Uint8Array;
+  indices: Uint8Array;
+}
+
+/** A directional light; the direction is the one in which it shines. */
+export interface Light {
+  direction: number[];
+  intensity: number;
+}
+
+/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
+export interface SensorPlacement {
+  name: string;
+  kind: "camera" | "lidar";
+  object_id: number;
+  pose: number[];
+  fov: number;
+  range: number;
+}
+
+/** The world, once for each client and again when it changes. */
+export interface Scene {
+  type: "scene";
+  name: string;
+  t: number;
+  objects: SceneObject[];
+  meshes: Record<string, Mesh>;
+  lights: Light[];
+  ground_color: number[];
+  sensors: SensorPlacement[];
+}
+
+/** Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id. */
+export interface Poses {
+  type: "poses";
+  t: number;
+  ids: Uint8Array;
+  poses: Uint8Array;
+}
+
+/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
+export interface Scan {
+  type: "scan";
+  t: number;
+  sensor: string;
+  pose: number[];
+  angle_min: number;
+  angle_increment: number;
+  range_max: number;
+  ranges: Uint8Array;
+}
+
+/** One image of a robot's camera, or of the server's view of the world (`view`). */
+export interface Camera {
+  type: "camera";
+  t: number;
+  sensor: string;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
+}
+
+/** The world as the server draws it. */
+export interface View {
+  type: "view";
+  t: number;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
+}
+
+/** Payload by `command`. */
+export interface Commands {
+  connect: Empty;
+  launch_universe: LaunchUniverse;
+  prepare_visualization: Empty;
+  run_application: RunApplication;
+  run: Run;
+  pause: Empty;
+  resume: Empty;
+  step: Empty;
+  cancel: Empty;
+  set_tick_rate: SetTickRate;
+  set_speed: SetSpeed;
+  restart_application: Empty;
+  reset_world: Empty;
+  terminate_application: Empty;
+  terminate_visualization: Empty;
+  terminate_universe: Empty;
+  disconnect: Empty;
+  set_blackboard: SetBlackboard;
+  teleop: Teleop;
+  move_body: MoveBody;
+  subscribe: Subscribe;
+  unsubscribe: Unsubscribe;
+  list_topics: Empty;
+  echo_topic: EchoTopic;
+  publish_topic: PublishTopic;
+}
+
+/** Payload by `command`. */
+export interface Events {
+  ack: Ack;
+  error: Error;
+  introspection: Introspection;
+  "state-changed": StateChanged;
+  snapshot: Snapshot;
+  progress: Progress;
+  tree: Tree;
+  tick: Tick;
+  blackboard: Blackboard;
+  log: Log;
+  fault: Fault;
+  finished: Finished;
+  sim: Sim;
+  topics: Topics;
+  topic_message: TopicMessage;
+}
+
+/** What the stream socket sends, told by `type`. */
+export type Frame = Scene | Poses | Scan | Camera | View;

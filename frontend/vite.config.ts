@@ -1,0 +1,38 @@
+import react from '@vitejs/plugin-react';
+import { fileURLToPath } from 'node:url';
+import { defineConfig } from 'vitest/config';
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';
+
+export default defineConfig({
+  plugins: [react()],
+  resolve: {
+    alias: { '@': here('./src'), '@catalog': here('../tree_gardener/catalog.json') },
+  },
+  server: {
+    host: '127.0.0.1',
+    proxy: {
+      '/api': { target: backend },
+      '/ws': { target: backend, ws: true },
+    },
+    // The catalogue of nodes lives beside the engine, one folder up.
+    fs: { allow: [here('..')] },
+  },
+  build: {
+    outDir: 'dist',
+    target: 'es2022',
+    // The content security policy allows neither inline scripts nor data: scripts.
+    modulePreload: { polyfill: false },
+    assetsInlineLimit: 0,
+    sourcemap: false,
+  },
+  test: {
+    environment: 'jsdom',
+    include: ['src/**/*.test.{ts,tsx}'],
+    setupFiles: ['./vitest.setup.ts'],
+    css: false,
+    maxWorkers: 2,
+    restoreMocks: true,
+  },
+});

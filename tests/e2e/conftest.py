@@ -1,0 +1,79 @@
+"""A real server and a real browser for every test of this folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.e2e.server import Server, serving
+from tests.e2e.studio import Studio
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from playwright.sync_api import Playwright
+
+CHROMIUM = "/usr/bin/chromium"
+QUIET = [
+    "--no-sandbox",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
+OUTPUT = Path(__file__).parent / "output"
+
+
+@pytest.fixture(scope="session")
+def playwright() -> Iterator[Playwright]:
+    with sync_playwright() as playwright:
+        yield playwright
+
+
+@pytest.fixture(scope="session")
+def browser(playwright: Playwright) -> Iterator[Browser]:
+    browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL])
+    yield browser
+    browser.close()
+
+
+@pytest.fixture(scope="session")
+def browser_without_webgl(playwright: Playwright) -> Iterator[Browser]:
+    browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *NO_WEBGL])
+    yield browser
+    browser.close()
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[Server]:
+    with serving(tmp_path) as server:
+        yield server
+
+
+@pytest.fixture
+def open_studio(server: Server) -> Iterator[Callable[[Browser], Studio]]:
+    """Opens the IDE in a browser; at the end, the page must not have complained in its console."""
+    opened: list[Studio] = []
+
+    def open_in(browser: Browser) -> Studio:
+        page: Page = browser.new_context(viewport={"width": 1440, "height": 900}).new_page()
+        studio = Studio(page, server)
+        opened.append(studio)
+        studio.open()
+        return studio
+
+    yield open_in
+    for studio in opened:
+        studio.page.context.close()
+        assert studio.complaints == [], "the browser's console must stay empty"
+
+
+@pytest.fixture
+def studio(open_studio: Callable[[Browser], Studio], browser: Browser) -> Studio:
+    return open_studio(browser)

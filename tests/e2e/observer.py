@@ -1,0 +1,117 @@
+"""A second client of a session, which measures what the world really did.
+
+It joins as a viewer through the back end's own sockets, with the browser's cookie, and decodes every
+message of both; so the figures of the tests come from true poses, not from what a page displays.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import threading
+import time
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+import msgpack
+import numpy as np
+from websockets.sync.client import ClientConnection, connect
+
+_ids = itertools.count(1)
+
+
+@dataclass
+class Observer:
+    """What a session says, gathered by two threads until `close`."""
+
+    control: ClientConnection
+    stream: ClientConnection
+    objects: dict[str, int] = field(default_factory=dict)
+    poses: dict[int, list[tuple[float, np.ndarray]]] = field(default_factory=dict)
+    events: list[dict[str, Any]] = field(default_factory=list)
+    frames: dict[str, int] = field(default_factory=dict)
+    threads: list[threading.Thread] = field(default_factory=list)
+
+    @classmethod
+    def join(cls, origin: str, cookie: str, session_id: str) -> Self:
+        """Joins session `session_id` of the server at `origin` and subscribes to its poses."""
+        socket = origin.replace("http", "ws", 1) + f"/ws/sessions/{session_id}"
+        headers = {"Cookie": cookie}
+        control = connect(f"{socket}/control", additional_headers=headers, origin=origin, max_size=None)
+        first = json.loads(control.recv(timeout=10))
+        assert first["command"] == "introspection", first
+        client = first["data"]["client_id"]
+        stream = connect(
+            f"{socket}/stream?client={client}", additional_headers=headers, origin=origin, max_size=None
+        )
+        observer = cls(control, stream, events=[first])
+        observer.threads = [
+            threading.Thread(target=observer._read_control, daemon=True),
+            threading.Thread(target=observer._read_stream, daemon=True),
+        ]
+        for thread in observer.threads:
+            thread.start()
+        observer.send("subscribe", {"stream": "poses", "max_hz": 30})
+        return observer
+
+    def send(self, command: str, data: dict[str, Any] | None = None) -> str:
+        """Sends a command and returns its id."""
+        message_id = f"observer-{next(_ids)}"
+        self.control.send(json.dumps({"id": message_id, "command": command, "data": data or {}}))
+        return message_id
+
+    def close(self) -> None:
+        """Leaves the session."""
+        self.control.close()
+        self.stream.close()
+        for thread in self.threads:
+            thread.join(timeout=5)
+
+    def of(self, command: str) -> list[dict[str, Any]]:
+        """The events of one kind so far, oldest first."""
+        return [event for event in list(self.events) if event["command"] == command]
+
+    def sim_time(self) -> float:
+        """The newest simulated time that was heard of, in s."""
+        return max((float(event["t"]) for event in list(self.events)[-200:]), default=0.0)
+
+    def track(self, body: str) -> list[tuple[float, float, float]]:
+        """Where a body was: (t in s, x and y in m) by time."""
+        return [(t, float(p[0]), float(p[1])) for t, p in list(self.poses.get(self.objects[body], []))]
+
+    def distance_travelled(self, body: str) -> float:
+        """Length in m of the way that a body went."""
+        track = self.track(body)
+        return sum(math.dist(a[1:], b[1:]) for a, b in itertools.pairwise(track))
+
+    def wait_for_sim_time(self, t: float, deadline_s: float) -> None:
+        """Waits until the simulation has come to `t` s."""
+        end = time.monotonic() + deadline_s
+        while self.sim_time() < t:
+            assert time.monotonic() < end, f"simulated time stands at {self.sim_time():.1f} s, not {t:.1f} s"
+            time.sleep(0.1)
+
+    def _read_control(self) -> None:
+        for text in self.control:
+            self.events.append(json.loads(text))
+
+    def _read_stream(self) -> None:
+        for data in self.stream:
+            frame = msgpack.unpackb(data)
+            self.frames[frame["type"]] = self.frames.get(frame["type"], 0) + 1
+            if frame["type"] == "scene":
+                self._take_scene(frame)
+            elif frame["type"] == "poses":
+                self._take_poses(frame)
+
+    def _take_scene(self, scene: dict[str, Any]) -> None:
+        for item in scene["objects"]:
+            self.objects.setdefault(item["body"], item["id"])
+            self.poses.setdefault(item["id"], []).append((scene["t"], np.array(item["pose"])))
+
+    def _take_poses(self, frame: dict[str, Any]) -> None:
+        ids = np.frombuffer(frame["ids"], "<u2")
+        poses = np.frombuffer(frame["poses"], "<f4").reshape(-1, 7)
+        for object_id, pose in zip(ids.tolist(), poses, strict=True):
+            self.poses.setdefault(object_id, []).append((frame["t"], pose))

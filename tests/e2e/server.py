@@ -1,0 +1,77 @@
+"""The real server, started as a user starts it, and what it leaves behind."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, NamedTuple
+
+import psutil
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+START_DEADLINE_S = 60
+END_DEADLINE_S = 20
+
+
+class Server(NamedTuple):
+    """A serving IDE: the link with the token, and its process."""
+
+    url: str
+    process: psutil.Process
+
+    @property
+    def origin(self) -> str:
+        """Scheme, host and port of the server."""
+        return self.url.split("/?")[0].rstrip("/")
+
+    def children(self) -> list[psutil.Process]:
+        """Every process below the server: managers, worlds, applications."""
+        return [child for child in self.process.children(recursive=True) if child.is_running()]
+
+
+def command(*arguments: str) -> list[str]:
+    """The `bt-studio` program of this environment."""
+    return [sys.executable, "-m", "backend.cli.main", *arguments]
+
+
+@contextmanager
+def serving(folder: Path, *arguments: str) -> Iterator[Server]:
+    """Starts `bt-studio serve` on a free port with its data in `folder`; ends it and all below it."""
+    ready = folder / "ready.json"
+    log = (folder / "serve.log").open("wb")
+    serve = command("serve", "--no-browser", "--port", "0", "--data-dir", str(folder / "data"))
+    process = subprocess.Popen(
+        [*serve, "--ready-file", str(ready), *arguments], stdout=log, stderr=subprocess.STDOUT
+    )
+
+    def answered() -> bool:
+        return ready.exists() or process.poll() is not None
+
+    try:
+        wait_until(
+            lambda: ready.exists() or process.poll() is not None, START_DEADLINE_S, "the server serves"
+        )
+        assert process.poll() is None, (folder / "serve.log").read_text()
+        yield Server(json.loads(ready.read_text())["url"], psutil.Process(process.pid))
+    finally:
+        below = psutil.Process(process.pid).children(recursive=True) if process.poll() is None else []
+        process.send_signal(signal.SIGINT)
+        process.wait(END_DEADLINE_S)
+        _, alive = psutil.wait_procs(below, timeout=END_DEADLINE_S)
+        log.close()
+    assert not alive, f"the server left processes behind: {alive}"
+
+
+def wait_until(true: Callable[[], object], deadline_s: float, what: str, every_s: float = 0.05) -> None:
+    """Waits for `true()`; the error says what did not happen."""
+    end = time.monotonic() + deadline_s
+    while not true():
+        assert time.monotonic() < end, f"after {deadline_s} s still not: {what}"
+        time.sleep(every_s)

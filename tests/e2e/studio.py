@@ -1,0 +1,124 @@
+"""The IDE as its user handles it: what one sees and clicks, by the names of the page's test ids."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from playwright.sync_api import expect
+
+from tests.e2e.observer import Observer
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from playwright.sync_api import ConsoleMessage, Locator, Page
+
+    from tests.e2e.server import Server
+
+OUTPUT = Path(__file__).parent / "output"
+RUN_DEADLINE_MS = 40_000
+# A refused or lost request is shown by the page; that the browser also notes it is not our complaint.
+EXPECTED_NOTES = re.compile(
+    r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
+)
+
+
+class Studio:
+    """One page of the IDE."""
+
+    def __init__(self, page: Page, server: Server) -> None:
+        self.page = page
+        self.server = server
+        self.complaints: list[str] = []
+        page.on("console", self._note)
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+
+    def _note(self, message: ConsoleMessage) -> None:
+        if message.type in ("error", "warning") and not EXPECTED_NOTES.search(message.text):
+            self.complaints.append(f"{message.type}: {message.text}")
+
+    def open(self) -> None:
+        """Follows the link with the token to the start page."""
+        self.page.goto(self.server.url)
+        expect(self.page.get_by_test_id("new-from-laser_bump_and_go")).to_be_visible()
+
+    def new_from(self, template: str) -> None:
+        """Makes a project from a template and waits for its tree on the canvas."""
+        self.at(f"new-from-{template}").click()
+        expect(self.at("canvas")).to_be_visible()
+        expect(self.at("node-n1")).to_be_visible()
+
+    def at(self, test_id: str) -> Locator:
+        """An element by its test id."""
+        return self.page.get_by_test_id(test_id)
+
+    def run(self) -> None:
+        """Presses Run and waits until the application runs."""
+        self.at("run").click()
+        self.expect_state("application_running", RUN_DEADLINE_MS)
+
+    def expect_state(self, state: str, timeout_ms: float = 15_000) -> None:
+        """Waits for a rung of the ladder."""
+        expect(self.at("executor-state")).to_have_attribute("data-state", state, timeout=timeout_ms)
+
+    def saved(self) -> None:
+        """Waits until everything typed is stored."""
+        expect(self.at("save-state")).to_have_attribute("data-state", "saved")
+
+    def set_port(self, node: str, port: str, value: str) -> None:
+        """Selects a node and types a port's value in the inspector."""
+        self.at(f"node-{node}").click()
+        field = self.at(f"port-{port}")
+        field.fill(value)
+        field.press("Enter")
+        self.saved()
+
+    def open_file(self, path: str) -> None:
+        """Opens a file of the project in the editor."""
+        self.at(f"file-{path}").click()
+        expect(self.at("code-editor")).to_be_visible()
+
+    def replace_code(self, source: str) -> None:
+        """Replaces the open file's whole text by typing over it."""
+        editor = self.at("code-editor").locator(".cm-content")
+        editor.click()
+        self.page.keyboard.press("Control+a")
+        self.page.keyboard.insert_text(source)
+        self.saved()
+
+    def status(self, node: str) -> str:
+        """The status that a block shows."""
+        return self.at(f"node-{node}").get_attribute("data-status") or ""
+
+    def statuses_seen(self, node: str, seconds: float) -> set[str]:
+        """Every status that a block shows within some seconds."""
+        seen: set[str] = set()
+        for _ in range(int(seconds * 20)):
+            seen.add(self.status(node))
+            self.page.wait_for_timeout(50)
+        return seen
+
+    def stat(self, name: str) -> float:
+        """A figure of the status bar: speed, distance, collisions, t."""
+        return float(self.at("sim-stats").get_attribute(f"data-{name}") or "nan")
+
+    def observe(self) -> Observer:
+        """Joins the project's session as a second client, with this browser's cookie."""
+        project = self.page.url.rstrip("/").split("/")[-1]
+        session = self.page.evaluate(
+            "project => fetch(`/api/v1/projects/${project}/session`, {method: 'POST'}).then(r => r.json())",
+            project,
+        )
+        cookie = "; ".join(f"{c['name']}={c['value']}" for c in self.page.context.cookies())
+        return Observer.join(self.server.origin, cookie, session["id"])
+
+    def end_session(self) -> None:
+        """Closes the session and waits until no process of it is left."""
+        self.at("end-session").click()
+        wait_until(lambda: not self.server.children(), 20, "the session's processes end")
+
+    def picture(self, name: str) -> None:
+        """Keeps a picture of the page, for the docs and for looking at."""
+        OUTPUT.mkdir(exist_ok=True)
+        self.page.screenshot(path=OUTPUT / f"{name}.png")

@@ -1,0 +1,154 @@
+"""*Laser bump and go*, from the start page to a robot that moves, as the README promises it."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser
+
+    from tests.e2e.observer import Observer
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(400)]
+
+WATCHED_S = 60.0
+
+
+def test_the_example_drives_and_turns_and_the_page_shows_why(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    studio.picture("editor-light")
+    studio.run()
+    observer = studio.observe()
+    started = observer.sim_time()
+
+    statuses = (
+        studio.statuses_seen("n6", 1.0) | studio.statuses_seen("n5", 12.0) | studio.statuses_seen("n6", 6.0)
+    )
+    assert {"RUNNING", "IDLE"} <= statuses, "status colours change"
+    expect(studio.at("console")).to_contain_text("driving ahead")
+    expect(studio.at("viewer-3d")).to_be_visible()
+    studio.picture("running-light")
+
+    observer.wait_for_sim_time(started + WATCHED_S, deadline_s=WATCHED_S * 3)
+    assert observer.distance_travelled("robot") > 5.0
+    assert turns(observer) >= 2
+    assert observer.of("sim")[-1]["data"]["collisions"] == 0
+    assert studio.stat("collisions") == 0
+    assert abs(studio.stat("distance") - observer.of("sim")[-1]["data"]["distance_m"]) < 1.5
+    observer.close()
+
+
+def test_pause_step_stop_and_end(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    studio.run()
+    observer = studio.observe()
+    wait_until(lambda: observer.distance_travelled("robot") > 0.2, 20, "the robot moves")
+
+    studio.at("pause").click()
+    studio.expect_state("paused")
+    frozen = still(observer, studio)
+    ticks = len(observer.of("tick"))
+    studio.page.wait_for_timeout(1500)
+    assert still(observer, studio) == frozen, "the world stands still"
+    assert len(observer.of("tick")) == ticks, "the tree stands still"
+
+    studio.at("step").click()
+    wait_until(lambda: len(observer.of("tick")) == ticks + 1, 10, "one tick is made")
+    studio.page.wait_for_timeout(500)
+    assert len(observer.of("tick")) == ticks + 1
+    assert observer.sim_time() == pytest.approx(frozen + 0.05, abs=0.02), "a step is one period of 20 Hz"
+
+    studio.at("resume").click()
+    studio.expect_state("application_running")
+    wait_until(lambda: observer.sim_time() > frozen + 1, 20, "time goes on")
+
+    studio.at("stop").click()
+    studio.expect_state("visualization_ready")
+    assert studio.server.children(), "the world is still up"
+    observer.close()
+    studio.end_session()
+    studio.expect_state("idle")
+
+
+def test_a_port_and_a_line_of_python_change_what_the_robot_does(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    studio.set_port("n6", "lin_speed", "0.12")
+    studio.run()
+    assert speed_when_driving(studio) == pytest.approx(0.12, abs=0.03)
+
+    studio.set_port("n6", "lin_speed", "0.4")
+    studio.run()
+    assert speed_when_driving(studio) == pytest.approx(0.4, abs=0.06)
+
+    studio.open_file("actions/Forward.py")
+    source = studio.page.evaluate(
+        "project => fetch(`/api/v1/projects/${project}`).then(r => r.json())"
+        ".then(p => p.files.find(f => f.path === 'actions/Forward.py').content)",
+        studio.page.url.rstrip("/").split("/")[-1],
+    )
+    studio.replace_code(source.replace('get_input(self, "lin_speed")', '-0.5 * get_input(self, "lin_speed")'))
+    studio.run()
+    observer = studio.observe()
+    start = observer.track("robot")[0]
+    wait_until(lambda: observer.track("robot")[-1][1] < start[1] - 0.1, 20, "the robot drives backwards")
+    observer.close()
+
+
+def test_without_webgl_the_server_draws_the_world(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.new_from("laser_bump_and_go")
+    studio.run()
+    expect(studio.at("viewer-video")).to_be_visible()
+    picture = studio.at("viewer-video").locator("img, canvas").first
+    first = picture.screenshot()
+    wait_until(lambda: picture.screenshot() != first, 20, "the picture of the world changes")
+    studio.picture("running-without-webgl")
+
+    observer = studio.observe()
+    started = observer.sim_time()
+    observer.wait_for_sim_time(started + WATCHED_S, deadline_s=WATCHED_S * 3)
+    assert observer.distance_travelled("robot") > 5.0
+    assert observer.of("sim")[-1]["data"]["collisions"] == 0
+    assert turns(observer) >= 2
+    observer.close()
+
+
+def turns(observer: Observer) -> int:
+    """How often the robot changed its heading by more than 20° between two straight stretches."""
+    track = observer.track("robot")
+    headings = []
+    for a, b in itertools.pairwise(track[::15]):
+        if math.dist(a[1:], b[1:]) > 0.05:
+            headings.append(math.atan2(b[2] - a[2], b[1] - a[1]))
+    changes = (abs(math.remainder(b - a, math.tau)) for a, b in itertools.pairwise(headings))
+    return sum(change > math.radians(20) for change in changes)
+
+
+def still(observer: Observer, studio: Studio) -> float:
+    """Simulated time once nothing is on its way any more."""
+    studio.page.wait_for_timeout(500)
+    return observer.sim_time()
+
+
+def speed_when_driving(studio: Studio) -> float:
+    """The robot's speed in m/s over two simulated seconds of the straight way at the start."""
+    observer = studio.observe()
+    wait_until(lambda: len(observer.track("robot")) > 30, 20, "the robot moves")
+    observer.wait_for_sim_time(observer.sim_time() + 2.5, deadline_s=30)
+    track = observer.track("robot")
+    end = track[-1]
+    begin = next(point for point in track if point[0] >= end[0] - 2.0)
+    observer.close()
+    return math.dist(begin[1:], end[1:]) / (end[0] - begin[0])

@@ -1,11 +1,13 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: help run test test-full lint format bench clean setup setup-test test-frontend test-python generate
+.PHONY: help run test test-full lint format bench lock clean setup setup-test test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
 SETUP_PYTHON := $(or $(PYTHON),$(shell command -v python3))
 BIN := .venv/bin
+# Hashes and no index address: a lock names no registry.
+LOCK := --quiet --upgrade --generate-hashes --no-header --no-annotate --python-version 3.11 --python-platform x86_64-manylinux_2_28
 
 help: ## shows this list
 	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -43,6 +45,13 @@ format: ## rewrites the sources in the project's style
 
 bench: setup-test ## the benchmarks, side by side with their rivals
 	@$(BIN)/python -m tests.benchmarks
+
+generate: setup-test ## writes the generated sources and reference pages again
+	@$(BIN)/python -m tests.tools.generate
+
+lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
+	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
+	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock
 
 clean: ## removes everything that set-up and runs made, but for your projects in var/data
 	rm -rf .venv frontend/node_modules frontend/dist var/setup .mypy_cache .ruff_cache .pytest_cache .hypothesis

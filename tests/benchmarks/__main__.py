@@ -1,0 +1,23 @@
+"""`make bench`: every benchmark in one run, so that ratios are of the same machine and hour."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import platform
+import sys
+
+BENCHMARKS = ("engine", "world", "session")
+
+
+def main(names: list[str]) -> None:
+    """Runs the benchmarks named, or all."""
+    print(f"{platform.machine()}, {os.cpu_count()} cores, CPython {platform.python_version()}\n")
+    for name in names or BENCHMARKS:
+        print(f"== {name} " + "=" * (70 - len(name)), flush=True)
+        importlib.import_module(f"tests.benchmarks.{name}").main()
+        print()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

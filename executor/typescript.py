@@ -78,7 +78,7 @@ def _interface(struct: type[msgspec.Struct]) -> str:
 
 def _may_be_absent(struct: type[msgspec.Struct], field: types.Field) -> bool:
     """Clients may leave out what has a default; the server does so only where the struct says it."""
-    if field.default is msgspec.UNSET:
+    if not field.required and field.default is field.default_factory:  # both NODEFAULT: it is UNSET
         return True
     from_client = struct.__name__ in _client_structs()
     return not field.required and (from_client or struct.__struct_config__.omit_defaults)

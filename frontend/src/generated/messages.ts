@@ -279,7 +279,7 @@ export interface ServerMessage {
   data: unknown;
   seq: number;
   t: number;
-  tick: number;
+  tick?: number;
 }
 
 /**

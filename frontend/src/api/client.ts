@@ -1,0 +1,69 @@
+import { requestJson, requestText, urlOf } from './http';
+import type {
+  ActionModel,
+  AppBundle,
+  ChangesResult,
+  CheckResult,
+  FileChange,
+  Me,
+  ProjectDetail,
+  ProjectSettings,
+  ProjectSummary,
+  SessionInfo,
+  TemplateInfo,
+  UniverseInfo,
+} from './types';
+
+export type ProjectSort = 'name' | '-updated_at';
+
+const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
+
+/** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
+export const api = {
+  me: () => requestJson<Me>('/me'),
+
+  listProjects: async (search = '', sort: ProjectSort = '-updated_at', signal?: AbortSignal) => {
+    const query = new URLSearchParams({ search, sort });
+    const { items } = await requestJson<{ items: ProjectSummary[] }>(`/projects?${query}`, { signal });
+    return items;
+  },
+  createProject: (body: { name?: string; template?: string }) =>
+    requestJson<ProjectDetail>('/projects', { method: 'POST', body }),
+  getProject: (id: string, signal?: AbortSignal) => requestJson<ProjectDetail>(project(id), { signal }),
+  patchProject: (
+    id: string,
+    body: { name?: string; description?: string; settings?: Partial<ProjectSettings>; base_revision: number },
+  ) => requestJson<ProjectDetail>(project(id), { method: 'PATCH', body }),
+  deleteProject: (id: string) => requestJson<undefined>(project(id), { method: 'DELETE' }),
+  restoreProject: (id: string) => requestJson<unknown>(`${project(id)}/restore`, { method: 'POST' }),
+  duplicateProject: (id: string) =>
+    requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
+  importProject: (zip: File) => {
+    const form = new FormData();
+    form.append('file', zip, zip.name);
+    return requestJson<ProjectDetail>('/projects/import', { method: 'POST', body: form });
+  },
+  exportUrl: (id: string) => urlOf(`${project(id)}/export`),
+
+  saveChanges: (id: string, body: { message: string; files: FileChange[] }, keepalive = false) =>
+    requestJson<ChangesResult>(`${project(id)}/changes`, { method: 'POST', body, keepalive }),
+  check: (id: string, files: { path: string; content: string }[] = [], signal?: AbortSignal) =>
+    requestJson<CheckResult>(`${project(id)}/check`, { method: 'POST', body: { files }, signal }),
+  xml: (id: string) => requestText(`${project(id)}/xml`),
+  inspectAction: (source: string, filename: string) =>
+    requestJson<ActionModel>('/actions/inspect', { method: 'POST', body: { source, filename } }),
+
+  app: (id: string) => requestJson<AppBundle>(`${project(id)}/app`),
+  startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),
+  getSession: (sessionId: string) => requestJson<SessionInfo>(`/sessions/${sessionId}`),
+  endSession: (sessionId: string) => requestJson<undefined>(`/sessions/${sessionId}`, { method: 'DELETE' }),
+
+  templates: () => requestItems<TemplateInfo>('/catalog/templates', 'templates'),
+  universes: () => requestItems<UniverseInfo>('/catalog/universes', 'universes'),
+};
+
+/** The catalogue answers a list, or a list under `items` or its own name. */
+async function requestItems<T>(path: string, name: string): Promise<T[]> {
+  const body = await requestJson<T[] | Record<string, T[]>>(path);
+  return Array.isArray(body) ? body : (body['items'] ?? body[name] ?? []);
+}

@@ -1,0 +1,54 @@
+import { errorFrom, offlineError } from './errors';
+
+const BASE = '/api/v1';
+
+interface Options {
+  method?: 'GET' | 'POST' | 'PATCH' | 'DELETE';
+  body?: unknown;
+  signal?: AbortSignal | undefined;
+  /** Keeps a small request alive while the page goes away. */
+  keepalive?: boolean;
+}
+
+async function send(path: string, { method = 'GET', body, signal, keepalive }: Options): Promise<Response> {
+  const isForm = body instanceof FormData;
+  const headers: Record<string, string> = { Accept: 'application/json' };
+  if (body !== undefined && !isForm) headers['Content-Type'] = 'application/json';
+  let response: Response;
+  try {
+    response = await fetch(BASE + path, {
+      method,
+      headers,
+      credentials: 'same-origin',
+      ...(body === undefined ? {} : { body: isForm ? body : JSON.stringify(body) }),
+      ...(signal ? { signal } : {}),
+      ...(keepalive ? { keepalive } : {}),
+    });
+  } catch (cause) {
+    if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
+    throw offlineError(cause);
+  }
+  if (!response.ok) throw await errorFrom(response);
+  return response;
+}
+
+export async function requestJson<T>(path: string, options: Options = {}): Promise<T> {
+  const response = await send(path, options);
+  if (response.status === 204) return undefined as T;
+  return (await response.json()) as T;
+}
+
+export async function requestText(path: string, options: Options = {}): Promise<string> {
+  return (await send(path, options)).text();
+}
+
+/** The address of something that the browser itself fetches, such as a download. */
+export function urlOf(path: string): string {
+  return BASE + path;
+}
+
+/** A socket's address on the page's own origin. */
+export function socketUrl(path: string): string {
+  const { protocol, host } = window.location;
+  return `${protocol === 'https:' ? 'wss' : 'ws'}://${host}${path}`;
+}

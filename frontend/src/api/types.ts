@@ -1,0 +1,172 @@
+/** What the REST API speaks; field names are the server's. */
+import type { OnError, OnFinish } from '@/generated/messages';
+
+export type Severity = 'error' | 'warning' | 'note';
+
+/** A finding of the checks, at a block, a port, or a line. */
+export interface Diagnostic {
+  code: string;
+  severity: Severity;
+  message: string;
+  hint?: string | null;
+  tree?: string | null;
+  node?: string | null;
+  port?: string | null;
+  file?: string | null;
+  line?: number | null;
+  column?: number | null;
+}
+
+export type PortDirection = 'input' | 'output' | 'inout';
+
+export interface ActionPort {
+  name: string;
+  direction: PortDirection;
+  type: string;
+  default?: string | number | boolean | null;
+  required?: boolean;
+  description?: string;
+}
+
+/** What reading an action's source says about it. */
+export interface ActionModel {
+  name: string;
+  path?: string;
+  doc?: string;
+  kind: string;
+  ports: ActionPort[];
+  /** Declares no ports, so that any is accepted. */
+  open: boolean;
+  diagnostics?: Diagnostic[];
+}
+
+export interface ProjectSettings {
+  format?: string;
+  version?: number;
+  name: string;
+  description?: string;
+  main_tree: string;
+  tick_hz?: number;
+  universe?: string;
+  robot?: string;
+  on_finish?: OnFinish;
+  on_error?: OnError;
+  [key: string]: unknown;
+}
+
+export interface ProjectSummary {
+  id: string;
+  name: string;
+  description: string;
+  main_tree: string;
+  universe: string;
+  revision: number;
+  created_at: string;
+  updated_at: string;
+  /** The main tree's diagram, for the picture on the card. */
+  root_diagram: unknown;
+}
+
+export interface ProjectFile {
+  path: string;
+  revision: number;
+  size: number;
+  sha256: string;
+  /** `null` for a binary file. */
+  content: string | null;
+}
+
+export interface ProjectDetail extends ProjectSummary {
+  settings: ProjectSettings;
+  files: ProjectFile[];
+  actions: ActionModel[];
+  diagnostics: Diagnostic[];
+}
+
+/** One file of a change set; `base_revision` 0 says that it must not exist yet. */
+export interface FileChange {
+  path: string;
+  base_revision: number;
+  content?: string;
+  content_base64?: string;
+  delete?: true;
+  rename_to?: string;
+}
+
+export interface SavedFile {
+  path: string;
+  revision: number;
+  size?: number;
+  sha256?: string;
+  deleted?: boolean;
+}
+
+export interface ChangesResult {
+  revision: number;
+  files: SavedFile[];
+  actions: ActionModel[];
+  diagnostics: Diagnostic[];
+}
+
+/** Two versions of one file: what the server holds, and what was sent on an older base. */
+export interface Conflict {
+  path: string;
+  base_revision: number;
+  theirs: { revision: number; content: string | null; updated_at?: string };
+  mine: { content: string | null };
+}
+
+export interface CheckResult {
+  diagnostics: Diagnostic[];
+  actions: ActionModel[];
+}
+
+/** What the executor runs. */
+export interface AppBundle {
+  app_zip_base64: string;
+  tick_hz: number;
+  on_finish: OnFinish;
+  on_error: OnError;
+  universe: string | { document: string; assets_zip_base64: string };
+  robot: string | null;
+}
+
+export interface SessionInfo {
+  id: string;
+  state: 'starting' | 'ready' | 'failed';
+  control_url: string;
+  stream_url: string;
+  detail?: string;
+}
+
+export interface TemplateInfo {
+  id: string;
+  name: string;
+  description: string;
+  root_diagram?: unknown;
+}
+
+export interface UniverseInfo {
+  id: string;
+  name: string;
+  description?: string;
+}
+
+export interface Me {
+  mode: string;
+  user: string | null;
+  version: string;
+}
+
+/** RFC 9457 body of every refusal. */
+export interface Problem {
+  type?: string;
+  title: string;
+  status: number;
+  code: string;
+  detail?: string;
+  hint?: string;
+  field?: string;
+  diagnostics?: Diagnostic[];
+  conflicts?: Conflict[];
+}

@@ -1,0 +1,154 @@
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import { socketUrl } from '@/api/http';
+import type { SessionInfo } from '@/api/types';
+import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
+import { ControlSocket } from './control';
+import { receive, resetSession, useSessionStore } from './store';
+import { streams } from './streams';
+
+const RETRY_MS = [300, 600, 1200, 2500, 5000];
+const STORAGE_PREFIX = 'bts.session.';
+
+/** States in which the manager gives streams. */
+const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused'];
+
+let socket: ControlSocket | null = null;
+let session: SessionInfo | null = null;
+let attempt = 0;
+let retryTimer: ReturnType<typeof setTimeout> | undefined;
+
+const set = useSessionStore.setState;
+
+export function send<K extends keyof Commands>(command: K, data: Commands[K]): Promise<void> {
+  return socket ? socket.send(command, data) : Promise.reject(new Error('There is no session.'));
+}
+
+/** Starts the project's session, or joins the one that runs, and waits until it answers. */
+export async function ensureConnected(projectId: string): Promise<void> {
+  if (socket?.isOpen && useSessionStore.getState().projectId === projectId) return;
+  set({ connection: 'starting', projectId });
+  try {
+    session = await api.startSession(projectId);
+    await openSocket(session);
+  } catch (error) {
+    resetSession();
+    throw error;
+  }
+  localStorage.setItem(STORAGE_PREFIX + projectId, session.id);
+}
+
+/** After a reload: joins the session that this project had, if it still runs. */
+export async function reattach(projectId: string): Promise<void> {
+  const id = localStorage.getItem(STORAGE_PREFIX + projectId);
+  set({ projectId });
+  if (!id) return;
+  try {
+    const found = await api.getSession(id);
+    if (found.state !== 'ready') return;
+    session = found;
+    await openSocket(found);
+  } catch {
+    localStorage.removeItem(STORAGE_PREFIX + projectId);
+  }
+}
+
+/** Ends all processes of the session. */
+export async function endSession(): Promise<void> {
+  const ending = session;
+  const { projectId } = useSessionStore.getState();
+  disconnect();
+  if (projectId) localStorage.removeItem(STORAGE_PREFIX + projectId);
+  if (ending) await api.endSession(ending.id);
+}
+
+/** Leaves the session without ending it. */
+export function disconnect(): void {
+  clearTimeout(retryTimer);
+  socket?.close();
+  socket = null;
+  session = null;
+  streams.close();
+  resetSession();
+}
+
+/** Resolves when the manager has introduced itself; rejects if the socket closes before. */
+function openSocket(info: SessionInfo): Promise<void> {
+  socket?.close();
+  return new Promise((resolve, reject) => {
+    let isIntroduced = false;
+    const opened = new ControlSocket(socketUrl(info.control_url), {
+      onOpen: () => undefined,
+      onMessage: (message) => {
+        receive(message);
+        if (message.command === 'introspection') {
+          isIntroduced = true;
+          onIntroduced(info, message.data as Introspection);
+          resolve();
+        }
+        followState(message);
+      },
+      onLost: (_code, reason) => {
+        if (!isIntroduced) return reject(new Error(reason || 'The session did not answer.'));
+        onLost(reason);
+      },
+    });
+    socket = opened;
+    opened.open();
+  });
+}
+
+function onIntroduced(info: SessionInfo, introspection: Introspection): void {
+  attempt = 0;
+  set({ connection: 'open', connectionMessage: '', sessionId: info.id });
+  streams.open(info.stream_url, introspection.client_id);
+  followStreams(introspection.state);
+}
+
+function followState(message: ServerMessage): void {
+  if (message.command === 'state-changed' || message.command === 'snapshot') {
+    followStreams((message.data as { state: State }).state);
+  }
+}
+
+let isStreaming = false;
+
+function followStreams(state: State): void {
+  const wanted = STREAMING.includes(state);
+  if (wanted === isStreaming && wanted) return;
+  isStreaming = wanted;
+  if (!wanted) return streams.disconnect();
+  streams.connect((stream, options) => {
+    const done = options ? send('subscribe', { stream, ...options }) : send('unsubscribe', { stream });
+    // A stream that this world does not have (no camera, no LIDAR) leaves its view empty, and says so there.
+    done.catch(() => undefined);
+  });
+}
+
+function onLost(reason: string): void {
+  isStreaming = false;
+  streams.disconnect();
+  set({ connection: 'reconnecting', connectionMessage: reason, isLaunching: false, progress: null });
+  retryTimer = setTimeout(() => void retry(), RETRY_MS[Math.min(attempt, RETRY_MS.length - 1)]);
+  attempt += 1;
+}
+
+async function retry(): Promise<void> {
+  if (!session) return;
+  try {
+    await api.getSession(session.id);
+    await openSocket(session);
+  } catch (error) {
+    if (error instanceof ApiError && error.status === 404) return onEnded();
+    onLost(error instanceof Error ? error.message : String(error));
+  }
+}
+
+/** The session is gone: its processes ended, and another Run starts a new one. */
+function onEnded(): void {
+  const { logs, nextLogId } = useSessionStore.getState();
+  streams.close();
+  socket = null;
+  session = null;
+  resetSession({ connection: 'lost', logs, nextLogId });
+}

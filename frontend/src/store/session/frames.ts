@@ -1,0 +1,56 @@
+import type { Frame, Scene } from '@/generated/messages';
+
+type FrameOf<K extends Frame['type']> = Extract<Frame, { type: K }>;
+type Listener = (frame: Frame) => void;
+
+/**
+ * Frames go past React: a viewer listens, and draws at its own pace. The last frame of each kind is
+ * kept, so that a view that opens later starts from it; a scene makes older poses meaningless.
+ */
+class FrameBus {
+  private readonly listeners = new Map<string, Set<Listener>>();
+  private readonly latest = new Map<string, Frame>();
+
+  publish(frame: Frame): void {
+    const kind = frame.type;
+    if (kind === 'scene') this.latest.clear();
+    this.latest.set(kind, frame);
+    this.listeners.get(kind)?.forEach((listener) => listener(frame));
+  }
+
+  /** Calls at once with the last frame, if there is one, and then with each. */
+  listen<K extends Frame['type']>(kind: K, listener: (frame: FrameOf<K>) => void): () => void {
+    const set = this.listeners.get(kind) ?? new Set();
+    this.listeners.set(kind, set);
+    set.add(listener as Listener);
+    const last = this.latest.get(kind);
+    if (last) listener(last as FrameOf<K>);
+    return () => set.delete(listener as Listener);
+  }
+
+  scene(): Scene | null {
+    return (this.latest.get('scene') as Scene | undefined) ?? null;
+  }
+
+  clear(): void {
+    this.latest.clear();
+  }
+}
+
+export const frames = new FrameBus();
+
+/** Floats of a binary field; copies only where the bytes do not lie at a multiple of four. */
+export function floatsOf(bytes: Uint8Array): Float32Array {
+  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+  return new Float32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 2);
+}
+
+export function uint16Of(bytes: Uint8Array): Uint16Array {
+  const aligned = bytes.byteOffset % 2 === 0 ? bytes : bytes.slice();
+  return new Uint16Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 1);
+}
+
+export function uint32Of(bytes: Uint8Array): Uint32Array {
+  const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
+  return new Uint32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 2);
+}

@@ -1,0 +1,111 @@
+import type { BlackboardEntry, Events, Log, ServerMessage } from '@/generated/messages';
+import type { BlackboardRow, LogLine, SessionData } from './types';
+
+/** Older lines are dropped; about an hour of a talkative action. */
+export const MAX_LOG_LINES = 5000;
+
+export const initialSession: SessionData = {
+  connection: 'off',
+  connectionMessage: '',
+  projectId: null,
+  sessionId: null,
+  introspection: null,
+  executor: 'idle',
+  executorReason: '',
+  progress: null,
+  isLaunching: false,
+  tree: [],
+  blackboard: {},
+  logs: [],
+  nextLogId: 1,
+  faults: [],
+  finished: null,
+  sim: null,
+  simTime: 0,
+  tick: 0,
+  tickHz: 20,
+  speed: 1,
+  universe: '',
+  lastSeq: 0,
+};
+
+type Handler<K extends keyof Events> = (
+  state: SessionData,
+  data: Events[K],
+  message: ServerMessage,
+) => Partial<SessionData>;
+
+const handlers: { [K in keyof Events]?: Handler<K> } = {
+  introspection: (_, data) => ({ introspection: data, executor: data.state }),
+  'state-changed': (state, data) => ({
+    executor: data.state,
+    executorReason: data.reason,
+    ...(data.state === 'application_running' || data.state === 'paused' ? {} : { progress: state.progress }),
+    ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
+  }),
+  progress: (_, data) => ({ progress: data }),
+  // A new tree is a new run: what the last one said about itself no longer holds.
+  tree: (_, data) => ({ tree: data.nodes, blackboard: {}, faults: [], finished: null, tick: 0 }),
+  tick: (_, data) => ({ tick: data.n }),
+  blackboard: (state, data, { seq }) => ({
+    blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
+  }),
+  log: (state, data) => appendLogs(state, [data]),
+  fault: (state, data) => ({ faults: [...state.faults, data] }),
+  finished: (_, data) => ({ finished: data }),
+  sim: (_, data) => ({ sim: data, speed: data.speed }),
+  snapshot: (state, data, { seq }) => ({
+    executor: data.state,
+    tree: data.tree?.nodes ?? [],
+    blackboard: mergeBlackboard({}, data.blackboard, seq),
+    faults: data.faults,
+    tickHz: data.tick_hz,
+    speed: data.speed,
+    universe: data.universe,
+    ...appendLogs({ ...state, logs: [] }, data.logs),
+  }),
+};
+
+/** What a message changes; messages that concern no state change nothing. Pure. */
+export function reduce(state: SessionData, message: ServerMessage): SessionData {
+  const handler = handlers[message.command as keyof Events] as Handler<keyof Events> | undefined;
+  if (!handler) return state;
+  const change = handler(state, message.data as Events[keyof Events], message);
+  return { ...state, ...change, simTime: message.t || state.simTime, lastSeq: message.seq };
+}
+
+export function reduceAll(state: SessionData, messages: readonly ServerMessage[]): SessionData {
+  return messages.reduce(reduce, state);
+}
+
+export function blackboardId(entry: Pick<BlackboardEntry, 'scope' | 'key'>): string {
+  return `${entry.scope}\u0000${entry.key}`;
+}
+
+function mergeBlackboard(
+  rows: Record<string, BlackboardRow>,
+  entries: readonly BlackboardEntry[],
+  changedAt: number,
+): Record<string, BlackboardRow> {
+  const next = { ...rows };
+  for (const entry of entries) {
+    const id = blackboardId(entry);
+    if (entry.removed) Reflect.deleteProperty(next, id);
+    else next[id] = { ...entry, changedAt };
+  }
+  return next;
+}
+
+/** Adds lines as the console shows them: one row a line of text, numbered. */
+export function appendLogs(
+  state: Pick<SessionData, 'logs' | 'nextLogId'>,
+  added: readonly Log[],
+): Pick<SessionData, 'logs' | 'nextLogId'> {
+  let id = state.nextLogId;
+  const lines: LogLine[] = [];
+  for (const log of added) {
+    for (const text of log.text.replace(/\n$/, '').split('\n')) lines.push({ ...log, text, id: id++ });
+  }
+  const logs = [...state.logs, ...lines];
+  return { logs: logs.length > MAX_LOG_LINES ? logs.slice(-MAX_LOG_LINES) : logs, nextLogId: id };
+}

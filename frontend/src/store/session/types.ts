@@ -1,0 +1,54 @@
+import type {
+  BlackboardEntry,
+  Fault,
+  Finished,
+  Introspection,
+  Log,
+  Progress,
+  ServerMessage,
+  Sim,
+  State,
+  TreeNode,
+} from '@/generated/messages';
+
+/** How the page stands to its session. */
+export type Connection = 'off' | 'starting' | 'open' | 'reconnecting' | 'lost';
+
+export interface LogLine extends Log {
+  /** Counts up within this page; keys the rows of the console. */
+  id: number;
+}
+
+export interface BlackboardRow extends BlackboardEntry {
+  /** The message that changed it last; a new number makes the row flash. */
+  changedAt: number;
+}
+
+/** What the session is, as far as this page was told. */
+export interface SessionData {
+  connection: Connection;
+  connectionMessage: string;
+  projectId: string | null;
+  sessionId: string | null;
+  introspection: Introspection | null;
+  executor: State;
+  executorReason: string;
+  progress: Progress | null;
+  /** A Run was pressed and has neither succeeded nor failed yet. */
+  isLaunching: boolean;
+  tree: TreeNode[];
+  blackboard: Record<string, BlackboardRow>;
+  logs: LogLine[];
+  nextLogId: number;
+  faults: Fault[];
+  finished: Finished | null;
+  sim: Sim | null;
+  simTime: number;
+  tick: number;
+  tickHz: number;
+  speed: number;
+  universe: string;
+  lastSeq: number;
+}
+
+export type { ServerMessage };

@@ -1,0 +1,237 @@
+"""Reading an action's Python without running it: class, docstring, ports, imports."""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+from translator.action_ports import Declarations, declared_ports, last_name, ports_used
+from translator.diagnostic import Diagnostic, Place, diagnostic
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from translator.catalog import PortModel
+
+MAX_BYTES = 2 * 1024 * 1024
+KINDS = {"Action": "action", "SyncAction": "action", "Condition": "condition"}
+
+
+@dataclass(frozen=True, slots=True)
+class Import:
+    """A module that an action imports, with the line that does it."""
+
+    module: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class ActionModel:
+    """What the source of an action says about it. `open` actions accept any port."""
+
+    name: str
+    doc: str = ""
+    kind: str = "action"
+    ports: tuple[PortModel, ...] = ()
+    open: bool = True
+    imports: tuple[Import, ...] = ()
+    line: int = 1
+    diagnostics: tuple[Diagnostic, ...] = ()
+    source: str = field(default="", repr=False)
+    path: str = ""
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns what the editor and `--json` show."""
+        return {
+            "name": self.name,
+            "path": self.path,
+            "doc": self.doc,
+            "kind": self.kind,
+            "open": self.open,
+            "line": self.line,
+            "ports": [
+                {
+                    "name": port.name,
+                    "direction": port.direction,
+                    "type": port.type,
+                    "default": port.default,
+                    "required": port.required,
+                    "description": port.description,
+                }
+                for port in self.ports
+            ],
+            "imports": list(dict.fromkeys(item.module for item in self.imports)),
+            "diagnostics": [found.to_json() for found in self.diagnostics],
+        }
+
+
+def inspect_action(source: str, filename: str) -> ActionModel:
+    """Reads the source of an action; whatever it holds, a model comes back, with diagnostics."""
+    name = PurePosixPath(filename).stem
+    broken = ActionModel(name=name, source=source, path=filename)
+    if len(source) > MAX_BYTES:
+        return _with(broken, diagnostic("BT0003", Place(filename), size="too large", limit="2 MB"))
+    try:
+        with warnings.catch_warnings():  # an odd escape in the user's code is no matter of ours
+            warnings.simplefilter("ignore")
+            module = ast.parse(source, filename=filename)
+    except SyntaxError as error:
+        place = Place(filename, line=error.lineno or 1, column=error.offset or 1)
+        return _with(broken, diagnostic("BT0601", place, problem=error.msg))
+    except (ValueError, RecursionError, MemoryError) as error:
+        problem = str(error) or "it is nested too deeply"
+        return _with(broken, diagnostic("BT0601", Place(filename, line=1), problem=problem))
+    try:
+        return _Inspector(module, source, filename, name).model()
+    except RecursionError:
+        place = Place(filename, line=1)
+        return _with(broken, diagnostic("BT0601", place, problem="it is nested too deeply"))
+
+
+def _with(model: ActionModel, found: Diagnostic) -> ActionModel:
+    return ActionModel(name=model.name, source=model.source, path=model.path, diagnostics=(found,))
+
+
+def source_text(action: ActionModel) -> str:
+    """Returns the source as XML can hold it: line feeds alone end its lines, form feeds are left out."""
+    return action.source.replace("\r\n", "\n").replace("\r", "\n").replace("\f", "")
+
+
+class _Inspector:
+    """Finds in one module the class that the file is named after."""
+
+    def __init__(self, module: ast.Module, source: str, filename: str, name: str) -> None:
+        self.module = module
+        self.source = source
+        self.filename = filename
+        self.name = name
+        self.found: list[Diagnostic] = []
+        self.classes = {node.name: node for node in module.body if isinstance(node, ast.ClassDef)}
+
+    def report(self, code: str, node: ast.AST, **values: object) -> None:
+        place = Place(
+            self.filename,
+            port=str(values.get("port", "")),
+            line=getattr(node, "lineno", 1),
+            column=getattr(node, "col_offset", 0) + 1,
+        )
+        self.found.append(diagnostic(code, place, **values))
+
+    def model(self) -> ActionModel:
+        imports = tuple(_imports(self.module))
+        cls = self.classes.get(self.name)
+        if cls is None:
+            others = ", ".join(self.classes) or "none"
+            code = "BT0602" if self.is_local() else "BT0607"
+            self.report(code, self.module, name=self.name, classes=others)
+            return self.result(imports=imports)
+        if not self.is_behaviour(cls):
+            self.report("BT0603", cls, name=self.name)
+        elif not self.has_update(cls):
+            self.report("BT0604", cls, name=self.name)
+        declarations = Declarations.collect(self.lineage(cls))
+        ports = declared_ports(declarations, self.report)
+        is_open = not declarations.any
+        return self.result(
+            doc=ast.get_docstring(cls) or "",
+            kind=self.kind(cls),
+            ports=ports_used(cls) if is_open else ports,
+            open=is_open,
+            imports=imports,
+            line=cls.lineno,
+        )
+
+    def result(self, **values: Any) -> ActionModel:
+        return ActionModel(
+            name=self.name, source=self.source, path=self.filename, diagnostics=tuple(self.found), **values
+        )
+
+    def is_local(self) -> bool:
+        """Whether the name is not brought in by an import or an assignment of the module."""
+        for node in self.module.body:
+            if isinstance(node, ast.Import | ast.ImportFrom):
+                if any((alias.asname or alias.name) == self.name for alias in node.names):
+                    return False
+            elif _assigned(node, self.name) is not None:
+                return False
+        return True
+
+    def lineage(self, cls: ast.ClassDef) -> list[ast.ClassDef]:
+        """Returns the class and those of its bases that stand in the same file, nearest first."""
+        line: list[ast.ClassDef] = []
+        stack = [cls]
+        while stack:
+            current = stack.pop()
+            if current in line:
+                continue
+            line.append(current)
+            stack.extend(
+                self.classes[base.id]
+                for base in reversed(current.bases)
+                if isinstance(base, ast.Name) and base.id in self.classes
+            )
+        return line
+
+    def is_behaviour(self, cls: ast.ClassDef) -> bool:
+        """Whether some base may be a behaviour; of an imported base that cannot be known, so it may."""
+        local = self.lineage(cls)
+        foreign = [
+            base
+            for member in local
+            for base in member.bases
+            if not (isinstance(base, ast.Name) and (base.id in self.classes or base.id in _PLAIN_BASES))
+        ]
+        return bool(foreign)
+
+    def has_update(self, cls: ast.ClassDef) -> bool:
+        """Whether the class, or a base that is not py_trees' own, defines `update`."""
+        for member in self.lineage(cls):
+            for node in member.body:
+                if isinstance(node, ast.FunctionDef) and node.name == "update":
+                    return True
+                if isinstance(node, ast.AsyncFunctionDef) and node.name == "update":
+                    self.report("BT0605", node, name=self.name)
+                    return True
+            for base in member.bases:
+                if isinstance(base, ast.Name) and base.id in self.classes:
+                    continue
+                if last_name(base) not in _BASES_WITHOUT_UPDATE:
+                    return True
+        return False
+
+    def kind(self, cls: ast.ClassDef) -> str:
+        for member in self.lineage(cls):
+            for node in member.body:
+                value = _assigned(node, "NODE_KIND")
+                if value is None:
+                    continue
+                if isinstance(value, ast.Constant) and value.value in KINDS:
+                    return KINDS[value.value]
+                self.report("BT0606", node, kinds=", ".join(KINDS))
+                return "action"
+        return "action"
+
+
+_BASES_WITHOUT_UPDATE = {"Behaviour", "PortsMixin", "ABC", "BehaviourWithPorts"}
+_PLAIN_BASES = {"object", "Exception", "ABC", "Protocol", "Enum", "dict", "list", "str", "int", "float"}
+
+
+def _assigned(node: ast.stmt, name: str) -> ast.expr | None:
+    if isinstance(node, ast.Assign):
+        if any(isinstance(target, ast.Name) and target.id == name for target in node.targets):
+            return node.value
+    elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id == name:
+        return node.value
+    return None
+
+
+def _imports(module: ast.Module) -> Iterator[Import]:
+    for node in ast.walk(module):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(alias.name, node.lineno)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            yield Import(node.module, node.lineno)

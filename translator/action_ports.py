@@ -1,0 +1,213 @@
+"""The ports that an action's class declares, read from its syntax tree.
+
+Declared are the class attributes `INPUT_PORTS`, `OUTPUT_PORTS` and `INOUT_PORTS`, a dict of name to
+`Port(…)` of tree_gardener or `PortInformation(…)` of py_trees. Of a class without them, the ports
+that its code visibly asks for are listed, so that the editor can offer them.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from translator.catalog import PortModel
+
+ATTRIBUTES = {"INPUT_PORTS": "input", "OUTPUT_PORTS": "output", "INOUT_PORTS": "inout"}
+TYPES = {
+    "int": "int",
+    "float": "double",
+    "double": "double",
+    "str": "string",
+    "string": "string",
+    "bool": "bool",
+    "Any": "any",
+    "any": "any",
+    "object": "any",
+}
+POSITIONAL = {
+    "Port": ("type", "default", "required", "description"),
+    "PortInformation": ("data_type", "required", "description", "default_value"),
+}
+Report = Callable[..., None]
+
+
+@dataclass(frozen=True, slots=True)
+class Declarations:
+    """The port dicts of a class, by attribute, those of a derived class before its bases'."""
+
+    values: tuple[tuple[str, ast.expr], ...]
+
+    @property
+    def any(self) -> bool:
+        """Whether the class declares ports at all."""
+        return bool(self.values)
+
+    @staticmethod
+    def collect(lineage: Iterable[ast.ClassDef]) -> Declarations:
+        """Finds the nearest assignment of each attribute."""
+        nearest: dict[str, ast.expr] = {}
+        for cls in lineage:
+            for node in cls.body:
+                target, value = _assignment(node)
+                if target in ATTRIBUTES and value is not None:
+                    nearest.setdefault(target, value)
+        return Declarations(tuple((name, nearest[name]) for name in ATTRIBUTES if name in nearest))
+
+
+def declared_ports(declarations: Declarations, report: Report) -> tuple[PortModel, ...]:
+    """Returns the declared ports; what cannot be read without running the code is reported."""
+    ports: dict[str, PortModel] = {}
+    for attribute, value in declarations.values:
+        if not isinstance(value, ast.Dict):
+            if not _is_empty_call(value):
+                report("BT0610", value, attribute=attribute)
+            continue
+        for key, item in zip(value.keys, value.values, strict=True):
+            if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
+                report("BT0610", key or item, attribute=attribute)
+                continue
+            ports[key.value] = _port(key.value, ATTRIBUTES[attribute], item, report)
+    return tuple(ports.values())
+
+
+def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortModel:
+    if not isinstance(value, ast.Call):
+        report("BT0611", value, port=name)
+        return PortModel(name, direction)
+    function = last_name(value.func)
+    if function not in POSITIONAL:
+        report("BT0611", value, port=name)
+        return PortModel(name, direction)
+    arguments = dict(zip(POSITIONAL[function], value.args, strict=False))
+    arguments.update({keyword.arg: keyword.value for keyword in value.keywords if keyword.arg})
+    type_name = _type(arguments.get("type") or arguments.get("data_type"))
+    default = _default(arguments.get("default") or arguments.get("default_value"))
+    required = _constant(arguments.get("required"))
+    if required is None:
+        required = function == "PortInformation" and direction == "input"
+    description = _constant(arguments.get("description"))
+    if type_name is None:
+        report("BT0612", value, port=name)
+    return PortModel(
+        name=name,
+        direction=direction,
+        type=type_name or "any",
+        default=default,
+        required=required is True and default is None,
+        description=description if isinstance(description, str) else "",
+    )
+
+
+def _type(node: ast.expr | None) -> str | None:
+    """Returns the catalogue's name of a type, `any` where none is given, None where it cannot be told."""
+    if node is None:
+        return "any"
+    if isinstance(node, ast.Constant):
+        if node.value is None:
+            return "any"
+        return _type_name(node.value) if isinstance(node.value, str) else None
+    return _type_name(ast.unparse(node))
+
+
+def _type_name(text: str) -> str | None:
+    text = text.strip().removeprefix("typing.").replace("List[", "list[")
+    if text in TYPES:
+        return TYPES[text]
+    if text == "list":
+        return "any"
+    if text.startswith("list[") and text.endswith("]"):
+        inner = TYPES.get(text[5:-1].strip())
+        return f"list[{inner}]" if inner and inner != "any" else "any"
+    # A class of the action's own: its values travel over the blackboard as they are.
+    return "any" if text.replace(".", "").replace("_", "").isalnum() else None
+
+
+def _default(node: ast.expr | None) -> str | None:
+    """Returns the text of a default as it would stand in the XML."""
+    if node is None:
+        return None
+    try:
+        value = ast.literal_eval(node)
+    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+        return None
+    return _as_port_text(value)
+
+
+def _as_port_text(value: object) -> str | None:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int) and abs(value) < 10**30:
+        return str(value)
+    if isinstance(value, float) and math.isfinite(value):
+        return repr(value)
+    if isinstance(value, list | tuple):
+        parts = [_as_port_text(item) for item in value]
+        return ";".join(part for part in parts if part is not None)
+    return None
+
+
+def last_name(node: ast.expr) -> str:
+    """Returns `c` of `a.b.c`, and nothing for what is no name."""
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
+
+
+def _constant(node: ast.expr | None) -> object:
+    return node.value if isinstance(node, ast.Constant) else None
+
+
+def _assignment(node: ast.stmt) -> tuple[str, ast.expr | None]:
+    if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name):
+        return node.targets[0].id, node.value
+    if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+        return node.target.id, node.value
+    return "", None
+
+
+def _is_empty_call(value: ast.expr) -> bool:
+    return isinstance(value, ast.Call) and last_name(value.func) == "dict" and not value.keywords
+
+
+def ports_used(cls: ast.ClassDef) -> tuple[PortModel, ...]:
+    """Returns the ports that the code of a class without declarations asks for by name."""
+    written: set[str] = set()
+    names: dict[str, None] = {}
+    for node in ast.walk(cls):
+        if isinstance(node, ast.Call):
+            function = last_name(node.func)
+            if function == "set_port_content" and node.args and (name := _port_key(node.args[0])):
+                written.add(name)
+            elif function in {"get_input", "set_output"} and len(node.args) > 1:
+                asked = _constant(node.args[1])
+                if isinstance(asked, str):
+                    names.setdefault(asked)
+                    if function == "set_output":
+                        written.add(asked)
+        if isinstance(node, ast.expr) and (name := _port_key(node)):
+            names.setdefault(name)
+    return tuple(PortModel(name, "output" if name in written else "input") for name in names)
+
+
+def _port_key(node: ast.expr) -> str | None:
+    """Returns `x` of `self.ports["x"]`, `ports["x"]` and `self.ports.get("x", …)`."""
+    if isinstance(node, ast.Subscript):
+        holder, key = node.value, node.slice
+    elif (
+        isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and node.func.attr == "get"
+        and node.args
+    ):
+        holder, key = node.func.value, node.args[0]
+    else:
+        return None
+    is_ports = (isinstance(holder, ast.Attribute) and holder.attr == "ports") or (
+        isinstance(holder, ast.Name) and holder.id == "ports"
+    )
+    value = _constant(key)
+    return value if is_ports and isinstance(value, str) else None

@@ -1,0 +1,85 @@
+"""The built-in nodes, read from the engine's catalogue."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from dataclasses import dataclass, fields
+from functools import cache
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+
+@dataclass(frozen=True, slots=True)
+class PortModel:
+    """A port of a kind of node. `type` is a name of the catalogue (int, double, list[int], …) or `any`."""
+
+    name: str
+    direction: str = "input"
+    type: str = "any"
+    default: str | None = None
+    required: bool = False
+    description: str = ""
+
+    @property
+    def is_read(self) -> bool:
+        """Whether the node reads the port."""
+        return self.direction != "output"
+
+    @property
+    def is_written(self) -> bool:
+        """Whether the node writes the port."""
+        return self.direction != "input"
+
+
+@dataclass(frozen=True, slots=True)
+class NodeModel:
+    """What a kind of node is: control, decorator, action, condition or subtree; ports and child counts."""
+
+    type: str
+    kind: str
+    min_children: int
+    max_children: int | None
+    ports: Mapping[str, PortModel]
+    open: bool = False
+    summary: str = ""
+    since: str = "4.0"
+
+
+@cache
+def builtins() -> Mapping[str, NodeModel]:
+    """Returns the built-in nodes by type."""
+    document = json.loads(
+        resources.files("tree_gardener").joinpath("catalog.json").read_text(encoding="utf-8")
+    )
+    return {row["type"]: _node_model(row) for row in document["nodes"]}
+
+
+def _node_model(row: dict[str, object]) -> NodeModel:
+    children = row["children"]
+    ports = row["ports"]
+    assert isinstance(children, dict)  # noqa: S101 - the catalogue is ours
+    assert isinstance(ports, list)  # noqa: S101
+    return NodeModel(
+        type=str(row["type"]),
+        kind=str(row["kind"]),
+        min_children=children["min"],
+        max_children=children["max"],
+        ports={port["name"]: _port_model(port) for port in ports},
+        open=row["type"] == "TestNode",
+        summary=str(row["summary"]),
+        since=str(row["since"]),
+    )
+
+
+def _port_model(row: dict[str, Any]) -> PortModel:
+    return PortModel(**{field.name: row[field.name] for field in fields(PortModel)})
+
+
+def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:
+    """Returns the sentence that offers the nearest known name, or `otherwise`."""
+    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
+    return f"Did you mean {near[0]}?" if near else otherwise

@@ -1,0 +1,5 @@
+"""Checks: every rule of BehaviorTree.CPP's loader, and more, told before the tree runs."""
+
+from translator.check.run import check
+
+__all__ = ["check"]

@@ -1,0 +1,79 @@
+"""What the checks share: the project, where a finding is put, and what a kind of node is."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.diagram import diagram_path
+from translator.tree import Node, Tree, reachable_trees
+
+if TYPE_CHECKING:
+    from translator.catalog import NodeModel
+    from translator.project import Project
+
+
+@dataclass
+class Context:
+    """One run of the checks over a project."""
+
+    project: Project
+    found: list[Diagnostic] = field(default_factory=list)
+    _models: dict[str, NodeModel | None] = field(default_factory=dict)
+
+    def model(self, type_: str) -> NodeModel | None:
+        """Returns what a type of node is, or None where nobody knows."""
+        if type_ not in self._models:
+            self._models[type_] = self.project.model(type_)
+        return self._models[type_]
+
+    @cached_property
+    def reachable(self) -> set[str]:
+        """The trees that run."""
+        return set(reachable_trees(self.project.trees, self.project.settings.main_tree))
+
+    def report(
+        self, code: str, tree: Tree, node: Node | None = None, port: str = "", /, **values: object
+    ) -> None:
+        """Adds a finding at a node of a tree."""
+        place = Place(
+            file=tree.file or diagram_path(tree.id),
+            tree=tree.id,
+            node=node.id if node else "",
+            port=port,
+            line=node.span.line if node and node.span else None,
+            column=node.span.column if node and node.span else None,
+        )
+        self.found.append(diagnostic(code, place, **values))
+
+
+def located(found: list[Diagnostic], project: Project) -> list[Diagnostic]:
+    """Adds line and column to findings that name a node of a diagram."""
+    indexes: dict[str, dict[str, tuple[int, int]]] = {}
+    result = []
+    for item in found:
+        place = item.place
+        if place.line is None and place.node and place.file.endswith(".json") and place.file in project.files:
+            index = indexes.get(place.file)
+            if index is None:
+                index = indexes[place.file] = _key_positions(project.files[place.file])
+            line, column = index.get(place.node, (1, 1))
+            result.append(item.moved(line=line, column=column))
+        else:
+            result.append(item)
+    return result
+
+
+_NODE_KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:\s*\{')
+
+
+def _key_positions(raw: bytes) -> dict[str, tuple[int, int]]:
+    """Finds where each object-valued key of a JSON text stands; good enough to point at a node."""
+    positions: dict[str, tuple[int, int]] = {}
+    for number, line in enumerate(raw.decode("utf-8", "replace").splitlines(), start=1):
+        for match in _NODE_KEY.finditer(line):
+            positions.setdefault(match.group(1), (number, match.start() + 1))
+    return positions

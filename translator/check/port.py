@@ -1,0 +1,116 @@
+"""Checks of port values: names, braces, literals, required ports, and types that meet in one entry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from translator.catalog import NodeModel, PortModel, did_you_mean
+from translator.text import is_xml_name
+from translator.tree import Node, Tree, pointer
+from translator.values import Fit, describe, fit
+
+if TYPE_CHECKING:
+    from translator.check.context import Context
+
+RESERVED = {"name", "ID"}
+
+
+def check_ports(context: Context) -> None:
+    """Reports port values that the engine would refuse, or that mean something else than they seem to."""
+    for tree in context.project.trees.values():
+        entries: dict[str, _Use] = {}
+        for node in tree.walk():
+            model = context.model(node.type)
+            if model is None or node.is_subtree:
+                continue
+            _check_names(context, tree, node, model)
+            for port in model.ports.values():
+                _check_port(context, tree, node, port)
+                _check_entry(context, tree, node, port, entries)
+
+
+def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> None:
+    for name, text in node.ports.items():
+        if name in model.ports:
+            continue
+        if not model.open:
+            known = ", ".join(model.ports) or "none"
+            suggestion = did_you_mean(name, model.ports, otherwise=f"Its ports: {known}.")
+            context.report("BT0202", tree, node, name, type=node.type, port=name, suggestion=suggestion)
+        elif name in RESERVED or name.startswith("_") or not is_xml_name(name):
+            context.report("BT0209", tree, node, name, port=name)
+        else:
+            _check_braces(context, tree, node, name, text)
+
+
+def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> None:
+    text = node.ports.get(port.name)
+    if text is None:
+        if port.required and port.default is None:
+            context.report(
+                "BT0201", tree, node, port.name, type=node.type, port=port.name, description=port.description
+            )
+        return
+    if port.type == "script" or not _check_braces(context, tree, node, port.name, text):
+        return
+    if pointer(text, port.name) is not None:
+        return
+    if port.is_written and not _takes_literal(node, port):
+        context.report("BT0205", tree, node, port.name, port=port.name, value=text)
+        return
+    suits = fit(port.type, text)
+    values = {"port": port.name, "value": text, "wanted": describe(port.type)}
+    if suits is Fit.BAD:
+        context.report("BT0204", tree, node, port.name, **values)
+    elif suits is Fit.LOOSE:
+        context.report("BT0206", tree, node, port.name, **values)
+
+
+def _takes_literal(node: Node, port: PortModel) -> bool:
+    """Whether a port that is written may hold a literal: an inout that is only read then, or a key's name."""
+    return port.direction == "inout" and (node.type.startswith("Loop") or port.name == "output_key")
+
+
+def _check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
+    stripped = text.strip()
+    if stripped == "{}":
+        context.report("BT0207", tree, node, port, port=port)
+        return False
+    if stripped.count("{") != stripped.count("}") and (stripped[0] == "{" or stripped[-1] == "}"):
+        context.report("BT0203", tree, node, port, port=port, value=text)
+        return False
+    key = pointer(text, port)
+    if key is not None and ("{" in key or "}" in key or key.count("@") > 1 or "@" in key[1:]):
+        context.report("BT0208", tree, node, port, port=port, key=key)
+        return False
+    return True
+
+
+@dataclass(frozen=True, slots=True)
+class _Use:
+    """The first typed use of a blackboard entry."""
+
+    type: str
+    node: Node
+    port: str
+
+
+def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entries: dict[str, _Use]) -> None:
+    """Reports an entry that two ports use with different types, which the engine refuses."""
+    text = node.ports.get(port.name, port.default)
+    key = pointer(text, port.name) if text is not None else None
+    if key is None or port.type in {"any", "script", "status"}:
+        return
+    first = entries.setdefault(key, _Use(port.type, node, port.name))
+    if first.type not in {port.type, "string"}:
+        context.report(
+            "BT0210",
+            tree,
+            node,
+            port.name,
+            key=key,
+            type=port.type,
+            other_type=first.type,
+            other=f"{first.node.label} ({first.node.id}), port {first.port}",
+        )

@@ -1,0 +1,35 @@
+"""Runs all checks over a project, in an order that puts causes before effects."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from translator.check.action import check_actions
+from translator.check.context import Context, located
+from translator.check.dataflow import check_dataflow
+from translator.check.port import check_ports
+from translator.check.reach import check_reachability
+from translator.check.script import check_scripts
+from translator.check.structure import check_structure
+from translator.check.subtree import check_subtrees
+
+if TYPE_CHECKING:
+    from translator.diagnostic import Diagnostic
+    from translator.project import Project
+
+
+def check(project: Project) -> tuple[Diagnostic, ...]:
+    """Returns everything that is to be said about a project, what reading it found included.
+
+    Each finding has a place: a file, and in it a node or a line. Only findings of severity
+    *error* keep the project from being translated.
+    """
+    context = Context(project, list(project.diagnostics))
+    check_structure(context)
+    check_actions(context)
+    check_ports(context)
+    check_scripts(context)
+    check_subtrees(context)
+    check_dataflow(context)
+    check_reachability(context)
+    return tuple(located(context.found, project))

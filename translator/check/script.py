@@ -1,0 +1,35 @@
+"""Checks of scripts: conditions of any node, and the ports that hold code."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from translator.check.context import Context
+    from translator.tree import Node, Tree
+
+
+def scripts_of(context: Context, node: Node) -> Iterator[tuple[str, str]]:
+    """Yields the attribute and the code of each script of a node."""
+    yield from node.conditions.items()
+    model = context.model(node.type)
+    if model is None:
+        return
+    for port in model.ports.values():
+        if port.type == "script" and port.name in node.ports:
+            yield port.name, node.ports[port.name]
+
+
+def check_scripts(context: Context) -> None:
+    """Reports scripts that the engine could not read."""
+    for tree in context.project.trees.values():
+        for node in tree.walk():
+            for attribute, code in scripts_of(context, node):
+                _check_script(context, tree, node, attribute, code)
+
+
+def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
+    if not code.strip() and attribute in node.conditions:
+        context.report("BT0301", tree, node, attribute, attribute=attribute)

@@ -1,0 +1,118 @@
+"""Diagnostics: what is wrong, where, and what to do about it.
+
+Each has a code from the one table in `diagnostics.json`, which also makes the reference page
+and serves the front end. A diagnostic always has a place: a file, and in it a node or a line.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+TABLE_PATH = Path(__file__).with_name("diagnostics.json")
+
+
+class Severity(StrEnum):
+    """How bad it is: an error keeps the tree from running."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a diagnostic points: the file, and as far as known the node, port, line and column."""
+
+    file: str = ""
+    tree: str = ""
+    node: str = ""
+    port: str = ""
+    line: int | None = None
+    column: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One row of the table of codes."""
+
+    code: str
+    severity: Severity
+    title: str
+    message: str
+    hint: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding. `str()` gives the line that the command line prints."""
+
+    code: str
+    severity: Severity
+    message: str
+    hint: str
+    place: Place
+
+    @property
+    def is_error(self) -> bool:
+        """Whether the tree cannot run as it is."""
+        return self.severity is Severity.ERROR
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the form that the REST interface, the editor and `--json` share."""
+        place = self.place
+        return {
+            "code": self.code,
+            "severity": self.severity.value,
+            "message": self.message,
+            "hint": self.hint,
+            "tree": place.tree,
+            "node": place.node,
+            "port": place.port,
+            "file": place.file,
+            "line": place.line,
+            "column": place.column,
+        }
+
+    def moved(self, **changes: Any) -> Diagnostic:
+        """Returns the same finding with parts of its place replaced."""
+        return replace(self, place=replace(self.place, **changes))
+
+    def __str__(self) -> str:
+        place = self.place
+        where = [place.file or place.tree or "project", str(place.line or 1), str(place.column or 1)]
+        inside = f" [{place.node}]" if place.node else ""
+        hint = f" ({self.hint})" if self.hint else ""
+        return f"{':'.join(where)}: {self.code}{inside} {self.message}{hint}"
+
+
+class TranslatorError(Exception):
+    """The work could not be done; `diagnostics` say why, each with a place and a hint."""
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(str(found) for found in self.diagnostics))
+
+
+@cache
+def rules() -> dict[str, Rule]:
+    """Returns the table of codes, in its order."""
+    rows = json.loads(TABLE_PATH.read_text(encoding="utf-8"))["diagnostics"]
+    return {row["code"]: Rule(**{**row, "severity": Severity(row["severity"])}) for row in rows}
+
+
+def diagnostic(code: str, place: Place, **values: object) -> Diagnostic:
+    """Makes a diagnostic from the table, its message and hint filled with `values`."""
+    rule = rules()[code]
+    return Diagnostic(
+        code, rule.severity, rule.message.format(**values), rule.hint.format(**values).strip(), place
+    )
+
+
+def errors_in(diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Returns those of the diagnostics that are errors."""
+    return tuple(found for found in diagnostics if found.is_error)

@@ -1,0 +1,30 @@
+"""Reading JSON from outside: whatever the bytes are, a value or a located diagnostic comes back."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from translator.diagnostic import Diagnostic, Place, diagnostic
+
+MAX_BYTES = 32 * 1024 * 1024
+
+
+def parse_json(raw: bytes | str, *, file: str) -> tuple[Any, Diagnostic | None]:
+    """Returns the parsed value, or None and what is wrong with the text."""
+    if len(raw) > MAX_BYTES:
+        size = f"{len(raw) / 1e6:.0f} MB"
+        return None, diagnostic("BT0003", Place(file), size=size, limit=f"{MAX_BYTES // 1_000_000} MB")
+    try:
+        text = raw.decode("utf-8-sig") if isinstance(raw, bytes) else raw
+        return json.loads(text), None
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        return None, diagnostic("BT0002", Place(file, line=line), byte=error.start)
+    except json.JSONDecodeError as error:
+        place = Place(file, line=error.lineno, column=error.colno)
+        return None, diagnostic("BT0001", place, problem=error.msg)
+    except RecursionError:
+        return None, diagnostic("BT0001", Place(file, line=1), problem="it is nested too deeply")
+    except ValueError as error:  # a number with more digits than Python reads
+        return None, diagnostic("BT0001", Place(file, line=1), problem=str(error))

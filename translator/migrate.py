@@ -1,0 +1,25 @@
+"""Numbered migrations of the diagram format: entry n turns version n into version n + 1."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+CURRENT_VERSION = 1
+
+
+def _name_the_format(document: dict[str, Any]) -> dict[str, Any]:
+    """0 to 1: diagrams written before the format had a name and a number."""
+    return {"format": "bt-studio/diagram", **document, "version": 1}
+
+
+MIGRATIONS: tuple[Callable[[dict[str, Any]], dict[str, Any]], ...] = (_name_the_format,)
+
+
+def migrate(document: dict[str, Any], version: int) -> dict[str, Any]:
+    """Returns the document in the current version; `version` must be one of the past or the current."""
+    for step in MIGRATIONS[version:CURRENT_VERSION]:
+        document = step(document)
+    return document

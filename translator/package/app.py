@@ -1,0 +1,49 @@
+"""The app for the executor's manager: the tree, its actions and the engine in one zip."""
+
+from __future__ import annotations
+
+import json
+from importlib import resources
+from typing import TYPE_CHECKING
+
+from translator.export import require_sound, write_self_contained
+from translator.package.engine import engine_files
+from translator.package.zip import write_zip
+from translator.settings import PROJECT_FILE
+
+if TYPE_CHECKING:
+    from translator.project import Project
+
+TREE_FILE = "self_contained_tree.xml"
+FOLDERS = ("launch/", "assets/")
+
+
+def to_app_zip(project: Project) -> bytes:
+    """Returns the app: `self_contained_tree.xml`, `execute_docker.py`, actions, engine, launch files, assets.
+
+    Raises:
+        TranslatorError: If the project has errors; its `diagnostics` name them.
+    """
+    require_sound(project)
+    return write_zip(app_files(project))
+
+
+def app_files(project: Project) -> dict[str, bytes]:
+    """Returns the files of the app by path, for a project that is known to be sound."""
+    files = {path: raw for path, raw in project.files.items() if path.startswith(FOLDERS)}
+    files.update((path, raw) for path, raw in project.files.items() if is_action_source(path))
+    files.update(engine_files())
+    files[PROJECT_FILE] = (
+        json.dumps(project.settings.to_json(), ensure_ascii=False, indent=2) + "\n"
+    ).encode()
+    files[TREE_FILE] = write_self_contained(project).encode()
+    template = resources.files("translator.package").joinpath("templates", "execute_docker.py.j2")
+    files["execute_docker.py"] = template.read_bytes()
+    if "requirements.txt" in project.files:
+        files["requirements.txt"] = project.files["requirements.txt"]
+    return files
+
+
+def is_action_source(path: str) -> bool:
+    """Whether the file belongs to the Python of the actions: the actions and what they share."""
+    return path.startswith("actions/") and path.endswith(".py")

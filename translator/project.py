@@ -1,0 +1,142 @@
+"""A project in memory: settings, trees, actions and files, read once and never changed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+from translator.action import ActionModel, inspect_action
+from translator.catalog import NodeModel, PortModel, builtins
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.diagram import restore
+from translator.settings import PROJECT_FILE, Settings, read_settings
+from translator.text import bad_character
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from translator.tree import Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Project:
+    """Everything that a translation needs. `diagnostics` are those of reading; `check` adds its own."""
+
+    settings: Settings
+    trees: Mapping[str, Tree]
+    actions: Mapping[str, ActionModel]
+    files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
+    imported: Mapping[str, NodeModel] = field(default_factory=dict)
+    diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def main(self) -> Tree | None:
+        """The tree that runs first, if the project has it."""
+        return self.trees.get(self.settings.main_tree)
+
+    def model(self, type_: str) -> NodeModel | None:
+        """Returns what a type of node is: built in, an action of the project, or known from an import."""
+        if (model := builtins().get(type_)) is not None:
+            return model
+        if (action := self.actions.get(type_)) is not None:
+            return action_node_model(action)
+        return self.imported.get(type_)
+
+    def known_types(self) -> list[str]:
+        """Returns the types that a diagram of this project may use."""
+        return [*builtins(), *self.actions]
+
+    def with_tree(self, tree: Tree) -> Project:
+        """Returns the project with a tree added or replaced."""
+        return replace(self, trees={**self.trees, tree.id: tree})
+
+
+def action_node_model(action: ActionModel) -> NodeModel:
+    """Returns an action as a kind of leaf."""
+    ports: dict[str, PortModel] = {port.name: port for port in action.ports}
+    return NodeModel(
+        action.name, action.kind, 0, 0, ports, open=action.open, summary=action.doc.partition("\n")[0]
+    )
+
+
+def load(files: Mapping[str, bytes]) -> Project:
+    """Reads a project from its files, by path from its folder.
+
+    Content that is wrong never raises: it is repaired or left out, and told in `diagnostics`.
+
+    Raises:
+        TranslatorError: If the files hold no project at all: neither `project.json` nor a diagram.
+    """
+    found: list[Diagnostic] = []
+    if PROJECT_FILE not in files and not any(_is_diagram(path) for path in files):
+        raise TranslatorError([diagnostic("BT0008", Place(PROJECT_FILE))])
+    settings = Settings()
+    if PROJECT_FILE in files:
+        settings, problems = read_settings(files[PROJECT_FILE])
+        found.extend(problems)
+    trees = _load_trees(files, found)
+    if PROJECT_FILE not in files and settings.main_tree not in trees and len(trees) == 1:
+        settings = settings.model_copy(update={"main_tree": next(iter(trees))})
+    actions = _load_actions(files, found)
+    return Project(settings, trees, actions, dict(files), _imported_models(files), tuple(found))
+
+
+def _is_diagram(path: str) -> bool:
+    return path.startswith("trees/") and path.endswith(".json")
+
+
+def _load_trees(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, Tree]:
+    trees: dict[str, Tree] = {}
+    for path in sorted(files):
+        if not _is_diagram(path):
+            continue
+        tree, problems = restore(files[path], file=path)
+        found.extend(problems)
+        if tree is None:
+            continue
+        place = Place(path, tree=tree.id)
+        if tree.id in trees:
+            found.append(diagnostic("BT0015", place, id=tree.id, other=trees[tree.id].file))
+            continue
+        if tree.id != PurePosixPath(path).stem:
+            found.append(diagnostic("BT0016", place, id=tree.id, file=PurePosixPath(path).stem))
+        trees[tree.id] = tree
+    return trees
+
+
+def action_paths(files: Mapping[str, bytes]) -> Iterator[tuple[str, str]]:
+    """Yields name and path of each action file."""
+    for path in sorted(files):
+        parts = PurePosixPath(path).parts
+        if (
+            len(parts) == 2
+            and parts[0] == "actions"
+            and path.endswith(".py")
+            and not parts[1].startswith("_")
+        ):
+            yield parts[1][:-3], path
+
+
+def _load_actions(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, ActionModel]:
+    actions = {}
+    for name, path in action_paths(files):
+        try:
+            source = files[path].decode("utf-8-sig")
+        except UnicodeDecodeError as error:
+            place = Place(path, line=error.object.count(b"\n", 0, error.start) + 1)
+            found.append(diagnostic("BT0002", place, byte=error.start))
+            continue
+        model = inspect_action(source, path)
+        if (bad := bad_character(name)) is not None:
+            found.append(diagnostic("BT0608", Place(path, line=1), name=name, character=bad))
+        if name in builtins():
+            found.append(diagnostic("BT0609", Place(path, line=model.line), name=name))
+            continue
+        found.extend(model.diagnostics)
+        actions[name] = model
+    return actions
+
+
+def _imported_models(files: Mapping[str, bytes]) -> Mapping[str, NodeModel]:
+    return {}

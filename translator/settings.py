@@ -1,0 +1,85 @@
+"""`project.json`: the settings of a project, as one typed model with its JSON Schema."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.json_file import parse_json
+from translator.text import clean, is_clean
+
+PROJECT_FILE = "project.json"
+FORMAT = "bt-studio/project"
+
+
+class Maintainer(BaseModel):
+    """Who answers for an exported package."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore")
+
+    name: str = Field(default="", max_length=200)
+    email: str = Field(default="", max_length=200)
+
+
+class Settings(BaseModel):
+    """The settings of a project. Each has a default, so that an empty file is a project too."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", json_schema_extra={"title": "project.json"})
+
+    format: Literal["bt-studio/project"] = "bt-studio/project"
+    version: Literal[1] = 1
+    name: str = Field(default="Untitled", min_length=1, max_length=200)
+    description: str = Field(default="", max_length=10_000)
+    main_tree: str = Field(default="MainTree", min_length=1, max_length=200)
+    tick_hz: float = Field(default=20, gt=0, le=1000)
+    universe: str = Field(default="empty", max_length=200)
+    robot: str | None = Field(default=None, max_length=200)
+    on_finish: Literal["stop", "repeat"] = "stop"
+    on_error: Literal["stop", "failure"] = "stop"
+    license: str = Field(default="Apache-2.0", max_length=100)
+    maintainer: Maintainer = Maintainer()
+
+    def to_json(self) -> dict[str, Any]:
+        """Returns the document, without a robot where the universe's own is used."""
+        document = self.model_dump()
+        if self.robot is None:
+            del document["robot"]
+        if self.tick_hz == int(self.tick_hz):
+            document["tick_hz"] = int(self.tick_hz)
+        return document
+
+
+def read_settings(raw: bytes | str) -> tuple[Settings, tuple[Diagnostic, ...]]:
+    """Reads `project.json`; a setting that is wrong is reported and put at its default."""
+    document, problem = parse_json(raw, file=PROJECT_FILE)
+    if problem is not None:
+        return Settings(), (problem,)
+    return restore_settings(document)
+
+
+def restore_settings(document: Any) -> tuple[Settings, tuple[Diagnostic, ...]]:
+    """Like `read_settings`, for a document that is already parsed."""
+    place = Place(PROJECT_FILE)
+    if not isinstance(document, dict):
+        return Settings(), (diagnostic("BT0004", place, kind="no object"),)
+    found: list[Diagnostic] = []
+    rows = {clean(key): _clean_value(value) for key, value in document.items()}
+    for _ in range(len(Settings.model_fields) + 1):
+        try:
+            return Settings.model_validate(rows), tuple(found)
+        except ValidationError as error:
+            for name in dict.fromkeys(str(problem["loc"][0]) for problem in error.errors()):
+                message = next(p["msg"] for p in error.errors() if str(p["loc"][0]) == name)
+                found.append(diagnostic("BT0030", place, setting=name, problem=message))
+                rows.pop(name, None)
+    return Settings(), tuple(found)
+
+
+def _clean_value(value: Any) -> Any:
+    if isinstance(value, str):
+        return value if is_clean(value) else clean(value)
+    if isinstance(value, dict):
+        return {key: _clean_value(item) for key, item in value.items() if isinstance(key, str)}
+    return value

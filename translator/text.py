@@ -1,0 +1,45 @@
+"""Text that every format of ours can hold: no control characters, no lone surrogates."""
+
+from __future__ import annotations
+
+import re
+from functools import lru_cache
+from xml.parsers import expat
+
+# XML 1.0 has no way to write these, not even as a character reference.
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+# What BehaviorTree.CPP 4.9+ forbids in the IDs of trees and nodes; it would end a path or a tag.
+_BAD_IN_ID = re.compile(r"[\s/\\:*?|.<>&\"'\x00-\x1f]")
+
+
+def is_clean(text: str) -> bool:
+    """Whether XML can hold the text."""
+    return _FORBIDDEN.search(text) is None
+
+
+def clean(text: str) -> str:
+    """Returns the text with what XML cannot hold replaced by U+FFFD."""
+    return _FORBIDDEN.sub("\ufffd", text)
+
+
+def bad_character(identifier: str) -> str | None:
+    """Returns the first character that may not stand in the ID of a tree or a node."""
+    found = _BAD_IN_ID.search(identifier) or _FORBIDDEN.search(identifier)
+    return found.group() if found else None
+
+
+def is_valid_id(identifier: str) -> bool:
+    """Whether the text can be the ID of a tree or the type of a node."""
+    return bool(identifier) and bad_character(identifier) is None and identifier.lower() != "root"
+
+
+@lru_cache(maxsize=4096)
+def is_xml_name(name: str) -> bool:
+    """Whether the text can be an XML tag or attribute; asks expat, since it reads the file later."""
+    if ":" in name or not name or re.search(r"[\s<>/=\"'&?!]", name) or not is_clean(name):
+        return False
+    try:
+        expat.ParserCreate("utf-8").Parse(f"<{name}/>".encode(), True)  # noqa: FBT003
+    except expat.ExpatError:
+        return False
+    return True

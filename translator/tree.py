@@ -1,0 +1,209 @@
+"""The tree that every format goes through: immutable, typed, with queries and structural edits.
+
+A `Tree` holds its nodes by id; ids are stable over edits and formats. The order of `children`
+is the order of execution. Nodes that are no descendants of the root belong to `drafts`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Mapping
+
+    from translator.catalog import PortModel
+
+SUBTREE = "SubTree"
+PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
+POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
+CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
+EMPTY: Mapping[str, str] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Line and column (both from 1) where a node stands in its file."""
+
+    line: int
+    column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs know."""
+
+    id: str
+    type: str
+    name: str = ""
+    tree: str = ""
+    ports: Mapping[str, str] = field(default_factory=dict)
+    conditions: Mapping[str, str] = field(default_factory=dict)
+    attributes: Mapping[str, str] = field(default_factory=dict)
+    children: tuple[str, ...] = ()
+    position: tuple[float, float] | None = None
+    comment: str = ""
+    color: str = ""
+    disabled: bool = False
+    collapsed: bool = False
+    span: Span | None = field(default=None, compare=False)
+
+    @property
+    def is_subtree(self) -> bool:
+        """Whether the node calls another tree."""
+        return self.type == SUBTREE
+
+    @property
+    def autoremap(self) -> bool:
+        """Whether a SubTree shares the names of its caller."""
+        return self.attributes.get("_autoremap", "").lower() in {"true", "1"}
+
+    @property
+    def label(self) -> str:
+        """What a message calls the node."""
+        return self.name or self.tree or self.type
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """One behaviour tree. `ports` is its model as a SubTree, where it has one."""
+
+    id: str
+    root: str | None
+    nodes: Mapping[str, Node]
+    drafts: tuple[str, ...] = ()
+    layout: str = ""
+    ports: tuple[PortModel, ...] = ()
+    attributes: Mapping[str, str] = field(default_factory=dict)
+    file: str = field(default="", compare=False)
+
+    def walk(self, start: str | None = None) -> Iterator[Node]:
+        """Yields the nodes in order of execution, from the root or from `start`; never recurses."""
+        stack = [start if start is not None else self.root]
+        while stack:
+            node_id = stack.pop()
+            if node_id is None or (node := self.nodes.get(node_id)) is None:
+                continue
+            yield node
+            stack.extend(reversed(node.children))
+
+    def post_order(self) -> Iterator[Node]:
+        """Yields the nodes of the running tree, children before parents."""
+        yield from reversed(list(self.walk()))
+
+    def parents(self) -> dict[str, str]:
+        """Returns each child's parent."""
+        return {child: node.id for node in self.nodes.values() for child in node.children}
+
+    def subtree_calls(self) -> Iterator[Node]:
+        """Yields the SubTree nodes of the running tree."""
+        return (node for node in self.walk() if node.is_subtree)
+
+    def depth(self) -> int:
+        """Returns the number of levels of the running tree."""
+        depths: dict[str, int] = {}
+        deepest = 0
+        for node in self.walk():
+            level = depths.get(node.id, 1)
+            deepest = max(deepest, level)
+            depths.update((child, level + 1) for child in node.children)
+        return deepest
+
+    def fresh_id(self) -> str:
+        """Returns a node id that the tree does not use."""
+        number = len(self.nodes) + 1
+        while f"n{number}" in self.nodes:
+            number += 1
+        return f"n{number}"
+
+    def with_node(self, node: Node) -> Tree:
+        """Returns the tree with the node added or replaced; where it hangs is not changed."""
+        return replace(self, nodes={**self.nodes, node.id: node})
+
+    def edited(self, node_id: str, **changes: Any) -> Tree:
+        """Returns the tree with fields of one node changed."""
+        return self.with_node(replace(self.nodes[node_id], **changes))
+
+    def inserted(self, node: Node, *, parent: str, index: int | None = None) -> Tree:
+        """Returns the tree with a new node as the `index`-th child of `parent` (last, if not given)."""
+        siblings = list(self.nodes[parent].children)
+        siblings.insert(len(siblings) if index is None else index, node.id)
+        return self.with_node(node).edited(parent, children=tuple(siblings))
+
+    def removed(self, node_id: str) -> Tree:
+        """Returns the tree without the node and all that hangs below it."""
+        gone = {node.id for node in self.walk(node_id)}
+        nodes = {
+            key: replace(node, children=tuple(child for child in node.children if child not in gone))
+            if not gone.isdisjoint(node.children)
+            else node
+            for key, node in self.nodes.items()
+            if key not in gone
+        }
+        return replace(
+            self,
+            nodes=nodes,
+            root=None if self.root in gone else self.root,
+            drafts=tuple(draft for draft in self.drafts if draft not in gone),
+        )
+
+    def moved(self, node_id: str, *, parent: str, index: int | None = None) -> Tree:
+        """Returns the tree with a branch hung below another parent.
+
+        Raises:
+            ValueError: If the new parent is inside the branch.
+        """
+        if any(node.id == parent for node in self.walk(node_id)):
+            raise ValueError(f"{node_id} cannot hang below itself")
+        nodes = {
+            key: replace(node, children=tuple(child for child in node.children if child != node_id))
+            if node_id in node.children
+            else node
+            for key, node in self.nodes.items()
+        }
+        drafts = tuple(draft for draft in self.drafts if draft != node_id)
+        tree = replace(self, nodes=nodes, drafts=drafts)
+        return tree.inserted(tree.nodes[node_id], parent=parent, index=index)
+
+    def renamed_type(self, old: str, new: str) -> Tree:
+        """Returns the tree with all nodes of one type given another, as when an action is renamed."""
+        return self._mapped(lambda node: replace(node, type=new) if node.type == old else node)
+
+    def retargeted(self, old: str, new: str) -> Tree:
+        """Returns the tree with all calls of one tree turned to another, as when a tree is renamed."""
+        return self._mapped(
+            lambda node: replace(node, tree=new) if node.is_subtree and node.tree == old else node
+        )
+
+    def _mapped(self, change: Callable[[Node], Node]) -> Tree:
+        return replace(self, nodes={key: change(node) for key, node in self.nodes.items()})
+
+
+def pointer(text: str, port: str = "") -> str | None:
+    """Returns the blackboard key that a port's text names, or None for a literal.
+
+    `{=}` is the entry named like the port. Outer blanks are allowed, as in BT.CPP.
+    """
+    stripped = text.strip()
+    if len(stripped) < 3 or stripped[0] != "{" or stripped[-1] != "}":
+        return None
+    key = stripped[1:-1]
+    return port if key == "=" else key
+
+
+def reachable_trees(trees: Mapping[str, Tree], main: str) -> list[str]:
+    """Returns the ids of the trees that `main` calls, itself first, in order of first call."""
+    found: dict[str, None] = {}
+    stack = [main]
+    while stack:
+        tree_id = stack.pop()
+        if tree_id in found or tree_id not in trees:
+            continue
+        found[tree_id] = None
+        stack.extend(reversed([node.tree for node in trees[tree_id].subtree_calls()]))
+    return list(found)
+
+
+def used_types(trees: Iterable[Tree]) -> set[str]:
+    """Returns the types of all nodes of the running trees."""
+    return {node.type for tree in trees for node in tree.walk()}

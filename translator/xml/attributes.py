@@ -1,0 +1,107 @@
+"""How a node's properties stand in XML attributes, in both directions.
+
+Attributes that begin with `_` are ignored by BehaviorTree.CPP, but for conditions and `_autoremap`:
+that is where ids, positions, colours and comments travel.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from translator.text import is_xml_name
+from translator.tree import CONDITIONS, SUBTREE, Node
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+ID = "_bts_id"
+POSITION = "_bts_pos"
+COLOR = "_bts_color"
+COLLAPSED = "_bts_collapsed"
+DISABLED = "_bts_disabled"
+COMMENT = "_description"
+METADATA = (COMMENT, ID, POSITION, COLOR, COLLAPSED, DISABLED)
+# A disabled node must be skipped whatever its own conditions say; they wait under other names.
+HIDDEN = {name: f"_bts_{name[1:]}" for name in ("_failureIf", "_successIf", "_skipIf")}
+_SHOWN = {hidden: name for name, hidden in HIDDEN.items()}
+_RESERVED = {"name", "ID", *METADATA, *CONDITIONS, *_SHOWN}
+
+
+def is_free(name: str) -> bool:
+    """Whether an attribute may be kept for another program: of its own, and ignored by BehaviorTree.CPP."""
+    return name.startswith("_") and name not in _RESERVED and is_xml_name(name)
+
+
+def to_attributes(node: Node) -> dict[str, str]:
+    """Returns the attributes of a node in their canonical order."""
+    result: dict[str, str] = {}
+    if node.type == SUBTREE:
+        result["ID"] = node.tree
+    if node.name:
+        result["name"] = node.name
+    for name, text in node.ports.items():
+        result.setdefault(name, text)
+    result.update((name, text) for name, text in node.attributes.items() if is_free(name))
+    for name, text in node.conditions.items():
+        result[HIDDEN.get(name, name) if node.disabled else name] = text
+    if node.disabled:
+        result["_skipIf"] = "true"
+        result[DISABLED] = "1"
+    if node.comment:
+        result[COMMENT] = node.comment
+    result[ID] = node.id
+    if node.position is not None:
+        result[POSITION] = ";".join(_number(value) for value in node.position)
+    if node.color:
+        result[COLOR] = node.color
+    if node.collapsed:
+        result[COLLAPSED] = "1"
+    return result
+
+
+def from_attributes(attributes: Mapping[str, str], *, is_subtree: bool) -> dict[str, Any]:
+    """Returns the fields of a node that its attributes give; `id` is missing where there is no metadata."""
+    fields: dict[str, Any] = {"ports": {}, "conditions": {}, "attributes": {}}
+    disabled = attributes.get(DISABLED) == "1" and attributes.get("_skipIf") == "true"
+    for name, text in attributes.items():
+        if name == "name":
+            fields["name"] = text
+        elif name == "ID":
+            if is_subtree:
+                fields["tree"] = text
+        elif name in METADATA:
+            _set_metadata(fields, name, text)
+        elif disabled and name in _SHOWN:
+            fields["conditions"][_SHOWN[name]] = text
+        elif name in CONDITIONS:
+            if not (disabled and name == "_skipIf"):
+                fields["conditions"][name] = text
+        else:
+            fields["attributes" if name.startswith("_") else "ports"][name] = text
+    fields["disabled"] = disabled
+    return fields
+
+
+def _set_metadata(fields: dict[str, Any], name: str, text: str) -> None:
+    if name == ID:
+        fields["id"] = text
+    elif name == COMMENT:
+        fields["comment"] = text
+    elif name == COLOR:
+        fields["color"] = text
+    elif name == COLLAPSED:
+        fields["collapsed"] = text == "1"
+    elif name == POSITION:
+        fields["position"] = _position(text)
+
+
+def _position(text: str) -> tuple[float, float] | None:
+    try:
+        x, y = (float(part) for part in text.split(";"))
+    except ValueError:
+        return None
+    return (x, y) if abs(x) < 1e9 and abs(y) < 1e9 else None
+
+
+def _number(value: float) -> str:
+    return str(int(value)) if value == int(value) else repr(float(value))

@@ -1,0 +1,132 @@
+/** Diagram JSON, `trees/<TreeID>.json` (docs/reference: formats): types and plain queries. */
+
+export type NodeId = string;
+export type Orientation = 'vertical' | 'horizontal';
+export type Point = readonly [x: number, y: number];
+
+export interface DiagramNode {
+  readonly type: string;
+  readonly name?: string;
+  /** The BehaviorTree ID, of a `SubTree` alone. */
+  readonly tree?: string;
+  readonly ports?: Readonly<Record<string, string>>;
+  readonly children?: readonly NodeId[];
+  /** `_skipIf`, `_while`, `_onSuccess` and the like. */
+  readonly conditions?: Readonly<Record<string, string>>;
+  readonly comment?: string;
+  readonly color?: string;
+  readonly disabled?: boolean;
+  readonly collapsed?: boolean;
+  readonly position?: Point;
+  /** Unknown attributes of an imported XML element, kept for the way back. */
+  readonly attributes?: Readonly<Record<string, string>>;
+}
+
+export interface Diagram {
+  readonly format: 'bt-studio/diagram';
+  readonly version: 1;
+  readonly id: string;
+  readonly root: NodeId | null;
+  readonly nodes: Readonly<Record<NodeId, DiagramNode>>;
+  /** Roots of pieces that are not connected yet: saved, never translated. */
+  readonly drafts: readonly NodeId[];
+  readonly layout: Orientation;
+}
+
+export function emptyDiagram(id: string): Diagram {
+  return {
+    format: 'bt-studio/diagram',
+    version: 1,
+    id,
+    root: null,
+    nodes: {},
+    drafts: [],
+    layout: 'vertical',
+  };
+}
+
+export function childrenOf(diagram: Diagram, id: NodeId): readonly NodeId[] {
+  return diagram.nodes[id]?.children ?? [];
+}
+
+/** Every node's parent; roots and drafts are absent. */
+export function parentsOf(diagram: Diagram): ReadonlyMap<NodeId, NodeId> {
+  const parents = new Map<NodeId, NodeId>();
+  for (const [id, node] of Object.entries(diagram.nodes)) {
+    for (const child of node.children ?? []) parents.set(child, id);
+  }
+  return parents;
+}
+
+export function parentOf(diagram: Diagram, id: NodeId): NodeId | null {
+  for (const [parent, node] of Object.entries(diagram.nodes)) {
+    if (node.children?.includes(id)) return parent;
+  }
+  return null;
+}
+
+/** The tops of the forest: the root if there is one, then the drafts. */
+export function topsOf(diagram: Diagram): readonly NodeId[] {
+  return diagram.root === null ? diagram.drafts : [diagram.root, ...diagram.drafts];
+}
+
+/** `id` and all below it, in pre-order. */
+export function subtreeOf(diagram: Diagram, id: NodeId): NodeId[] {
+  const found: NodeId[] = [];
+  const open = [id];
+  for (let next = open.pop(); next !== undefined; next = open.pop()) {
+    if (!diagram.nodes[next]) continue;
+    found.push(next);
+    open.push(...[...childrenOf(diagram, next)].reverse());
+  }
+  return found;
+}
+
+/** All nodes in pre-order: the tree in execution order, then the drafts. */
+export function preorder(diagram: Diagram): NodeId[] {
+  return topsOf(diagram).flatMap((top) => subtreeOf(diagram, top));
+}
+
+export function isWithin(diagram: Diagram, id: NodeId, ancestor: NodeId): boolean {
+  return subtreeOf(diagram, ancestor).includes(id);
+}
+
+/** Of a selection, the nodes that have no selected ancestor, in execution order. */
+export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
+  const wanted = new Set(ids);
+  const parents = parentsOf(diagram);
+  const covered = (id: NodeId): boolean => {
+    for (let up = parents.get(id); up !== undefined; up = parents.get(up)) {
+      if (wanted.has(up)) return true;
+    }
+    return false;
+  };
+  return preorder(diagram).filter((id) => wanted.has(id) && !covered(id));
+}
+
+/** What people call the node: its instance name, else the tree it stands for, else its type. */
+export function displayName(node: DiagramNode): string {
+  return node.name ?? node.tree ?? node.type;
+}
+
+/** Trees that a diagram uses as subtrees. */
+export function treesUsed(diagram: Diagram): ReadonlySet<string> {
+  const used = new Set<string>();
+  for (const node of Object.values(diagram.nodes)) {
+    if (node.type === 'SubTree' && node.tree) used.add(node.tree);
+  }
+  return used;
+}
+
+/** A node id that the diagram does not have; `random` is an argument so that tests repeat. */
+export function freshId(
+  taken: Readonly<Record<NodeId, unknown>>,
+  random: () => number = Math.random,
+): NodeId {
+  for (;;) {
+    const id = `n${Math.floor(random() * 36 ** 6)
+      .toString(36)
+      .padStart(6, '0')}`;
+    if (!(id in taken)) return id;
+  }
+}

@@ -1,0 +1,89 @@
+import { enablePatches, produceWithPatches, type Draft, type Patch } from 'immer';
+import type { Diagram, DiagramNode, NodeId } from '../diagram';
+import type { Placement } from '../rules';
+
+enablePatches();
+
+/** A change to a diagram, written as if it were mutable; `edit()` makes it pure and invertible. */
+export type Recipe = (draft: Draft<Diagram>) => void;
+
+export interface Edited {
+  readonly diagram: Diagram;
+  readonly patches: readonly Patch[];
+  readonly inverse: readonly Patch[];
+}
+
+/** Applies recipes in order; the input stays as it was. */
+export function edit(diagram: Diagram, ...recipes: readonly Recipe[]): Edited {
+  const [next, patches, inverse] = produceWithPatches(diagram, (draft) => {
+    for (const recipe of recipes) recipe(draft);
+  });
+  return { diagram: next, patches, inverse };
+}
+
+/** A node that must be there: recipes are made from what the user sees, so absence is a bug. */
+export function nodeOf(draft: Draft<Diagram>, id: NodeId): Draft<DiagramNode> {
+  const node = draft.nodes[id];
+  if (!node) throw new Error(`There is no node ${id} in ${draft.id}.`);
+  return node;
+}
+
+export function findParent(draft: Draft<Diagram>, id: NodeId): NodeId | null {
+  for (const [parent, node] of Object.entries(draft.nodes)) {
+    if (node.children?.includes(id)) return parent;
+  }
+  return null;
+}
+
+/** Where a node hangs now. */
+export function placementOf(draft: Draft<Diagram>, id: NodeId): Placement {
+  if (draft.root === id) return { at: 'root' };
+  const parent = findParent(draft, id);
+  if (parent !== null)
+    return { at: 'child', parent, index: nodeOf(draft, parent).children?.indexOf(id) ?? 0 };
+  return { at: 'draft' };
+}
+
+/** Takes a node out of its place; it must be put back somewhere, or deleted, by the same recipe. */
+export function detach(draft: Draft<Diagram>, id: NodeId): void {
+  if (draft.root === id) draft.root = null;
+  draft.drafts = draft.drafts.filter((other) => other !== id);
+  const parent = findParent(draft, id);
+  if (parent === null) return;
+  const node = nodeOf(draft, parent);
+  node.children = (node.children ?? []).filter((child) => child !== id);
+  if (node.children.length === 0) delete node.children;
+}
+
+/** Hangs a detached node. A new root makes the old one a draft: nothing is lost. */
+export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): void {
+  switch (place.at) {
+    case 'root':
+      if (draft.root !== null) draft.drafts.push(draft.root);
+      draft.root = id;
+      delete nodeOf(draft, id).position;
+      return;
+    case 'draft':
+      draft.drafts.push(id);
+      if (place.position) nodeOf(draft, id).position = [...place.position];
+      return;
+    case 'child': {
+      const parent = nodeOf(draft, place.parent);
+      const children = parent.children ?? [];
+      children.splice(Math.max(0, Math.min(place.index, children.length)), 0, id);
+      parent.children = children;
+      delete nodeOf(draft, id).position;
+      return;
+    }
+  }
+}
+
+/** Sets an optional field, or removes it where the value says nothing. */
+export function assign<K extends keyof DiagramNode>(
+  node: Draft<DiagramNode>,
+  key: K,
+  value: Draft<DiagramNode>[K] | undefined,
+): void {
+  if (value === undefined || value === '' || value === false) delete node[key];
+  else node[key] = value;
+}

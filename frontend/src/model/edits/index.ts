@@ -1,0 +1,3 @@
+export { edit, type Recipe } from './core';
+export * from './fields';
+export * from './structure';

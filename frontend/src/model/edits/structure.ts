@@ -1,0 +1,161 @@
+import type { Draft } from 'immer';
+import { subtreeOf, topmost, type Diagram, type DiagramNode, type NodeId } from '../diagram';
+import type { Kind, Placement } from '../rules';
+import { attach, detach, nodeOf, placementOf, type Recipe } from './core';
+
+/** Adds a new node. */
+export function addNode(id: NodeId, node: DiagramNode, place: Placement): Recipe {
+  return (draft) => {
+    draft.nodes[id] = { ...(node as Draft<DiagramNode>) };
+    attach(draft, id, place);
+  };
+}
+
+/** Moves a node with all below it. An index counts the children as they are before the move. */
+export function moveNode(id: NodeId, place: Placement): Recipe {
+  return (draft) => {
+    let target = place;
+    if (place.at === 'child') {
+      const from = placementOf(draft, id);
+      if (from.at === 'child' && from.parent === place.parent && from.index < place.index) {
+        target = { ...place, index: place.index - 1 };
+      }
+    }
+    detach(draft, id);
+    attach(draft, id, target);
+  };
+}
+
+/** Moves a node among its siblings by so many places. */
+export function reorder(id: NodeId, by: number): Recipe {
+  return (draft) => {
+    const from = placementOf(draft, id);
+    if (from.at !== 'child') return;
+    const count = nodeOf(draft, from.parent).children?.length ?? 0;
+    const index = Math.max(0, Math.min(count - 1, from.index + by));
+    if (index === from.index) return;
+    detach(draft, id);
+    attach(draft, id, { ...from, index });
+  };
+}
+
+/** Removes nodes with all below them. */
+export function removeSubtrees(ids: readonly NodeId[]): Recipe {
+  return (draft) => {
+    for (const id of topmost(draft, ids)) {
+      const gone = subtreeOf(draft, id);
+      detach(draft, id);
+      for (const each of gone) delete draft.nodes[each];
+    }
+  };
+}
+
+/** Removes a node and gives its children its place. At the top, the first child takes it, the others become drafts. */
+export function unwrap(id: NodeId): Recipe {
+  return (draft) => {
+    const children = [...(nodeOf(draft, id).children ?? [])];
+    const place = placementOf(draft, id);
+    delete nodeOf(draft, id).children;
+    detach(draft, id);
+    delete draft.nodes[id];
+    children.forEach((child, offset) => {
+      if (place.at === 'child') attach(draft, child, { ...place, index: place.index + offset });
+      else attach(draft, child, offset === 0 ? place : { at: 'draft' });
+    });
+  };
+}
+
+/** Puts a new node above the given siblings, in their order, at the place of the first. */
+export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
+  return (draft) => {
+    const inside = topmost(draft, ids);
+    const [first] = inside;
+    if (first === undefined) return;
+    const place = placementOf(draft, first);
+    const position = nodeOf(draft, first).position;
+    inside.forEach((each) => {
+      detach(draft, each);
+    });
+    draft.nodes[id] = { ...kind };
+    attach(draft, id, place);
+    if (place.at === 'draft' && position) nodeOf(draft, id).position = [position[0], position[1]];
+    inside.forEach((each, index) => {
+      attach(draft, each, { at: 'child', parent: id, index });
+    });
+  };
+}
+
+/** Changes the type in place. Ports that the new type does not have are dropped when it is closed. */
+export function morph(id: NodeId, kind: Kind, keepPort: (name: string) => boolean): Recipe {
+  return (draft) => {
+    const node = nodeOf(draft, id);
+    node.type = kind.type;
+    if (kind.tree === undefined) delete node.tree;
+    else node.tree = kind.tree;
+    const kept = Object.entries(node.ports ?? {}).filter(([name]) => keepPort(name));
+    if (kept.length > 0) node.ports = Object.fromEntries(kept);
+    else delete node.ports;
+  };
+}
+
+/** A piece of a tree outside of any diagram: of the clipboard, a duplicate, another tree. */
+export interface Fragment {
+  readonly tops: readonly NodeId[];
+  readonly nodes: Readonly<Record<NodeId, DiagramNode>>;
+}
+
+/** Copies nodes with all below them. */
+export function fragmentOf(diagram: Diagram, ids: readonly NodeId[]): Fragment {
+  const tops = topmost(diagram, ids);
+  const nodes: Record<NodeId, DiagramNode> = {};
+  for (const id of tops.flatMap((top) => subtreeOf(diagram, top))) {
+    const node = diagram.nodes[id];
+    if (node) nodes[id] = node;
+  }
+  return { tops, nodes };
+}
+
+/** Gives every node of a fragment a new id. */
+export function withFreshIds(
+  fragment: Fragment,
+  fresh: (taken: Record<NodeId, unknown>) => NodeId,
+): Fragment {
+  const names = new Map<NodeId, NodeId>();
+  const taken: Record<NodeId, unknown> = {};
+  for (const id of Object.keys(fragment.nodes)) {
+    const name = fresh(taken);
+    taken[name] = true;
+    names.set(id, name);
+  }
+  const renamed = (id: NodeId): NodeId => names.get(id) ?? id;
+  return {
+    tops: fragment.tops.map(renamed),
+    nodes: Object.fromEntries(
+      Object.entries(fragment.nodes).map(([id, node]) => [
+        renamed(id),
+        node.children ? { ...node, children: node.children.map(renamed) } : node,
+      ]),
+    ),
+  };
+}
+
+/** Adds a fragment whose ids are new to the diagram. */
+export function insertFragment(fragment: Fragment, place: Placement): Recipe {
+  return (draft) => {
+    for (const [id, node] of Object.entries(fragment.nodes)) {
+      draft.nodes[id] = {
+        ...(node as Draft<DiagramNode>),
+        ...(node.children ? { children: [...node.children] } : {}),
+      };
+    }
+    fragment.tops.forEach((top, offset) => {
+      let target: Placement = place;
+      if (place.at === 'child') target = { ...place, index: place.index + offset };
+      else if (place.at === 'root' && offset > 0) target = { at: 'draft' };
+      else if (place.at === 'draft' && place.position) {
+        target = { at: 'draft', position: [place.position[0] + 40 * offset, place.position[1]] };
+      }
+      attach(draft, top, target);
+    });
+  };
+}

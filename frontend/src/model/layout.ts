@@ -1,0 +1,133 @@
+import { flextree } from 'd3-flextree';
+import { childrenOf, topsOf, type Diagram, type NodeId, type Orientation } from './diagram';
+import { measureNode, type Size } from './measure';
+import { specOf, type Vocabulary } from './vocabulary';
+
+export interface Box {
+  readonly x: number;
+  readonly y: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface Layout {
+  readonly positions: Readonly<Record<NodeId, Box>>;
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface LayoutOptions {
+  readonly orientation?: Orientation;
+  /** Puts every block where the algorithm wants it, as `tidy` will. */
+  readonly ignorePositions?: boolean;
+}
+
+export const GAP = { siblings: 24, levels: 56, trees: 64 } as const;
+
+type Mutable = { -readonly [K in keyof Box]: Box[K] };
+
+/** Children that are drawn: none below a folded block. */
+export function visibleChildren(diagram: Diagram, id: NodeId): readonly NodeId[] {
+  return diagram.nodes[id]?.collapsed ? [] : childrenOf(diagram, id);
+}
+
+/** Lays one tree out with its root's top left corner at the origin, parents centred over their children. */
+function arrange(
+  diagram: Diagram,
+  top: NodeId,
+  orientation: Orientation,
+  sizeOf: (id: NodeId) => Size,
+): Map<NodeId, Mutable> {
+  const vertical = orientation === 'vertical';
+  const layout = flextree<NodeId>({
+    children: (id) => visibleChildren(diagram, id),
+    nodeSize: (node) => {
+      const { width, height } = sizeOf(node.data);
+      return vertical ? [width, height + GAP.levels] : [height, width + GAP.levels];
+    },
+    spacing: () => GAP.siblings,
+  });
+  const placed = new Map<NodeId, Mutable>();
+  layout(layout.hierarchy(top)).each((node) => {
+    const { width, height } = sizeOf(node.data);
+    const box = vertical
+      ? { x: node.x - width / 2, y: node.y, width, height }
+      : { x: node.y, y: node.x - height / 2, width, height };
+    placed.set(node.data, box);
+  });
+  const origin = placed.get(top);
+  shift(placed.values(), -(origin?.x ?? 0), -(origin?.y ?? 0));
+  return placed;
+}
+
+function shift(boxes: Iterable<Mutable>, dx: number, dy: number): void {
+  for (const box of boxes) {
+    box.x = Math.round(box.x + dx);
+    box.y = Math.round(box.y + dy);
+  }
+}
+
+/** Moves every block that the user placed, with what hangs below it, to where they put it. */
+function applyPositions(diagram: Diagram, top: NodeId, placed: Map<NodeId, Mutable>): void {
+  const visit = (id: NodeId, dx: number, dy: number): void => {
+    const box = placed.get(id);
+    if (!box) return;
+    const wanted = diagram.nodes[id]?.position;
+    const moveX = wanted ? wanted[0] - box.x : dx;
+    const moveY = wanted ? wanted[1] - box.y : dy;
+    box.x += moveX;
+    box.y += moveY;
+    for (const child of visibleChildren(diagram, id)) visit(child, moveX, moveY);
+  };
+  visit(top, 0, 0);
+}
+
+function bounds(boxes: Iterable<Box>): { right: number; bottom: number; left: number; top: number } {
+  let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const box of boxes) {
+    left = Math.min(left, box.x);
+    top = Math.min(top, box.y);
+    right = Math.max(right, box.x + box.width);
+    bottom = Math.max(bottom, box.y + box.height);
+  }
+  return { left, top, right, bottom };
+}
+
+/**
+ * Positions (top left corners) and sizes of all visible blocks. Blocks without a position of their
+ * own never overlap; the tree's root is at the origin, drafts without a position stand beside it.
+ */
+export function layoutTree(diagram: Diagram, vocabulary?: Vocabulary, options: LayoutOptions = {}): Layout {
+  const orientation = options.orientation ?? diagram.layout;
+  const sizes = new Map<NodeId, Size>();
+  const sizeOf = (id: NodeId): Size => {
+    const known = sizes.get(id);
+    if (known) return known;
+    const node = diagram.nodes[id] ?? { type: '' };
+    const size = measureNode(node, vocabulary && specOf(vocabulary, node));
+    sizes.set(id, size);
+    return size;
+  };
+  const positions: Record<NodeId, Box> = {};
+  let occupied = { left: 0, top: 0, right: -Infinity, bottom: -Infinity };
+  for (const top of topsOf(diagram)) {
+    const placed = arrange(diagram, top, orientation, sizeOf);
+    const fixed = !options.ignorePositions && diagram.nodes[top]?.position !== undefined;
+    if (!fixed && occupied.right > -Infinity) {
+      const own = bounds(placed.values());
+      shift(placed.values(), occupied.right + GAP.trees - own.left, occupied.top - own.top);
+    }
+    if (!options.ignorePositions) applyPositions(diagram, top, placed);
+    for (const [id, box] of placed) positions[id] = box;
+    const own = bounds(placed.values());
+    occupied = {
+      left: Math.min(occupied.left, own.left),
+      top: Math.min(occupied.top, own.top),
+      right: Math.max(occupied.right, own.right),
+      bottom: Math.max(occupied.bottom, own.bottom),
+    };
+  }
+  const all = bounds(Object.values(positions));
+  const empty = all.right === -Infinity;
+  return { positions, width: empty ? 0 : all.right - all.left, height: empty ? 0 : all.bottom - all.top };
+}

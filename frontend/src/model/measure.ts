@@ -1,0 +1,79 @@
+import { displayName, type DiagramNode } from './diagram';
+import type { NodeSpec } from './vocabulary';
+
+/**
+ * Sizes of blocks, computed from their content, so that layout needs no browser and blocks no
+ * measuring. The canvas draws blocks with exactly these numbers (features/canvas/block.css).
+ */
+export const BLOCK = {
+  minWidth: 132,
+  maxWidth: 264,
+  header: 44,
+  tile: 44,
+  portRow: 22,
+  portsPadding: 8,
+  maxPorts: 6,
+} as const;
+
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** A line of ports as a block shows it. */
+export interface PortLine {
+  readonly name: string;
+  /** null: nothing is set, the default is used. */
+  readonly value: string | null;
+  readonly default: string | null;
+  readonly required: boolean;
+  readonly direction: 'input' | 'output' | 'inout';
+}
+
+/** The declared ports in their order, then those set beyond them. */
+export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLine[] {
+  const declared = (spec?.ports ?? []).map((port) => ({
+    name: port.name,
+    value: node.ports?.[port.name] ?? null,
+    default: port.default,
+    required: port.required,
+    direction: port.direction,
+  }));
+  const known = new Set(declared.map((line) => line.name));
+  const extra = Object.entries(node.ports ?? {})
+    .filter(([name]) => !known.has(name))
+    .map(([name, value]) => ({ name, value, default: null, required: false, direction: 'input' as const }));
+  return [...declared, ...extra];
+}
+
+const NARROW = /[iljtfrI.,:;'|()[\]{} ]/;
+const WIDE = /[mwMW@%]/;
+
+/** Width of a text in an em of 1, roughly: Inter's narrow, wide, capital and other letters. */
+function emWidth(text: string): number {
+  let width = 0;
+  for (const letter of text) {
+    if (NARROW.test(letter)) width += 0.33;
+    else if (WIDE.test(letter)) width += 0.9;
+    else if (letter.charCodeAt(0) > 0x2e80) width += 1.05;
+    else if (letter !== letter.toLowerCase()) width += 0.7;
+    else width += 0.59;
+  }
+  return width;
+}
+
+export function measureNode(node: DiagramNode, spec: NodeSpec | undefined): Size {
+  const lines = portLines(node, spec);
+  const name = emWidth(displayName(node)) * 14;
+  const type = emWidth(node.type) * 11.5;
+  const badges = (node.comment ? 18 : 0) + (node.conditions ? 18 : 0);
+  const title = BLOCK.tile + Math.max(name, type + badges) + 34;
+  const ports = lines
+    .slice(0, BLOCK.maxPorts)
+    .map((line) => emWidth(line.name) * 12 + (line.value ?? line.default ?? '—').length * 7.3 + 38);
+  const width = Math.max(BLOCK.minWidth, Math.min(BLOCK.maxWidth, Math.max(title, ...ports)));
+  const rows = Math.min(lines.length, BLOCK.maxPorts) + (lines.length > BLOCK.maxPorts ? 1 : 0);
+  const height = BLOCK.header + (rows > 0 ? rows * BLOCK.portRow + BLOCK.portsPadding : 0);
+  // Even numbers keep centred edges on whole pixels.
+  return { width: 2 * Math.ceil(width / 2), height };
+}

@@ -1,0 +1,87 @@
+import { childrenOf, isWithin, parentOf, subtreeOf, type Diagram, type NodeId } from './diagram';
+import { specOf, wouldRecurse, type NodeSpec, type Vocabulary } from './vocabulary';
+
+/** What a new block is: a type and, of a `SubTree`, the tree. */
+export interface Kind {
+  readonly type: string;
+  readonly tree?: string;
+}
+
+/** Unknown types may keep the children that they have, and get no more. */
+function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number {
+  const node = diagram.nodes[id];
+  if (!node) return 0;
+  return specOf(vocabulary, node)?.maxChildren ?? childrenOf(diagram, id).length;
+}
+
+/** Whether `id` may have one more child; `moving` is a child that is only changing its place. */
+export function acceptsChild(diagram: Diagram, id: NodeId, vocabulary: Vocabulary, moving?: NodeId): boolean {
+  const children = childrenOf(diagram, id);
+  const count = moving !== undefined && children.includes(moving) ? children.length - 1 : children.length;
+  return count < capacity(diagram, id, vocabulary);
+}
+
+/** Whether `id` with all below it may hang under `parent`. */
+export function canMoveUnder(diagram: Diagram, id: NodeId, parent: NodeId, vocabulary: Vocabulary): boolean {
+  return (
+    id in diagram.nodes && !isWithin(diagram, parent, id) && acceptsChild(diagram, parent, vocabulary, id)
+  );
+}
+
+/** Whether a block of this kind may be in this tree at all. */
+export function isKindLegal(diagram: Diagram, kind: Kind, vocabulary: Vocabulary): boolean {
+  return !(kind.type === 'SubTree' && kind.tree && wouldRecurse(vocabulary, diagram.id, kind.tree));
+}
+
+/** Whether a node may become this type with the children that it has. */
+export function canMorph(diagram: Diagram, id: NodeId, spec: NodeSpec): boolean {
+  const count = childrenOf(diagram, id).length;
+  return count <= spec.maxChildren;
+}
+
+/** Whether a new node of this type may be put between a node and its parent. */
+export function canWrapIn(spec: NodeSpec): boolean {
+  return spec.maxChildren > 0;
+}
+
+/** Whether removing the node alone leaves its children a legal place. */
+export function canUnwrap(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): boolean {
+  const count = childrenOf(diagram, id).length;
+  if (count === 0) return false;
+  const parent = parentOf(diagram, id);
+  if (parent === null) return true;
+  return childrenOf(diagram, parent).length - 1 + count <= capacity(diagram, parent, vocabulary);
+}
+
+/**
+ * Where a click in the palette puts a block: under the selected node, beside it, at the root, or free.
+ */
+export type Placement =
+  | { readonly at: 'root' }
+  | { readonly at: 'child'; readonly parent: NodeId; readonly index: number }
+  | { readonly at: 'draft'; readonly position?: readonly [number, number] };
+
+export function bestPlacement(
+  diagram: Diagram,
+  selected: NodeId | undefined,
+  vocabulary: Vocabulary,
+): Placement {
+  if (diagram.root === null) return { at: 'root' };
+  for (const start of [selected, diagram.root]) {
+    for (let id: NodeId | null = start ?? null, below: NodeId | null = null; id !== null;) {
+      if (id in diagram.nodes && acceptsChild(diagram, id, vocabulary)) {
+        const children = childrenOf(diagram, id);
+        const index = below === null ? children.length : children.indexOf(below) + 1;
+        return { at: 'child', parent: id, index };
+      }
+      below = id;
+      id = parentOf(diagram, id);
+    }
+  }
+  return { at: 'draft' };
+}
+
+/** Blocks that are used in a subtree, `id` itself and its descendants: how many. */
+export function sizeOf(diagram: Diagram, id: NodeId): number {
+  return subtreeOf(diagram, id).length;
+}

@@ -1,0 +1,180 @@
+import {
+  preorder,
+  type Diagram,
+  type DiagramNode,
+  type NodeId,
+  type Orientation,
+  type Point,
+} from './diagram';
+
+/** The text is not a diagram; the message says where and why, for people. */
+export class DiagramError extends Error {
+  override readonly name = 'DiagramError';
+}
+
+type Json = Record<string, unknown>;
+
+const isObject = (value: unknown): value is Json =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
+
+function texts(value: unknown, where: string): Record<string, string> {
+  if (!isObject(value)) throw new DiagramError(`${where} must be an object of texts.`);
+  return Object.fromEntries(
+    Object.entries(value).map(([key, item]) => {
+      if (isObject(item) || Array.isArray(item)) throw new DiagramError(`${where}.${key} must be a text.`);
+      return [key, String(item)];
+    }),
+  );
+}
+
+function point(value: unknown): Point | undefined {
+  if (!Array.isArray(value) || value.length !== 2) return undefined;
+  const [x, y] = value as unknown[];
+  return Number.isFinite(x) && Number.isFinite(y) ? [Number(x), Number(y)] : undefined;
+}
+
+function ids(value: unknown, where: string): NodeId[] {
+  if (!Array.isArray(value)) throw new DiagramError(`${where} must be a list of node ids.`);
+  return value.map(String);
+}
+
+/** One node; keys that this version does not know are kept. */
+function parseNode(id: NodeId, value: unknown): DiagramNode {
+  const where = `nodes.${id}`;
+  if (!isObject(value) || typeof value['type'] !== 'string') {
+    throw new DiagramError(`${where} needs a "type".`);
+  }
+  const { children, ports, conditions, attributes, position, ...rest } = value;
+  const at = point(position);
+  return {
+    ...(rest as unknown as DiagramNode),
+    ...(ports === undefined ? {} : { ports: texts(ports, `${where}.ports`) }),
+    ...(conditions === undefined ? {} : { conditions: texts(conditions, `${where}.conditions`) }),
+    ...(attributes === undefined ? {} : { attributes: texts(attributes, `${where}.attributes`) }),
+    ...(children === undefined ? {} : { children: ids(children, `${where}.children`) }),
+    ...(at ? { position: at } : {}),
+  };
+}
+
+/**
+ * Makes the nodes a forest: links to nothing and second parents are dropped, and every piece that
+ * hangs nowhere becomes a draft, so that nothing a user wrote is lost.
+ */
+function repair(root: NodeId | null, drafts: NodeId[], nodes: Record<NodeId, DiagramNode>) {
+  const seen = new Set<NodeId>();
+  const visit = (top: NodeId): void => {
+    const open = [top];
+    seen.add(top);
+    for (let id = open.pop(); id !== undefined; id = open.pop()) {
+      const node = nodes[id];
+      if (!node?.children) continue;
+      const children = node.children.filter((child) => {
+        if (seen.has(child) || !nodes[child]) return false;
+        seen.add(child);
+        return true;
+      });
+      if (children.length !== node.children.length) nodes[id] = { ...node, children };
+      open.push(...children);
+    }
+  };
+  const top = root !== null && nodes[root] ? root : null;
+  if (top !== null) visit(top);
+  const kept: NodeId[] = [];
+  const adopt = (id: NodeId): void => {
+    if (seen.has(id) || !nodes[id]) return;
+    kept.push(id);
+    visit(id);
+  };
+  drafts.forEach(adopt);
+  const children = new Set(Object.values(nodes).flatMap((node) => node.children ?? []));
+  Object.keys(nodes)
+    .filter((id) => !children.has(id))
+    .forEach(adopt);
+  Object.keys(nodes).forEach(adopt);
+  return { root: top, drafts: kept, nodes };
+}
+
+/** Reads and repairs a diagram, from text or from parsed JSON. */
+export function parseDiagram(source: unknown): Diagram {
+  let value = source;
+  if (typeof source === 'string') {
+    try {
+      value = JSON.parse(source);
+    } catch (error) {
+      throw new DiagramError(`This is not JSON: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  }
+  if (!isObject(value)) throw new DiagramError('A diagram is a JSON object.');
+  if (value['format'] !== 'bt-studio/diagram') {
+    throw new DiagramError('"format" must be "bt-studio/diagram".');
+  }
+  if (value['version'] !== 1) {
+    throw new DiagramError(`Version ${String(value['version'])} is newer than this program reads (1).`);
+  }
+  if (!isObject(value['nodes'])) throw new DiagramError('"nodes" must be an object.');
+  const nodes = Object.fromEntries(
+    Object.entries(value['nodes']).map(([id, node]) => [id, parseNode(id, node)]),
+  );
+  const root = typeof value['root'] === 'string' ? value['root'] : null;
+  const layout: Orientation = value['layout'] === 'horizontal' ? 'horizontal' : 'vertical';
+  return {
+    ...(value as unknown as Diagram),
+    id: String(value['id'] ?? ''),
+    layout,
+    ...repair(root, ids(value['drafts'] ?? [], 'drafts'), nodes),
+  };
+}
+
+const NODE_KEYS = [
+  'type',
+  'tree',
+  'name',
+  'children',
+  'ports',
+  'conditions',
+  'comment',
+  'color',
+  'disabled',
+  'collapsed',
+  'position',
+  'attributes',
+] as const satisfies readonly (keyof DiagramNode)[];
+
+function orderedNode(node: DiagramNode): Json {
+  const known = NODE_KEYS.filter((key) => node[key] !== undefined).map((key) => [key, node[key]] as const);
+  const unknown = Object.entries(node)
+    .filter(([key]) => !NODE_KEYS.includes(key as (typeof NODE_KEYS)[number]))
+    .sort(([a], [b]) => a.localeCompare(b));
+  return Object.fromEntries([...known, ...unknown]);
+}
+
+/** JSON on one line with a space after each comma and colon, as in the examples. */
+function inline(value: unknown): string {
+  if (Array.isArray(value)) return `[${value.map(inline).join(', ')}]`;
+  if (isObject(value)) {
+    return `{${Object.entries(value)
+      .map(([key, item]) => `${JSON.stringify(key)}: ${inline(item)}`)
+      .join(', ')}}`;
+  }
+  return JSON.stringify(value);
+}
+
+/** Writes a diagram: nodes in execution order, one a line, so that diffs of revisions are readable. */
+export function serializeDiagram(diagram: Diagram): string {
+  const { format, version, id, root, nodes, drafts, layout, ...rest } = diagram;
+  const lines = preorder(diagram).map((node) => {
+    const content = nodes[node];
+    return `    ${JSON.stringify(node)}: ${inline(content ? orderedNode(content) : {})}`;
+  });
+  const extra = Object.entries(rest).map(([key, value]) => `,\n  ${JSON.stringify(key)}: ${inline(value)}`);
+  return `{
+  "format": ${JSON.stringify(format)},
+  "version": ${version},
+  "id": ${JSON.stringify(id)},
+  "root": ${JSON.stringify(root)},
+  "nodes": {${lines.length > 0 ? `\n${lines.join(',\n')}\n  ` : ''}},
+  "drafts": ${inline(drafts)},
+  "layout": ${JSON.stringify(layout)}${extra.join('')}
+}
+`;
+}

@@ -1,0 +1,144 @@
+import type { Diagram, DiagramNode } from './diagram';
+import type { PortDirection, PortSpec } from './ports';
+
+export type Family = 'control' | 'decorator' | 'action' | 'condition' | 'subtree';
+
+/** What can be known about a type of node: of the catalogue, of the project's actions, or a subtree. */
+export interface NodeSpec {
+  readonly type: string;
+  readonly family: Family;
+  readonly symbol: string;
+  readonly minChildren: number;
+  readonly maxChildren: number;
+  readonly ports: readonly PortSpec[];
+  readonly summary: string;
+  /** Any port name is accepted. */
+  readonly open: boolean;
+  readonly source: 'builtin' | 'action' | 'subtree';
+}
+
+/** The part of an action's description (REST `ActionModel`) that the model reads. */
+export interface ActionDescription {
+  readonly name: string;
+  readonly doc?: string | undefined;
+  readonly kind: string;
+  readonly open: boolean;
+  readonly ports: readonly {
+    readonly name: string;
+    readonly direction: PortDirection;
+    readonly type: string;
+    readonly default?: string | number | boolean | null | undefined;
+    readonly required?: boolean | undefined;
+    readonly description?: string | undefined;
+  }[];
+}
+
+/** Everything that a node's type may be in one project, and which tree uses which. */
+export interface Vocabulary {
+  readonly specs: ReadonlyMap<string, NodeSpec>;
+  readonly trees: ReadonlyMap<string, ReadonlySet<string>>;
+}
+
+interface CatalogDocument {
+  readonly nodes: readonly {
+    readonly type: string;
+    readonly kind: string;
+    readonly symbol: string;
+    readonly children: { readonly min: number; readonly max: number | null };
+    readonly ports: readonly {
+      readonly name: string;
+      readonly direction: string;
+      readonly type: string;
+      readonly default: string | null;
+      readonly required: boolean;
+      readonly description: string;
+    }[];
+    readonly summary: string;
+  }[];
+}
+
+/** Reads `tree_gardener/catalog.json`. */
+export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
+  return document.nodes.map((node) => ({
+    type: node.type,
+    family: node.kind as Family,
+    symbol: node.symbol,
+    minChildren: node.children.min,
+    maxChildren: node.children.max ?? Infinity,
+    ports: node.ports as readonly PortSpec[],
+    summary: node.summary,
+    open: node.kind === 'subtree',
+    source: node.kind === 'subtree' ? 'subtree' : 'builtin',
+  }));
+}
+
+function actionSpec(action: ActionDescription): NodeSpec {
+  const condition = action.kind.toLowerCase() === 'condition';
+  return {
+    type: action.name,
+    family: condition ? 'condition' : 'action',
+    symbol: condition ? '?' : '▶',
+    minChildren: 0,
+    maxChildren: 0,
+    ports: action.ports.map((port) => ({
+      name: port.name,
+      direction: port.direction,
+      type: port.type,
+      default: port.default === undefined || port.default === null ? null : String(port.default),
+      required: port.required ?? false,
+      description: port.description ?? '',
+    })),
+    summary: action.doc ?? '',
+    open: action.open,
+    source: 'action',
+  };
+}
+
+export function makeVocabulary(
+  catalog: readonly NodeSpec[],
+  actions: readonly ActionDescription[] = [],
+  trees: ReadonlyMap<string, ReadonlySet<string>> = new Map(),
+): Vocabulary {
+  const specs = new Map<string, NodeSpec>();
+  // A built-in of the same name wins, as in the engine's loader.
+  for (const action of actions) specs.set(action.name, actionSpec(action));
+  for (const spec of catalog) specs.set(spec.type, spec);
+  return { specs, trees };
+}
+
+export function specOf(vocabulary: Vocabulary, node: Pick<DiagramNode, 'type'>): NodeSpec | undefined {
+  return vocabulary.specs.get(node.type);
+}
+
+/** Whether using `used` inside `user` would make a tree contain itself. */
+export function wouldRecurse(vocabulary: Vocabulary, user: string, used: string): boolean {
+  const seen = new Set<string>();
+  const open = [used];
+  for (let tree = open.pop(); tree !== undefined; tree = open.pop()) {
+    if (tree === user) return true;
+    if (seen.has(tree)) continue;
+    seen.add(tree);
+    open.push(...(vocabulary.trees.get(tree) ?? []));
+  }
+  return false;
+}
+
+/** Blackboard keys that a diagram names in its ports, each with the types it is used as. */
+export function blackboardKeys(
+  diagram: Diagram,
+  vocabulary: Vocabulary,
+): ReadonlyMap<string, ReadonlySet<string>> {
+  const keys = new Map<string, Set<string>>();
+  for (const node of Object.values(diagram.nodes)) {
+    const spec = specOf(vocabulary, node);
+    for (const [name, text] of Object.entries(node.ports ?? {})) {
+      const key = /^\s*\$?\{\s*([^}\s]+)\s*\}\s*$/.exec(text)?.[1];
+      if (key === undefined) continue;
+      const types = keys.get(key === '=' ? name : key) ?? new Set<string>();
+      const type = spec?.ports.find((port) => port.name === name)?.type;
+      if (type) types.add(type);
+      keys.set(key === '=' ? name : key, types);
+    }
+  }
+  return keys;
+}

@@ -1,0 +1,265 @@
+import { create } from 'zustand';
+import { emptyDiagram, type Diagram } from '@/model/diagram';
+import { produce, type Draft } from 'immer';
+import { renameUse } from '@/model/edits';
+import { emptyHistory, redo, seal, undo, type Travel } from '@/model/history';
+import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
+import { actionPath, treeIdOf, treePath, type ProjectData, type ProjectState } from './state';
+import { changeDiagrams, initialData, knowing, removeFile, type Change, type Diagrams } from './transitions';
+
+export type { FileEntry, ProjectState } from './state';
+
+/** Everything about the open project that is saved, and what is selected in it. */
+export const useProjectStore = create<ProjectState>()((set, get) => {
+  /** Records a change of trees as one step of `owner`'s history. */
+  const commit = (
+    owner: string,
+    label: string,
+    change: Change,
+    options: { mergeKey?: string | undefined; select?: readonly string[] | undefined } = {},
+  ): void => {
+    set((state) => changeDiagrams(state, owner, label, change, options));
+  };
+
+  const travel = (go: typeof undo): void => {
+    set((state) => {
+      const owner = state.activeTree;
+      if (owner === null) return state;
+      const history = state.histories[owner] ?? emptyHistory;
+      let moved: Travel<Diagrams> | null;
+      try {
+        moved = go(state.diagrams, history);
+      } catch {
+        // The step names something that another tree's edit has removed: it cannot be replayed.
+        return { histories: { ...state.histories, [owner]: emptyHistory } };
+      }
+      if (!moved) return state;
+      const chosen = go === undo ? moved.entry.before : moved.entry.after;
+      const diagram = moved.document[owner];
+      return {
+        ...knowing({ ...state, diagrams: moved.document }),
+        histories: { ...state.histories, [owner]: moved.history },
+        selection: chosen.filter((id) => diagram !== undefined && id in diagram.nodes),
+        changeCounter: state.changeCounter + 1,
+      };
+    });
+  };
+
+  const renameEverywhere =
+    (kind: 'action' | 'tree', from: string, to: string): Change =>
+    (draft) => {
+      for (const diagram of Object.values(draft)) renameUse(kind, from, to)(diagram);
+    };
+
+  return {
+    ...initialData,
+
+    load: (detail) => {
+      const opened = openFiles(detail.files);
+      const main = detail.settings.main_tree;
+      const data: ProjectData = {
+        ...initialData,
+        ...opened,
+        projectId: detail.id,
+        name: detail.name,
+        description: detail.description,
+        settings: detail.settings,
+        mainTree: main,
+        revision: detail.revision,
+        actions: detail.actions,
+        diagnostics: detail.diagnostics,
+        activeTree: main in opened.diagrams ? main : (Object.keys(opened.diagrams)[0] ?? null),
+      };
+      set(knowing(data));
+    },
+    close: () => {
+      set(initialData);
+    },
+
+    setActiveTree: (id) => {
+      set((state) => (state.activeTree === id ? state : { activeTree: id, selection: [] }));
+    },
+    select: (treeId, ids) => {
+      set((state) => {
+        const same =
+          state.activeTree === treeId &&
+          state.selection.length === ids.length &&
+          ids.every((id, index) => state.selection[index] === id);
+        if (same) return state;
+        const history = state.histories[treeId];
+        return {
+          activeTree: treeId,
+          selection: ids,
+          ...(history ? { histories: { ...state.histories, [treeId]: seal(history) } } : {}),
+        };
+      });
+    },
+    reveal: (tree, node) => {
+      set((state) => ({
+        activeTree: tree,
+        selection: [node],
+        revealed: { tree, node, count: (state.revealed?.count ?? 0) + 1 },
+      }));
+    },
+
+    apply: (treeId, label, recipes, options = {}) => {
+      commit(
+        treeId,
+        label,
+        (draft) => {
+          const diagram = draft[treeId];
+          if (!diagram) return;
+          for (const recipe of recipes) recipe(diagram);
+          for (const [id, other] of Object.entries(options.also ?? {})) {
+            if (other) draft[id] = other as Draft<Diagram>;
+            else Reflect.deleteProperty(draft, id);
+          }
+        },
+        options,
+      );
+    },
+    seal: (treeId) => {
+      set((state) => {
+        const owner = treeId ?? state.activeTree;
+        const history = owner === null ? undefined : state.histories[owner];
+        return owner !== null && history
+          ? { histories: { ...state.histories, [owner]: seal(history) } }
+          : state;
+      });
+    },
+    undo: () => {
+      travel(undo);
+    },
+    redo: () => {
+      travel(redo);
+    },
+
+    addTree: (id) => {
+      set((state) => {
+        if (id in state.diagrams) return state;
+        const diagrams = { ...state.diagrams, [id]: emptyDiagram(id) };
+        return { ...knowing({ ...state, diagrams }), changeCounter: state.changeCounter + 1 };
+      });
+    },
+    renameTree: (from, to) => {
+      const state = get();
+      const diagram = state.diagrams[from];
+      if (!diagram || to in state.diagrams) return;
+      const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
+      const { [from]: moved = diagram, ...others } = renamed;
+      const diagrams = { ...others, [to]: { ...moved, id: to } };
+      const { [from]: _history, ...histories } = state.histories;
+      set({
+        ...knowing({ ...state, diagrams }),
+        histories: { ...histories, [to]: emptyHistory },
+        activeTree: state.activeTree === from ? to : state.activeTree,
+        changeCounter: state.changeCounter + 1,
+      });
+      if (state.mainTree === from) get().setSettings({ main_tree: to });
+    },
+    deleteTree: (id) => {
+      set((state) => {
+        const { [id]: _gone, ...diagrams } = state.diagrams;
+        const { [id]: _history, ...histories } = state.histories;
+        return {
+          ...knowing({ ...state, diagrams }),
+          histories,
+          activeTree: state.activeTree === id ? (Object.keys(diagrams)[0] ?? null) : state.activeTree,
+          selection: state.activeTree === id ? [] : state.selection,
+          changeCounter: state.changeCounter + 1,
+        };
+      });
+    },
+    renameAction: (from, to) => {
+      const source = get().currentText(actionPath(from));
+      if (source === null || actionPath(to) in get().files) return;
+      get().addFile(actionPath(to), source.replace(new RegExp(`\\b${from}\\b`, 'g'), to));
+      get().deleteFile(actionPath(from));
+      const owner = get().activeTree;
+      const actions = get().actions.map((each) =>
+        each.name === from ? { ...each, name: to, path: actionPath(to) } : each,
+      );
+      set((state) => knowing({ ...state, actions }));
+      if (owner !== null) commit(owner, 'renameAction', renameEverywhere('action', from, to));
+    },
+
+    setFileText: (path, text) => {
+      const id = treeIdOf(path);
+      const diagram = id === null ? null : tryParse(id, text);
+      if (id !== null && diagram) {
+        commit(
+          id,
+          'editText',
+          (draft) => {
+            draft[id] = diagram as Draft<Diagram>;
+          },
+          { mergeKey: 'text' },
+        );
+        return;
+      }
+      set((state) => {
+        const entry = state.files[path];
+        if (!entry || entry.text === text) return state;
+        return {
+          files: { ...state.files, [path]: { ...entry, text } },
+          changeCounter: state.changeCounter + 1,
+        };
+      });
+    },
+    addFile: (path, text) => {
+      const id = treeIdOf(path);
+      const diagram = id === null ? null : tryParse(id, text);
+      set((state) => {
+        const changeCounter = state.changeCounter + 1;
+        if (id !== null && diagram) {
+          return { ...knowing({ ...state, diagrams: { ...state.diagrams, [id]: diagram } }), changeCounter };
+        }
+        const { [path]: revision = 0, ...removed } = state.removed;
+        const entry = { path, kind: 'text', text, revision, savedText: null } as const;
+        return { files: { ...state.files, [path]: entry }, removed, changeCounter };
+      });
+    },
+    deleteFile: (path) => {
+      const id = treeIdOf(path);
+      if (id !== null && get().diagrams[id]) get().deleteTree(id);
+      else set((state) => removeFile(state, path));
+    },
+    setSettings: (patch) => {
+      const settings = get().settings;
+      if (!settings) return;
+      const next = { ...settings, ...patch };
+      set({ settings: next, mainTree: next.main_tree, name: next.name });
+      get().setFileText('project.json', `${JSON.stringify(next, null, 2)}\n`);
+    },
+
+    setChecked: ({ diagnostics, actions }) => {
+      set((state) => knowing({ ...state, diagnostics, actions }));
+    },
+    pendingChanges: () => pendingChanges(get()),
+    applySaved: (sent, result) => {
+      set((state) =>
+        knowing({
+          ...state,
+          ...applySaved(state, sent, result),
+          revision: result.revision,
+          actions: result.actions,
+          diagnostics: result.diagnostics,
+        }),
+      );
+    },
+    rebase: (path, revision, savedText) => {
+      set((state) => {
+        const entry = state.files[path];
+        if (!entry) return state;
+        return {
+          files: { ...state.files, [path]: { ...entry, revision, savedText } },
+          changeCounter: state.changeCounter + 1,
+        };
+      });
+    },
+    currentText: (path) => currentText(get(), path),
+  };
+});
+
+/** The path of a tree's file, for those who deal in files. */
+export { treePath };

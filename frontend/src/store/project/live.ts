@@ -1,0 +1,88 @@
+import { create } from 'zustand';
+import type { NodeStatus, TreeNode } from '@/generated/messages';
+
+/** `<tree>/<node>`: node ids are unique in their diagram alone. */
+export type LiveKey = string;
+
+export const liveKey = (tree: string, node: string): LiveKey => `${tree}/${node}`;
+
+interface Flash {
+  readonly status: NodeStatus;
+  /** Counts up, so that the same flash twice is animated twice. */
+  readonly count: number;
+}
+
+export interface LiveState {
+  /** Whether a tree is running (or was, and its last statuses are shown). */
+  readonly active: boolean;
+  readonly statuses: ReadonlyMap<LiveKey, NodeStatus>;
+  readonly flashes: ReadonlyMap<LiveKey, Flash>;
+  readonly faults: ReadonlyMap<LiveKey, string>;
+  setTree(nodes: readonly TreeNode[]): void;
+  setStatuses(changed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  flash(flashed: readonly (readonly [uid: number, status: NodeStatus])[]): void;
+  setFault(node: string, tree: string, message: string): void;
+  clear(): void;
+}
+
+/** A tree used twice has two instances of each node: the busiest speaks for the block. */
+const WEIGHT: Record<NodeStatus, number> = { RUNNING: 4, FAILURE: 3, SUCCESS: 2, SKIPPED: 1, IDLE: 0 };
+
+/** Statuses of the running tree. Never part of undo or of what is saved. */
+export const useLiveStore = create<LiveState>()((set, get) => {
+  let keys = new Map<number, LiveKey>();
+  let instances = new Map<LiveKey, number[]>();
+  let byUid = new Map<number, NodeStatus>();
+  let flashCount = 0;
+
+  const merged = (key: LiveKey): NodeStatus =>
+    (instances.get(key) ?? [])
+      .map((uid) => byUid.get(uid) ?? 'IDLE')
+      .reduce<NodeStatus>((best, next) => (WEIGHT[next] > WEIGHT[best] ? next : best), 'IDLE');
+
+  return {
+    active: false,
+    statuses: new Map(),
+    flashes: new Map(),
+    faults: new Map(),
+    setTree: (nodes) => {
+      keys = new Map();
+      instances = new Map();
+      byUid = new Map();
+      for (const node of nodes) {
+        if (!node.node_id) continue;
+        const key = liveKey(node.tree_id, node.node_id);
+        keys.set(node.uid, key);
+        instances.set(key, [...(instances.get(key) ?? []), node.uid]);
+      }
+      set({ active: true, statuses: new Map(), flashes: new Map(), faults: new Map() });
+    },
+    setStatuses: (changed) => {
+      if (changed.length === 0) return;
+      const statuses = new Map(get().statuses);
+      for (const [uid, status] of changed) {
+        byUid.set(uid, status);
+        const key = keys.get(uid);
+        if (key !== undefined) statuses.set(key, merged(key));
+      }
+      set({ statuses });
+    },
+    flash: (flashed) => {
+      if (flashed.length === 0) return;
+      const flashes = new Map(get().flashes);
+      for (const [uid, status] of flashed) {
+        const key = keys.get(uid);
+        if (key !== undefined) flashes.set(key, { status, count: (flashCount += 1) });
+      }
+      set({ flashes });
+    },
+    setFault: (node, tree, message) => {
+      set((state) => ({ faults: new Map(state.faults).set(liveKey(tree, node), message) }));
+    },
+    clear: () => {
+      keys = new Map();
+      byUid = new Map();
+      set({ active: false, statuses: new Map(), flashes: new Map(), faults: new Map() });
+    },
+  };
+});

@@ -1,0 +1,22 @@
+import { actionPath } from './state';
+
+/** How features ask the frame to open something, without knowing the frame. */
+export interface Navigator {
+  openTree(id: string): void;
+  openFile(path: string, line?: number): void;
+}
+
+let navigator: Navigator | null = null;
+
+/** Called once by the frame. */
+export function setNavigator(next: Navigator | null): void {
+  navigator = next;
+}
+
+export function openTree(id: string): void {
+  navigator?.openTree(id);
+}
+
+export function openAction(name: string): void {
+  navigator?.openFile(actionPath(name));
+}

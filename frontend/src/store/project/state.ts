@@ -1,0 +1,95 @@
+import type {
+  ActionModel,
+  ChangesResult,
+  Diagnostic,
+  FileChange,
+  ProjectDetail,
+  ProjectSettings,
+} from '@/api/types';
+import type { Diagram, NodeId } from '@/model/diagram';
+import type { Recipe } from '@/model/edits';
+import type { History } from '@/model/history';
+import type { Vocabulary } from '@/model/vocabulary';
+
+export interface FileEntry {
+  readonly path: string;
+  /** A tree lives in `diagrams`, and has a text here only while that does not parse. */
+  readonly kind: 'tree' | 'text' | 'binary';
+  readonly text: string | null;
+  /** The revision that the next change is based on; 0: the server has never seen it. */
+  readonly revision: number;
+  readonly savedText: string | null;
+}
+
+export interface ProjectData {
+  readonly projectId: string | null;
+  readonly name: string;
+  readonly description: string;
+  readonly settings: ProjectSettings | null;
+  readonly mainTree: string;
+  readonly revision: number;
+  readonly files: Readonly<Record<string, FileEntry>>;
+  /** Deleted here, still there on the server: path and revision. */
+  readonly removed: Readonly<Record<string, number>>;
+  readonly diagrams: Readonly<Record<string, Diagram>>;
+  readonly actions: readonly ActionModel[];
+  readonly diagnostics: readonly Diagnostic[];
+  readonly vocabulary: Vocabulary;
+  readonly histories: Readonly<Record<string, History>>;
+  readonly activeTree: string | null;
+  /** Selected blocks of the active tree, in the order of selecting. */
+  readonly selection: readonly NodeId[];
+  /** Asks the canvas of a tree to bring a node into view; the counter makes each request new. */
+  readonly revealed: { readonly tree: string; readonly node: NodeId; readonly count: number } | null;
+  /** Increases with every edit that is to be saved. */
+  readonly changeCounter: number;
+}
+
+export interface EditOptions {
+  /** Edits with the same key in a row are one step of undo. */
+  readonly mergeKey?: string;
+  /** What is selected afterwards. */
+  readonly select?: readonly NodeId[];
+  /** Other trees that change in the same step; null deletes one. */
+  readonly also?: Readonly<Record<string, Diagram | null>>;
+}
+
+export interface ProjectActions {
+  load(detail: ProjectDetail): void;
+  close(): void;
+  setActiveTree(id: string | null): void;
+  select(treeId: string, ids: readonly NodeId[]): void;
+  reveal(treeId: string, node: NodeId): void;
+  /** Changes a tree by recipes: one step of its history, called `label` (an i18n key of `canvas:edit`). */
+  apply(treeId: string, label: string, recipes: readonly Recipe[], options?: EditOptions): void;
+  /** Ends a gesture, so that the next edit is a step of its own. */
+  seal(treeId?: string): void;
+  undo(): void;
+  redo(): void;
+  addTree(id: string): void;
+  renameTree(from: string, to: string): void;
+  deleteTree(id: string): void;
+  /** Renames an action: its file, its class, and every use. */
+  renameAction(from: string, to: string): void;
+  setFileText(path: string, text: string): void;
+  addFile(path: string, text: string): void;
+  deleteFile(path: string): void;
+  setSettings(patch: Partial<ProjectSettings>): void;
+  setChecked(checked: { diagnostics: readonly Diagnostic[]; actions: readonly ActionModel[] }): void;
+  /** What has to be sent to the server, each file with the revision it is based on. */
+  pendingChanges(): FileChange[];
+  applySaved(sent: readonly FileChange[], result: ChangesResult): void;
+  /** After a conflict: the file is now based on this revision; the text here stays. */
+  rebase(path: string, revision: number, savedText: string): void;
+  /** The text of a file as it would be saved, or null of a binary or unknown one. */
+  currentText(path: string): string | null;
+}
+
+export type ProjectState = ProjectData & ProjectActions;
+
+export const treePath = (id: string): string => `trees/${id}.json`;
+export const actionPath = (name: string): string => `actions/${name}.py`;
+
+export function treeIdOf(path: string): string | null {
+  return /^trees\/([^/]+)\.json$/.exec(path)?.[1] ?? null;
+}

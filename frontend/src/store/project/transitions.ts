@@ -1,0 +1,103 @@
+import { enablePatches, produceWithPatches, type Draft } from 'immer';
+import { treesUsed, type Diagram } from '@/model/diagram';
+import { emptyHistory, record } from '@/model/history';
+import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
+import { catalog } from './catalog';
+import { syncTrees } from './files';
+import { treePath, type ProjectData } from './state';
+
+enablePatches();
+
+export type Diagrams = Readonly<Record<string, Diagram>>;
+
+export const initialData: ProjectData = {
+  projectId: null,
+  name: '',
+  description: '',
+  settings: null,
+  mainTree: '',
+  revision: 0,
+  files: {},
+  removed: {},
+  diagrams: {},
+  actions: [],
+  diagnostics: [],
+  vocabulary: makeVocabulary(catalog),
+  histories: {},
+  activeTree: null,
+  selection: [],
+  revealed: null,
+  changeCounter: 0,
+};
+
+function sameUse(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
+  if (a.size !== b.size) return false;
+  for (const [tree, used] of a) {
+    const other = b.get(tree);
+    if (other?.size !== used.size || [...used].some((id) => !other.has(id))) return false;
+  }
+  return true;
+}
+
+const lastActions = new WeakMap<Vocabulary, ProjectData['actions']>();
+
+/** The vocabulary of what the project now holds; the same object while nothing in it changed. */
+function vocabularyOf(data: ProjectData): Vocabulary {
+  const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treesUsed(diagram)]));
+  if (lastActions.get(data.vocabulary) === data.actions && sameUse(data.vocabulary.trees, trees)) {
+    return data.vocabulary;
+  }
+  const vocabulary = makeVocabulary(catalog, data.actions, trees);
+  lastActions.set(vocabulary, data.actions);
+  return vocabulary;
+}
+
+/** Brings files and vocabulary in step with trees and actions. */
+export function knowing<T extends ProjectData>(data: T): T {
+  return { ...data, ...syncTrees(data), vocabulary: vocabularyOf(data) };
+}
+
+/** A change of trees, written as if they were mutable. */
+export type Change = (draft: Record<string, Draft<Diagram>>) => void;
+
+/** Changes trees as one step of a tree's history. */
+export function changeDiagrams(
+  data: ProjectData,
+  owner: string,
+  label: string,
+  change: Change,
+  options: { mergeKey?: string | undefined; select?: readonly string[] | undefined },
+): Partial<ProjectData> {
+  const [diagrams, patches, inverse] = produceWithPatches(data.diagrams, (draft) => {
+    change(draft as Record<string, Draft<Diagram>>);
+  });
+  const diagram = diagrams[owner];
+  const mine = data.activeTree === owner ? data.selection : [];
+  const after = (options.select ?? mine).filter((id) => diagram !== undefined && id in diagram.nodes);
+  if (patches.length === 0) return data.activeTree === owner ? { selection: after } : {};
+  const history = record(data.histories[owner] ?? emptyHistory, {
+    label,
+    mergeKey: options.mergeKey ?? null,
+    patches,
+    inverse,
+    before: mine,
+    after,
+  });
+  const files = { ...data.files };
+  const entry = files[treePath(owner)];
+  // An edit of the tree supersedes a text of it that did not parse.
+  if (entry?.kind === 'tree' && entry.text !== null) files[treePath(owner)] = { ...entry, text: null };
+  return {
+    ...knowing({ ...data, files, diagrams }),
+    histories: { ...data.histories, [owner]: history },
+    ...(data.activeTree === owner ? { selection: after } : {}),
+    changeCounter: data.changeCounter + 1,
+  };
+}
+
+export function removeFile(data: ProjectData, path: string): Partial<ProjectData> {
+  const { [path]: entry, ...files } = data.files;
+  if (!entry) return {};
+  const removed = entry.revision > 0 ? { ...data.removed, [path]: entry.revision } : data.removed;
+  return { files, removed, changeCounter: data.changeCounter + 1 };
+}

@@ -1,0 +1,20 @@
+"""Robots: a URDF for the body, and a configuration for drive and sensors."""
+
+from executor.robots.config import Camera, Drive, Lidar, RobotConfig, RobotError, load_robot, robot_ids
+from executor.robots.urdf import Joint, Link, Urdf, UrdfError, Visual, parse_urdf
+
+__all__ = [
+    "Camera",
+    "Drive",
+    "Joint",
+    "Lidar",
+    "Link",
+    "RobotConfig",
+    "RobotError",
+    "Urdf",
+    "UrdfError",
+    "Visual",
+    "load_robot",
+    "parse_urdf",
+    "robot_ids",
+]

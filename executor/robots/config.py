@@ -1,0 +1,168 @@
+"""What a robot's `robot.yaml` says: its URDF, how it drives, where its sensors sit."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Final, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+
+from executor.robots.urdf import Urdf, UrdfError, parse_urdf
+from executor.universes.document import DocumentError, Problem, read_yaml
+from executor.universes.loader import validate
+
+_FOLDER: Final = Path(__file__).parent
+
+Topic = Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
+class RobotError(DocumentError):
+    """A robot that cannot be used; `problems` say why and where."""
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Drive(_Strict):
+    """A differential drive. Speeds in m/s and rad/s, accelerations in m/s² and rad/s²."""
+
+    kind: Literal["differential"] = "differential"
+    left: tuple[str, ...] = Field(min_length=1)
+    right: tuple[str, ...] = Field(min_length=1)
+    wheel_radius: Positive
+    track: Positive
+    max_linear: Positive
+    max_angular: Positive
+    linear_acceleration: Positive = 1.5
+    angular_acceleration: Positive = 6.0
+    wheel_torque: Positive = 2.0
+    timeout_s: Positive = 0.6
+
+
+class Lidar(_Strict):
+    """A scanner that turns counter-clockwise from straight ahead."""
+
+    name: str = "scan"
+    kind: Literal["lidar"]
+    link: str
+    topic: Topic = "/scan"
+    rays: int = Field(default=360, ge=1, le=4000)
+    range_min: float = Field(default=0.12, ge=0)
+    range_max: Positive = 8.0
+    rate_hz: Positive = 10.0
+    noise_m: float = Field(default=0.0, ge=0)
+
+
+class Camera(_Strict):
+    """A colour camera that looks along x of its link; `fov` is horizontal, in rad."""
+
+    name: str = "camera"
+    kind: Literal["camera"]
+    link: str
+    topic: Topic = "/camera/image_raw"
+    info_topic: Topic = "/camera/camera_info"
+    aliases: tuple[Topic, ...] = ()
+    width: int = Field(default=640, ge=8, le=4096)
+    height: int = Field(default=480, ge=8, le=4096)
+    fov: float = Field(default=1.047, gt=0.05, lt=3.0)
+    near: Positive = 0.05
+    far: Positive = 60.0
+    rate_hz: Positive = 15.0
+
+
+Sensor = Annotated[Lidar | Camera, Field(discriminator="kind")]
+
+
+class _Document(_Strict):
+    format: Literal["bt-studio/robot"]
+    version: Literal[1]
+    name: str
+    description: str = ""
+    urdf: str
+    drive: Drive
+    wheels: tuple[str, ...] = ()
+    friction: dict[str, float] = Field(default_factory=dict)
+    sensors: tuple[Sensor, ...] = ()
+
+
+@dataclass(frozen=True)
+class RobotConfig:
+    """A robot, read and checked.
+
+    Args:
+        wheels: links whose contact is no collision: wheels and casters.
+        friction: sideways friction by link, where it is not 0.8.
+    """
+
+    id: str
+    name: str
+    urdf_path: Path
+    urdf: Urdf
+    drive: Drive
+    wheels: tuple[str, ...]
+    friction: dict[str, float]
+    lidars: tuple[Lidar, ...]
+    cameras: tuple[Camera, ...]
+
+
+def robot_ids() -> tuple[str, ...]:
+    """Returns the ids of the robots that we ship."""
+    return tuple(sorted(path.parent.name for path in _FOLDER.glob("*/robot.yaml")))
+
+
+def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
+    """Returns a robot by id: one of the project's own (`robots/<id>/` in `assets`) or one that we ship.
+
+    Raises:
+        RobotError: it does not exist or is wrong.
+    """
+    folders = [_FOLDER / robot_id]
+    if assets is not None:
+        folders.insert(0, assets / "robots" / robot_id)
+    for folder in folders:
+        if (folder / "robot.yaml").is_file():
+            return _read(robot_id, folder)
+    near = difflib.get_close_matches(robot_id, robot_ids(), n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(robot_ids())}"
+    raise RobotError([Problem(f"there is no robot {robot_id!r}", code="BTR001", hint=hint)], robot_id)
+
+
+def _read(robot_id: str, folder: Path) -> RobotConfig:
+    file = folder / "robot.yaml"
+    try:
+        located = read_yaml(file.read_text(encoding="utf-8"), file.name)
+        document = validate(located, _Document, file.name)
+    except DocumentError as error:
+        raise RobotError(error.problems, f"{robot_id}/{file.name}") from error
+    urdf_path = folder / document.urdf
+    try:
+        urdf = parse_urdf(urdf_path.read_bytes(), urdf_path.name)
+    except (OSError, UrdfError) as error:
+        raise RobotError([Problem(str(error), code="BTR002")], f"{robot_id}/{document.urdf}") from error
+    _check_names(robot_id, document, urdf)
+    return RobotConfig(
+        id=robot_id,
+        name=document.name,
+        urdf_path=urdf_path,
+        urdf=urdf,
+        drive=document.drive,
+        wheels=document.wheels,
+        friction=document.friction,
+        lidars=tuple(sensor for sensor in document.sensors if isinstance(sensor, Lidar)),
+        cameras=tuple(sensor for sensor in document.sensors if isinstance(sensor, Camera)),
+    )
+
+
+def _check_names(robot_id: str, document: _Document, urdf: Urdf) -> None:
+    links = (*document.wheels, *document.friction, *(sensor.link for sensor in document.sensors))
+    missing = [f"link {name!r}" for name in links if name not in urdf.links]
+    missing += [
+        f"joint {name!r}" for name in (*document.drive.left, *document.drive.right) if name not in urdf.joints
+    ]
+    if missing:
+        problems = [Problem(f"the URDF has no {what}", code="BTR003") for what in missing]
+        raise RobotError(problems, f"{robot_id}/robot.yaml")

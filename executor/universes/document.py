@@ -1,0 +1,115 @@
+"""YAML documents whose every value knows its line; aliases, tags and huge documents are refused."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+import yaml
+
+MAX_BYTES: Final = 2_000_000
+MAX_NODES: Final = 100_000
+MAX_DEPTH: Final = 32
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Something wrong at a place of a document; lines and columns count from 1."""
+
+    message: str
+    line: int = 1
+    column: int = 1
+    code: str = "BTU001"
+    hint: str = ""
+
+    def __str__(self) -> str:
+        hint = f" ({self.hint})" if self.hint else ""
+        return f"{self.line}:{self.column}: {self.code} {self.message}{hint}"
+
+
+class DocumentError(Exception):
+    """A document that cannot be read; `problems` say why and where."""
+
+    def __init__(self, problems: list[Problem], file: str = "") -> None:
+        self.problems = problems
+        self.file = file
+        super().__init__("\n".join(f"{file}:{problem}" if file else str(problem) for problem in problems))
+
+
+@dataclass(frozen=True)
+class Located:
+    """A document's value and where each part of it stands."""
+
+    value: Any
+    places: dict[Path, tuple[int, int]]
+
+    def place(self, path: Path) -> tuple[int, int]:
+        """Returns line and column of a part, or of the nearest part round it that exists."""
+        while path not in self.places and path:
+            path = path[:-1]
+        return self.places.get(path, (1, 1))
+
+
+def read_yaml(text: str, file: str = "") -> Located:
+    """Reads one YAML document.
+
+    Raises:
+        DocumentError: it is not YAML, or uses what such a document never needs.
+    """
+    if len(text) > MAX_BYTES:
+        raise DocumentError([Problem(f"the document is larger than {MAX_BYTES} bytes", code="BTU002")], file)
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+        raise DocumentError([Problem(str(error.problem or error), line, column)], file) from error
+    except (yaml.YAMLError, RecursionError) as error:
+        raise DocumentError([Problem(str(error).splitlines()[0])], file) from error
+    if root is None:
+        raise DocumentError([Problem("the document is empty")], file)
+    reader = _Reader(file)
+    return Located(reader.read(root, ()), reader.places)
+
+
+class _Reader:
+    def __init__(self, file: str) -> None:
+        self.places: dict[Path, tuple[int, int]] = {}
+        self._file = file
+        self._constructor = yaml.SafeLoader("")
+
+    def read(self, node: yaml.Node, path: Path) -> Any:
+        self._guard(node, path)
+        self.places[path] = (node.start_mark.line + 1, node.start_mark.column + 1)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.read(child, (*path, i)) for i, child in enumerate(node.value)]
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node, path)
+        return self._scalar(node)
+
+    def _mapping(self, node: yaml.MappingNode, path: Path) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for key_node, child in node.value:
+            if not isinstance(key_node, yaml.ScalarNode):
+                raise self._error(key_node, "a key must be a word")
+            if key_node.value in result:
+                raise self._error(key_node, f"the key {key_node.value!r} stands here twice")
+            result[key_node.value] = self.read(child, (*path, key_node.value))
+        return result
+
+    def _scalar(self, node: yaml.Node) -> Any:
+        try:
+            return self._constructor.construct_object(node)  # type: ignore[no-untyped-call]
+        except (yaml.YAMLError, ValueError) as error:
+            raise self._error(node, f"this value cannot be read: {str(error).splitlines()[0]}") from error
+
+    def _guard(self, node: yaml.Node, path: Path) -> None:
+        if len(self.places) >= MAX_NODES:
+            raise self._error(node, f"the document has more than {MAX_NODES} values")
+        if len(path) > MAX_DEPTH:
+            raise self._error(node, f"the document is nested deeper than {MAX_DEPTH}")
+
+    def _error(self, node: yaml.Node, message: str) -> DocumentError:
+        return DocumentError([Problem(message, node.start_mark.line + 1, node.start_mark.column + 1)], self._file)

@@ -1,0 +1,146 @@
+"""What a universe document may say. SI units; poses are [x, y, z, roll, pitch, yaw] in the world frame."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Final, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
+
+Shape = Literal["box", "cylinder", "sphere", "plane", "mesh", "urdf", "sdf"]
+Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
+Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$")]
+Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
+Positive = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e4)]
+Pose = tuple[Finite, Finite, Finite, Finite, Finite, Finite]
+
+SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
+    "box": ("x", "y", "z"),
+    "cylinder": ("radius", "length"),
+    "sphere": ("radius",),
+    "plane": ("x", "y"),
+    "mesh": ("scale x", "scale y", "scale z"),
+}
+_AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
+_RANDOM_KEY: Final = re.compile(rf"^(?P<id>[\w-]+)\.(?:pose\.(?P<axis>{'|'.join(_AXES)})|(?P<field>mass|friction|speed))$")
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Ground(_Strict):
+    """The endless floor at z = 0."""
+
+    color: Color = "#d8d4cc"
+    friction: float = Field(default=0.9, ge=0, le=10)
+
+
+class Model(_Strict):
+    """A body of one shape; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what."""
+
+    id: Name
+    shape: Shape
+    size: tuple[Positive, ...] = ()
+    pose: Pose = (0, 0, 0, 0, 0, 0)
+    color: Color = "#9aa4b0"
+    mass: float = Field(default=0.0, ge=0, le=1e5)
+    friction: float = Field(default=0.6, ge=0, le=10)
+    file: str = ""
+
+    @model_validator(mode="after")
+    def _size_fits_shape(self) -> Model:
+        if self.shape in ("mesh", "urdf", "sdf"):
+            if not self.file:
+                raise ValueError(f"a {self.shape} needs a `file`")
+            if self.shape == "mesh" and len(self.size) not in (0, 3):
+                raise ValueError("the `size` of a mesh is its scale [x, y, z]")
+            return self
+        meaning = SIZE_MEANING[self.shape]
+        if len(self.size) != len(meaning):
+            raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
+        if self.shape == "plane" and self.mass > 0:
+            raise ValueError("a plane has no mass")
+        return self
+
+
+class Actor(_Strict):
+    """A person who walks along `path` whatever happens; robots can bump into them."""
+
+    id: Name
+    model: Literal["person"] = "person"
+    color: Color = "#20c020"
+    path: tuple[tuple[Finite, Finite], ...] = Field(min_length=1, max_length=1000)
+    speed: float = Field(default=0.5, ge=0, le=5)
+    loop: bool = True
+    start_m: float = Field(default=0.0, ge=0, le=1e4)
+
+
+class RobotPlace(_Strict):
+    """A robot and where it starts; `topics` renames what its sensors publish."""
+
+    id: Name = "robot"
+    model: Name = "turtle2"
+    pose: Pose = (0, 0, 0, 0, 0, 0)
+    topics: dict[str, Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]] = Field(default_factory=dict)
+
+
+class Light(_Strict):
+    """Sunlight: the direction is the one in which it shines."""
+
+    direction: tuple[Finite, Finite, Finite] = (0.3, 0.4, -0.8)
+    intensity: float = Field(default=1.0, ge=0, le=10)
+
+    @field_validator("direction")
+    @classmethod
+    def _not_zero(cls, value: tuple[float, float, float]) -> tuple[float, float, float]:
+        if not any(value):
+            raise ValueError("a light needs a direction other than [0, 0, 0]")
+        return value
+
+
+class Universe(_Strict):
+    """A world: ground, things, people, robots and light."""
+
+    format: Literal["bt-studio/universe"]
+    version: Literal[1]
+    name: str = Field(min_length=1, max_length=120)
+    description: str = ""
+    ground: Ground = Ground()
+    models: tuple[Model, ...] = Field(default=(), max_length=2000)
+    actors: tuple[Actor, ...] = Field(default=(), max_length=100)
+    robots: tuple[RobotPlace, ...] = Field(default=(RobotPlace(),), max_length=10)
+    lights: tuple[Light, ...] = Field(default=(Light(),), min_length=1, max_length=4)
+    random: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
+
+    @model_validator(mode="after")
+    def _ids_are_unique(self) -> Universe:
+        seen: set[str] = {"ground"}
+        for thing in (*self.models, *self.actors, *self.robots):
+            if thing.id in seen:
+                raise ValueError(f"the id {thing.id!r} is used twice" if thing.id != "ground" else "the id 'ground' is taken")
+            seen.add(thing.id)
+        return self
+
+    @model_validator(mode="after")
+    def _random_keys_exist(self) -> Universe:
+        things = {thing.id: thing for thing in (*self.models, *self.actors, *self.robots)}
+        for key, (low, high) in self.random.items():
+            match = _RANDOM_KEY.match(key)
+            if match is None or match["id"] not in things:
+                raise ValueError(f"random: {key!r} names nothing; use <id>.pose.x, <id>.mass or the like")
+            wanted = "pose" if match["axis"] else match["field"]
+            if wanted not in type(things[match["id"]]).model_fields:
+                raise ValueError(f"random: {match['id']!r} has no {wanted}")
+            if low > high:
+                raise ValueError(f"random: the range of {key!r} is upside down")
+        return self
+
+    def random_target(self, key: str) -> tuple[str, str, int]:
+        """Returns (id, field, index into the field or -1) of a key of `random`."""
+        match = _RANDOM_KEY.match(key)
+        if match is None:
+            raise KeyError(key)
+        if match["axis"]:
+            return match["id"], "pose", _AXES.index(match["axis"])
+        return match["id"], match["field"], -1

@@ -1,0 +1,261 @@
+"""The world in PyBullet: fixed steps of 1/240 s, control of robots and actors at 60 Hz."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.messages import Light, Scene, SensorPlacement
+from executor.robots.config import RobotConfig, load_robot
+from executor.world.actor import BulletActor
+from executor.world.bodies import Body, make_body, make_ground, rgba, scene_shape
+from executor.world.engine import Bullet
+from executor.world.interface import WorldError
+from executor.world.objects import SceneObjects
+from executor.world.placement import place_at_rest
+from executor.world.randomize import draw
+from executor.world.robot import BulletRobot
+from executor.world.transforms import Pose, compose, from_xyz_rpy
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from executor.universes.model import Universe
+    from executor.world.collision import Collision
+
+STEP_HZ: Final = 240
+CONTROL_EVERY: Final = 4  # steps
+GRAVITY: Final = 9.81
+
+
+@dataclass(frozen=True)
+class _Saved:
+    physics: int
+    steps: int
+    robots: list[object]
+    actors: list[Any]
+
+
+@dataclass
+class _Content:
+    """What a reset makes anew."""
+
+    ground: int = -1
+    bodies: dict[str, Body] = field(default_factory=dict)
+    robots: list[BulletRobot] = field(default_factory=list)
+    actors: list[BulletActor] = field(default_factory=list)
+    names: dict[int, str] = field(default_factory=dict)
+
+
+class BulletWorld:
+    """A world made of a universe.
+
+    Args:
+        universe: what there is.
+        seed: draws the universe's random values and the sensors' noise.
+        robot: id of a robot that takes the place of the universe's own.
+        assets: folder of the project's own robots and meshes.
+
+    Raises:
+        RobotError: a robot of the universe does not exist or is wrong.
+    """
+
+    step_s: Final = 1.0 / STEP_HZ
+
+    def __init__(
+        self, universe: Universe, *, seed: int = 0, robot: str | None = None, assets: Path | None = None
+    ) -> None:
+        self._universe = draw(universe, seed)
+        self._seed = seed
+        self._configs: list[RobotConfig] = [
+            load_robot(robot or place.model, assets) for place in universe.robots
+        ]
+        self._bullet = Bullet()
+        self._build()
+
+    @property
+    def name(self) -> str:
+        """The universe's name."""
+        return self._universe.name
+
+    @property
+    def universe(self) -> Universe:
+        """What the world was made of, random values drawn."""
+        return self._universe
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time since the last reset."""
+        return self._steps / STEP_HZ
+
+    @property
+    def scene(self) -> Scene:
+        """What there is to see."""
+        self._scene.t = self.time_s
+        return self._scene
+
+    @property
+    def robots(self) -> Sequence[BulletRobot]:
+        """The robots, in the universe's order."""
+        return self._content.robots
+
+    @property
+    def actors(self) -> Sequence[BulletActor]:
+        """The people, in the universe's order."""
+        return self._content.actors
+
+    def step(self, count: int = 1) -> None:
+        """Simulates `count` steps of 1/240 s."""
+        bullet, robots = self._bullet, self._content.robots
+        for _ in range(count):
+            if self._steps % CONTROL_EVERY == 0:
+                self._control()
+            bullet.stepSimulation()
+            self._steps += 1
+            now_s = self.time_s
+            for robot in robots:
+                collision = robot.observe_contact(now_s, self._obstacle_name)
+                if collision is not None:
+                    self._collisions.append((robot.id, collision))
+        self._poses = None
+
+    def reset(self) -> None:
+        """Makes the world anew, as it was at the start."""
+        self._bullet.resetSimulation()
+        self._build()
+
+    def save(self) -> _Saved:
+        """Returns the whole state."""
+        content = self._content
+        return _Saved(
+            self._bullet.saveState(),
+            self._steps,
+            [robot.save() for robot in content.robots],
+            [actor.save() for actor in content.actors],
+        )
+
+    def restore(self, state: _Saved) -> None:
+        """Goes on from a saved state."""
+        self._bullet.restoreState(state.physics)
+        self._steps = state.steps
+        for robot, saved in zip(self._content.robots, state.robots, strict=True):
+            robot.restore(saved, self.time_s)
+        for actor, gait in zip(self._content.actors, state.actors, strict=True):
+            actor.restore(gait)
+        self._poses = None
+        self._collisions.clear()
+
+    def forget(self, state: _Saved) -> None:
+        """Frees a saved state."""
+        self._bullet.removeState(state.physics)
+
+    def poses(self) -> NDArray[np.float32]:
+        """Poses of the scene's objects, worked out once a step at most."""
+        if self._poses is None:
+            self._poses = self._objects.update()
+        return self._poses
+
+    def move_body(self, body: str, pose: Sequence[float]) -> None:
+        """Drags a model or a robot to [x, y, z, roll, pitch, yaw]."""
+        wanted = from_xyz_rpy(pose)
+        for robot in self._content.robots:
+            if robot.id == body:
+                place_at_rest(self._bullet, robot.uid, compose(wanted, self._inertial_of(robot.uid)))
+                robot.moved_by_hand()
+                break
+        else:
+            if body not in self._content.bodies:
+                raise WorldError(f"there is no body {body!r} that can be moved")
+            place_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
+        self._poses = None
+
+    def take_collisions(self) -> list[tuple[str, Collision]]:
+        """Returns the collisions since the last call."""
+        taken, self._collisions = self._collisions, []
+        return taken
+
+    def close(self) -> None:
+        """Frees the physics server."""
+        self._bullet.close()
+
+    # --- inside ---
+
+    def _control(self) -> None:
+        now_s, dt_s = self.time_s, CONTROL_EVERY / STEP_HZ
+        for actor in self._content.actors:
+            actor.advance(dt_s)
+        for robot in self._content.robots:
+            robot.control(now_s, dt_s)
+
+    def _obstacle_name(self, uid: int) -> str | None:
+        """Names what a robot touches; None for the ground, which it may."""
+        return self._content.names.get(uid)
+
+    def _inertial_of(self, uid: int) -> Pose:
+        info = self._bullet.getDynamicsInfo(uid, -1)
+        return (*info[3], *info[4])
+
+    def _build(self) -> None:
+        self._set_up_physics()
+        self._steps = 0
+        self._poses: NDArray[np.float32] | None = None
+        self._collisions: list[tuple[str, Collision]] = []
+        self._objects = SceneObjects()
+        self._content = _Content()
+        universe, content = self._universe, self._content
+        content.ground = make_ground(self._bullet, universe.ground.friction)
+        for model in universe.models:
+            self._add_model(model.id)
+        content.actors = [BulletActor(self._bullet, actor) for actor in universe.actors]
+        content.robots = [
+            BulletRobot(self._bullet, config, place, index=i, seed=self._seed)
+            for i, (config, place) in enumerate(zip(self._configs, universe.robots, strict=True))
+        ]
+        content.names.update({uid: actor.id for actor in content.actors for uid in actor.uids})
+        content.names.update({robot.uid: robot.id for robot in content.robots})
+        self._scene = self._make_scene()
+
+    def _set_up_physics(self) -> None:
+        bullet = self._bullet
+        bullet.setGravity(0, 0, -GRAVITY)
+        bullet.setPhysicsEngineParameter(
+            fixedTimeStep=self.step_s, numSubSteps=0, numSolverIterations=30, deterministicOverlappingPairs=1
+        )
+
+    def _add_model(self, model_id: str) -> None:
+        model = next(model for model in self._universe.models if model.id == model_id)
+        body = make_body(self._bullet, model)
+        self._content.bodies[model.id] = body
+        self._content.names[body.uid] = model.id
+        kind = "dynamic" if body.is_dynamic else "static"
+        object_id = self._objects.add(model.id, "", kind, [scene_shape(model)], from_xyz_rpy(model.pose))
+        # Static bodies too: they can be dragged.
+        self._objects.add_mover(lambda: self._where(object_id, body.uid))
+
+    def _where(self, object_id: int, uid: int) -> Sequence[tuple[int, Pose]]:
+        position, orientation = self._bullet.getBasePositionAndOrientation(uid)
+        return [(object_id, (*position, *orientation))]
+
+    def _make_scene(self) -> Scene:
+        sensors: list[SensorPlacement] = []
+        for actor in self._content.actors:
+            actor.add_to_scene(self._objects)
+        for robot in self._content.robots:
+            robot.add_to_scene(self._objects, sensors)
+        poses = self._objects.update()
+        for scene_object, pose in zip(self._objects.objects, poses, strict=True):
+            scene_object.pose = [float(value) for value in pose]
+        universe = self._universe
+        return Scene(
+            name=universe.name,
+            t=0.0,
+            objects=self._objects.objects,
+            meshes={},
+            lights=[Light(list(light.direction), light.intensity) for light in universe.lights],
+            ground_color=rgba(universe.ground.color),
+            sensors=sensors,
+        )

@@ -1,0 +1,96 @@
+"""A differential drive: from the wanted twist to wheel rates, and from wheel angles to odometry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from executor.world.transforms import wrap
+
+if TYPE_CHECKING:
+    from executor.robots.config import Drive
+
+
+@dataclass(frozen=True)
+class Odometry:
+    """Where the wheels say that the robot is: pose in the odom frame, m and rad, and twist in its own."""
+
+    x: float = 0.0
+    y: float = 0.0
+    yaw: float = 0.0
+    linear: float = 0.0
+    angular: float = 0.0
+
+
+@dataclass(frozen=True)
+class DriveState:
+    """All that the drive remembers, so that a world can be saved."""
+
+    wanted: tuple[float, float] = (0.0, 0.0)
+    commanded_s: float = -math.inf
+    linear: float = 0.0
+    angular: float = 0.0
+    wheel_angles: tuple[float, float] | None = None
+    odometry: Odometry = Odometry()
+
+
+class DifferentialDrive:
+    """Turns twists into wheel rates within the limits of the drive; stops when no command comes."""
+
+    def __init__(self, config: Drive) -> None:
+        self._config = config
+        self.state = DriveState()
+
+    def command(self, linear: float, angular: float, now_s: float) -> bool:
+        """Sets the wanted twist in m/s and rad/s; tells whether it was one (not infinite or NaN)."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            return False
+        limit = self._config
+        wanted = (_clamp(linear, limit.max_linear), _clamp(angular, limit.max_angular))
+        self.state = replace(self.state, wanted=wanted, commanded_s=now_s)
+        return True
+
+    def wheel_rates(self, now_s: float, dt_s: float) -> tuple[float, float]:
+        """Returns the rates of the left and right wheels in rad/s for the next `dt_s`."""
+        state, limit = self.state, self._config
+        timed_out = now_s - state.commanded_s > limit.timeout_s
+        linear, angular = (0.0, 0.0) if timed_out else state.wanted
+        linear = _approach(state.linear, linear, limit.linear_acceleration * dt_s)
+        angular = _approach(state.angular, angular, limit.angular_acceleration * dt_s)
+        self.state = replace(state, linear=linear, angular=angular)
+        half_track = limit.track / 2
+        return (
+            (linear - angular * half_track) / limit.wheel_radius,
+            (linear + angular * half_track) / limit.wheel_radius,
+        )
+
+    def observe(self, left: float, right: float, dt_s: float) -> Odometry:
+        """Takes the wheels' angles in rad, `dt_s` after the last ones, and returns the new odometry."""
+        last, old, limit = self.state.wheel_angles, self.state.odometry, self._config
+        if last is None or dt_s <= 0:
+            self.state = replace(self.state, wheel_angles=(left, right))
+            return old
+        moved_left = (left - last[0]) * limit.wheel_radius
+        moved_right = (right - last[1]) * limit.wheel_radius
+        moved, turned = (moved_left + moved_right) / 2, (moved_right - moved_left) / limit.track
+        middle = old.yaw + turned / 2
+        # The chord of an arc, not its length: exact for constant rates.
+        chord = moved * (math.sin(turned / 2) / (turned / 2) if abs(turned) > 1e-9 else 1.0)
+        odometry = Odometry(
+            old.x + chord * math.cos(middle),
+            old.y + chord * math.sin(middle),
+            wrap(old.yaw + turned),
+            moved / dt_s,
+            turned / dt_s,
+        )
+        self.state = replace(self.state, wheel_angles=(left, right), odometry=odometry)
+        return odometry
+
+
+def _clamp(value: float, limit: float) -> float:
+    return max(-limit, min(limit, value))
+
+
+def _approach(value: float, wanted: float, step: float) -> float:
+    return min(wanted, value + step) if wanted > value else max(wanted, value - step)

@@ -1,0 +1,55 @@
+"""PyBullet without its global state: one physics server, its id filled in at every call."""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@contextmanager
+def _silenced() -> Iterator[None]:
+    """PyBullet greets at import on the C level; our stdout may be somebody's JSON."""
+    sys.stdout.flush()
+    saved = [os.dup(1), os.dup(2)]
+    null = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(null, 1)
+        os.dup2(null, 2)
+        yield
+    finally:
+        for target, copy in enumerate(saved, start=1):
+            os.dup2(copy, target)
+            os.close(copy)
+        os.close(null)
+
+
+with _silenced():
+    import pybullet
+
+
+class Bullet:
+    """A physics server in this process. Functions and constants are PyBullet's, by their names."""
+
+    def __init__(self) -> None:
+        self._id: int = pybullet.connect(pybullet.DIRECT)
+        if self._id < 0:
+            raise RuntimeError("PyBullet gives no further physics server")
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(pybullet, name)
+        if callable(value):
+            value = functools.partial(value, physicsClientId=self._id)
+        self.__dict__[name] = value  # looked up once: this is on the path of every step
+        return value
+
+    def close(self) -> None:
+        """Ends the server. May be called twice."""
+        if self._id >= 0:
+            pybullet.disconnect(physicsClientId=self._id)
+            self._id = -1

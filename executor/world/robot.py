@@ -1,0 +1,273 @@
+"""A robot in the physics server. It moves by its wheel motors and by contact, and in no other way."""
+
+from __future__ import annotations
+
+import copy
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from executor.messages import SensorPlacement, Shape
+from executor.world.collision import Collision, CollisionCounter
+from executor.world.drive import DifferentialDrive, DriveState, Odometry
+from executor.world.interface import LidarReading
+from executor.world.lidar import LidarCaster
+from executor.world.transforms import (
+    IDENTITY,
+    Pose,
+    compose,
+    from_xyz_rpy,
+    inverse,
+    quaternion_about,
+    yaw_of,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from executor.robots.config import Camera, Lidar, RobotConfig
+    from executor.robots.urdf import Joint, Visual
+    from executor.universes.model import RobotPlace
+    from executor.world.engine import Bullet
+    from executor.world.objects import SceneObjects
+
+DEFAULT_FRICTION: Final = 0.8
+TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
+FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are Bullet's own and ours for things
+ALL_GROUPS: Final = 0x7FFF
+
+
+@dataclass(frozen=True)
+class _Saved:
+    drive: DriveState
+    counter: CollisionCounter
+    distance_m: float
+    at: tuple[float, float]
+    noise: object
+
+
+class BulletRobot:
+    """A robot with a differential drive, made from its configuration."""
+
+    def __init__(
+        self, bullet: Bullet, config: RobotConfig, place: RobotPlace, *, index: int, seed: int
+    ) -> None:
+        self.id = place.id
+        self.config = config
+        self.distance_m = 0.0
+        self._bullet = bullet
+        self._clock_s = 0.0
+        start = from_xyz_rpy(place.pose)
+        self.uid: int = bullet.loadURDF(
+            str(config.urdf_path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
+        )
+        self._drive = DifferentialDrive(config.drive)
+        self._counter = CollisionCounter()
+        self._noise = np.random.default_rng([seed, index])
+        self._joints, self._links = self._index_links()
+        self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
+        self._wheel_links = {self._links[name] for name in config.wheels}
+        self._inertial = self._inertial_inverse()
+        self._applied: tuple[float, float] | None = None
+        self._at = self.pose[:2]
+        self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
+        mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
+        self._lidars = {lidar.name: LidarCaster(bullet, lidar, mask) for lidar in config.lidars}
+        self._drive.observe(*self._wheel_angles(), 0.0)
+
+    # --- what a program may ask ---
+
+    @property
+    def odometry(self) -> Odometry:
+        """Where the wheels say that the robot is."""
+        return self._drive.state.odometry
+
+    @property
+    def collisions(self) -> int:
+        """How many times the robot has bumped into something."""
+        return self._counter.count
+
+    @property
+    def base_pose(self) -> Pose:
+        """True pose of the root link."""
+        position, orientation = self._bullet.getBasePositionAndOrientation(self.uid)
+        return compose((*position, *orientation), self._inertial)
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """True x and y in m and yaw in rad."""
+        pose = self.base_pose
+        return pose[0], pose[1], yaw_of(pose[3:])
+
+    def command(self, linear: float, angular: float) -> bool:
+        """Sets the wanted twist; refuses one that is not finite."""
+        return self._drive.command(linear, angular, self._clock_s)
+
+    def stop(self) -> None:
+        """Wants no motion any more."""
+        self._drive.command(0.0, 0.0, self._clock_s)
+
+    def joint_states(self) -> dict[str, tuple[float, float]]:
+        """Angle and rate of each wheel joint."""
+        names = (*self.config.drive.left, *self.config.drive.right)
+        states = self._bullet.getJointStates(self.uid, self._wheel_joints)
+        return {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
+
+    def scan(self, lidar: Lidar) -> LidarReading:
+        """Measures now."""
+        return self._lidars[lidar.name].scan(self._clock_s, self._sensor_pose(lidar.link), self._noise)
+
+    def camera_pose(self, camera: Camera) -> Pose:
+        """Where a camera is in the world."""
+        return self._sensor_pose(camera.link)
+
+    # --- what the world calls ---
+
+    def control(self, now_s: float, dt_s: float) -> None:
+        """Reads the wheels and sets their motors; once a control period."""
+        self._clock_s = now_s
+        self._drive.observe(*self._wheel_angles(), dt_s)
+        rates = self._drive.wheel_rates(now_s, dt_s)
+        if rates != self._applied:
+            self._apply(rates)
+        x, y, _ = self.pose
+        moved = math.dist((x, y), self._at)
+        if moved > 1e-5:  # the solver's own trembling is no travel
+            self.distance_m += moved
+            self._at = (x, y)
+
+    def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
+        """Looks at what touches the robot; once a physics step."""
+        self._clock_s = now_s
+        for contact in self._bullet.getContactPoints(bodyA=self.uid):
+            if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
+                body = name_of(contact[2])
+                if body is not None:
+                    return self._counter.observe(now_s, body)
+        return None
+
+    def moved_by_hand(self) -> None:
+        """Takes note that somebody put the robot elsewhere: that is no travel of its own."""
+        self._at = self.pose[:2]
+        self._drive.state = DriveState(
+            wheel_angles=self._drive.state.wheel_angles, odometry=self._drive.state.odometry
+        )
+        self._apply((0.0, 0.0))
+
+    def save(self) -> object:
+        """Returns what the physics server does not keep itself."""
+        noise = copy.deepcopy(self._noise)
+        return _Saved(self._drive.state, copy.copy(self._counter), self.distance_m, self._at, noise)
+
+    def restore(self, saved: object, now_s: float) -> None:
+        """Takes back what `save` gave."""
+        if not isinstance(saved, _Saved):
+            raise TypeError("not a saved robot")
+        self._clock_s = now_s
+        self._drive.state = saved.drive
+        self._counter = copy.copy(saved.counter)
+        self.distance_m, self._at = saved.distance_m, saved.at
+        noise = copy.deepcopy(saved.noise)
+        if isinstance(noise, np.random.Generator):
+            self._noise = noise
+        half_track, radius = self.config.drive.track / 2, self.config.drive.wheel_radius
+        linear, angular = saved.drive.linear, saved.drive.angular
+        self._apply(((linear - angular * half_track) / radius, (linear + angular * half_track) / radius))
+
+    def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
+        """Adds one object for the base with all that is fixed to it, and one for each moving link."""
+        urdf = self.config.urdf
+        shapes: dict[str, list[Shape]] = {}
+        for link in urdf.links.values():
+            carrier, pose = urdf.rigid_parent(link.name)
+            shapes.setdefault(carrier, []).extend(_shape(visual, pose) for visual in link.visuals)
+        ids = {
+            link: objects.add(self.id, link, "robot", link_shapes, IDENTITY)
+            for link, link_shapes in shapes.items()
+        }
+        objects.add_mover(lambda: self._where(ids))
+        for sensor in (*self.config.lidars, *self.config.cameras):
+            carrier, pose = urdf.rigid_parent(sensor.link)
+            fov = 2 * math.pi if sensor.kind == "lidar" else sensor.fov
+            reach = sensor.range_max if sensor.kind == "lidar" else sensor.far
+            sensors.append(SensorPlacement(sensor.name, sensor.kind, ids[carrier], list(pose), fov, reach))
+
+    # --- inside ---
+
+    def _where(self, ids: dict[str, int]) -> Sequence[tuple[int, Pose]]:
+        base = self.base_pose
+        angles = {name: state[0] for name, state in self.joint_states().items()}
+        return [(object_id, self._link_pose(base, link, angles)) for link, object_id in ids.items()]
+
+    def _link_pose(self, base: Pose, link: str, angles: dict[str, float]) -> Pose:
+        chain: list[Joint] = []
+        above = self.config.urdf.joint_above
+        while link in above:
+            chain.append(above[link])
+            link = above[link].parent
+        pose = base
+        for joint in reversed(chain):
+            pose = compose(pose, joint.origin)
+            if joint.name in angles:
+                pose = compose(pose, (0, 0, 0, *quaternion_about(joint.axis, angles[joint.name])))
+        return pose
+
+    def _sensor_pose(self, link: str) -> Pose:
+        angles = {name: state[0] for name, state in self.joint_states().items()}
+        return self._link_pose(self.base_pose, link, angles)
+
+    def _wheel_angles(self) -> tuple[float, float]:
+        states = self._bullet.getJointStates(self.uid, self._wheel_joints)
+        on_left = len(self.config.drive.left)
+        left = sum(state[0] for state in states[:on_left]) / on_left
+        right = sum(state[0] for state in states[on_left:]) / (len(states) - on_left)
+        return left, right
+
+    def _apply(self, rates: tuple[float, float]) -> None:
+        left, right = rates
+        drive = self.config.drive
+        targets = [left] * len(drive.left) + [right] * len(drive.right)
+        self._bullet.setJointMotorControlArray(
+            self.uid,
+            self._wheel_joints,
+            self._bullet.VELOCITY_CONTROL,
+            targetVelocities=targets,
+            forces=[drive.wheel_torque] * len(targets),
+        )
+        self._applied = rates
+
+    def _index_links(self) -> tuple[dict[str, int], dict[str, int]]:
+        joints: dict[str, int] = {}
+        links = {self.config.urdf.root: -1}
+        for index in range(self._bullet.getNumJoints(self.uid)):
+            info = self._bullet.getJointInfo(self.uid, index)
+            joints[info[1].decode()] = index
+            links[info[12].decode()] = index
+        return joints, links
+
+    def _inertial_inverse(self) -> Pose:
+        info = self._bullet.getDynamicsInfo(self.uid, -1)
+        return inverse((*info[3], *info[4]))
+
+    def _set_up_contact(self, group: int) -> None:
+        for name, index in self._links.items():
+            self._bullet.setCollisionFilterGroupMask(self.uid, index, group, ALL_GROUPS)
+            friction = self.config.friction.get(name, DEFAULT_FRICTION)
+            self._bullet.changeDynamics(
+                self.uid, index, lateralFriction=friction, linearDamping=0.0, angularDamping=0.0,
+                rollingFriction=0.0, spinningFriction=0.0, restitution=0.0,
+            )  # fmt: skip
+        self._bullet.changeDynamics(self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING)
+
+
+def _shape(visual: Visual, carrier: Pose) -> Shape:
+    pose = compose(carrier, visual.pose)
+    return Shape(
+        shape=visual.shape,  # type: ignore[arg-type]
+        size=list(visual.size),
+        pose=list(pose),
+        color=list(visual.color),
+        mesh=visual.file,
+    )

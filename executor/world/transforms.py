@@ -1,0 +1,87 @@
+"""Rigid transforms on plain tuples: position and unit quaternion, as [x, y, z, qx, qy, qz, qw]."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Final
+
+Vector = tuple[float, float, float]
+Quaternion = tuple[float, float, float, float]
+Pose = tuple[float, float, float, float, float, float, float]
+
+IDENTITY: Final[Pose] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
+    """Returns the rotation about the fixed axes x, then y, then z."""
+    sr, cr = math.sin(roll / 2), math.cos(roll / 2)
+    sp, cp = math.sin(pitch / 2), math.cos(pitch / 2)
+    sy, cy = math.sin(yaw / 2), math.cos(yaw / 2)
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def quaternion_about(axis: Sequence[float], angle: float) -> Quaternion:
+    """Returns the rotation by an angle about an axis."""
+    length = math.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2) or 1.0
+    s = math.sin(angle / 2) / length
+    return axis[0] * s, axis[1] * s, axis[2] * s, math.cos(angle / 2)
+
+
+def multiply(a: Sequence[float], b: Sequence[float]) -> Quaternion:
+    """Returns the rotation `b`, then `a`."""
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def rotate(q: Sequence[float], v: Sequence[float]) -> Vector:
+    """Returns a vector turned by a rotation."""
+    qx, qy, qz, qw = q
+    x, y, z = v
+    tx, ty, tz = 2 * (qy * z - qz * y), 2 * (qz * x - qx * z), 2 * (qx * y - qy * x)
+    return (
+        x + qw * tx + qy * tz - qz * ty,
+        y + qw * ty + qz * tx - qx * tz,
+        z + qw * tz + qx * ty - qy * tx,
+    )
+
+
+def compose(a: Pose, b: Pose) -> Pose:
+    """Returns the pose `b`, given in the frame of `a`, in the frame in which `a` is given."""
+    x, y, z = rotate(a[3:], b[:3])
+    return (a[0] + x, a[1] + y, a[2] + z, *multiply(a[3:], b[3:]))
+
+
+def inverse(pose: Pose) -> Pose:
+    """Returns the transform back."""
+    q = (-pose[3], -pose[4], -pose[5], pose[6])
+    x, y, z = rotate(q, pose[:3])
+    return (-x, -y, -z, *q)
+
+
+def from_xyz_rpy(values: Sequence[float]) -> Pose:
+    """Returns the pose of [x, y, z, roll, pitch, yaw]."""
+    x, y, z, roll, pitch, yaw = values
+    return (x, y, z, *quaternion_from_rpy(roll, pitch, yaw))
+
+
+def yaw_of(q: Sequence[float]) -> float:
+    """Returns the heading of a rotation, in rad."""
+    qx, qy, qz, qw = q
+    return math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
+
+
+def wrap(angle: float) -> float:
+    """Returns the same angle between -pi and pi."""
+    return math.atan2(math.sin(angle), math.cos(angle))

@@ -3,7 +3,8 @@
 from translator.action import ActionModel, inspect_action
 from translator.check import check
 from translator.diagnostic import Diagnostic, Place, Severity, TranslatorError
-from translator.export import self_contained, to_xml
+from translator.export import export_files, self_contained, to_xml
+from translator.importer import from_xml
 from translator.package.app import to_app_zip
 from translator.project import Project, load
 from translator.settings import Settings
@@ -20,6 +21,8 @@ __all__ = [
     "TranslatorError",
     "Tree",
     "check",
+    "export_files",
+    "from_xml",
     "inspect_action",
     "load",
     "self_contained",

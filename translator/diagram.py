@@ -16,7 +16,7 @@ from translator.catalog import PortModel
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.json_file import parse_json
 from translator.migrate import CURRENT_VERSION, migrate
-from translator.text import clean, is_clean, is_valid_id
+from translator.text import clean, is_clean, is_valid_id, safe_name
 from translator.tree import CONDITIONS, EMPTY, SUBTREE, Node, Tree
 
 if TYPE_CHECKING:
@@ -315,7 +315,7 @@ def diagram_text(tree: Tree) -> str:
 
 def diagram_path(tree_id: str) -> str:
     """Returns where in a project the diagram of a tree is kept."""
-    return f"trees/{tree_id if is_valid_id(tree_id) else 'tree'}.json"
+    return f"trees/{tree_id if is_valid_id(tree_id) else safe_name(tree_id)}.json"
 
 
 def _node_row(node: Node) -> dict[str, Any]:

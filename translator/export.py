@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
+import posixpath
 from typing import TYPE_CHECKING
 
 from translator.action import ActionModel, source_text
@@ -10,22 +12,72 @@ from translator.check import check
 from translator.diagnostic import TranslatorError, errors_in
 from translator.tree import used_types
 from translator.xml.escape import attribute, cdata
-from translator.xml.write import write_document
+from translator.xml.patch import patch_document
+from translator.xml.read import Document, read_document
+from translator.xml.write import ordered_trees, write_document
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from translator.project import Project
+    from translator.xml.source import Element
 
 
 def to_xml(project: Project) -> str:
     """Returns the project's trees as one BehaviorTree.CPP v4 document.
 
+    A project that was imported from one XML file gives back that file, byte for byte where nothing
+    was changed; what only keeps it from running here does not keep it from being exported.
+
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.
     """
+    documents = source_documents(project)
+    if len(documents) == 1:
+        return documents[0].source.decoded(_patched(documents[0], project, documents))
+    if documents:
+        return write_document(project)
     require_sound(project)
     return write_document(project)
+
+
+def export_files(project: Project) -> dict[str, bytes]:
+    """Returns what to write to disk: the imported files with their changes, or one `<name>.xml`.
+
+    Raises:
+        TranslatorError: If the project has errors; its `diagnostics` name them.
+    """
+    documents = source_documents(project)
+    if not documents:
+        return {f"{project.settings.main_tree}.xml": to_xml(project).encode()}
+    return {
+        document.file.removeprefix("imports/"): _patched(document, project, documents)
+        for document in documents
+    }
+
+
+def source_documents(project: Project) -> list[Document]:
+    """Returns the imported XML files of a project, the one that includes the others first."""
+    documents: list[Document] = []
+    for path in sorted(project.files):
+        if path.startswith("imports/") and path.endswith((".xml", ".btproj")):
+            with contextlib.suppress(TranslatorError):
+                documents.append(read_document(project.files[path], file=path))
+    included = {_included_path(document, element) for document in documents for element in document.includes}
+    return sorted(documents, key=lambda document: document.file in included)
+
+
+def _included_path(document: Document, element: Element) -> str:
+    return posixpath.normpath(
+        posixpath.join(posixpath.dirname(document.file), element.attributes.get("path", ""))
+    )
+
+
+def _patched(document: Document, project: Project, documents: list[Document]) -> bytes:
+    known = {item.tree.id for other in documents for item in other.trees}
+    is_first = document is documents[0]
+    added = [tree for tree in ordered_trees(project) if is_first and tree.id not in known and tree.root]
+    return patch_document(document, project, added=added)
 
 
 def self_contained(project: Project) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import restore
 from translator.settings import PROJECT_FILE, Settings, read_settings
 from translator.text import bad_character
+from translator.xml.read import read_document
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -36,12 +38,12 @@ class Project:
         return self.trees.get(self.settings.main_tree)
 
     def model(self, type_: str) -> NodeModel | None:
-        """Returns what a type of node is: built in, an action of the project, or known from an import."""
+        """Returns what a type of node is, built in or an action of the project; None where it cannot run."""
         if (model := builtins().get(type_)) is not None:
             return model
         if (action := self.actions.get(type_)) is not None:
             return action_node_model(action)
-        return self.imported.get(type_)
+        return None
 
     def known_types(self) -> list[str]:
         """Returns the types that a diagram of this project may use."""
@@ -138,5 +140,12 @@ def _load_actions(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[s
     return actions
 
 
-def _imported_models(files: Mapping[str, bytes]) -> Mapping[str, NodeModel]:
-    return {}
+def _imported_models(files: Mapping[str, bytes]) -> dict[str, NodeModel]:
+    """Returns what the models of imported files say about nodes that nobody else knows."""
+    models: dict[str, NodeModel] = {}
+    for path in sorted(files):
+        if not path.startswith("imports/"):
+            continue
+        with contextlib.suppress(TranslatorError):
+            models.update(read_document(files[path], file=path).models)
+    return {type_: model for type_, model in models.items() if model.kind != "subtree"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from functools import lru_cache
 from xml.parsers import expat
@@ -31,6 +32,13 @@ def bad_character(identifier: str) -> str | None:
 def is_valid_id(identifier: str) -> bool:
     """Whether the text can be the ID of a tree or the type of a node."""
     return bool(identifier) and bad_character(identifier) is None and identifier.lower() != "root"
+
+
+def safe_name(identifier: str) -> str:
+    """Returns a file name for an ID that cannot be one; different IDs give different names."""
+    readable = re.sub(r"[^\w-]+", "_", clean(identifier)).strip("_")[:60]
+    digest = hashlib.sha256(identifier.encode("utf-8", "replace")).hexdigest()[:8]
+    return f"{readable or 'tree'}_{digest}"
 
 
 @lru_cache(maxsize=4096)

@@ -1,0 +1,175 @@
+"""Bringing BehaviorTree.CPP XML into a project: includes, Groot2 projects, stubs for actions."""
+
+from __future__ import annotations
+
+import json
+import posixpath
+from dataclasses import dataclass, field, replace
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+from translator.catalog import NodeModel, builtins
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.diagram import diagram_path, diagram_text
+from translator.project import Project, load
+from translator.settings import PROJECT_FILE, Settings
+from translator.stub import can_be_class, stub_source
+from translator.xml.read import Document, read_document
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from translator.tree import Tree
+
+IMPORTS = "imports/"
+MAX_INCLUDES = 200
+
+
+@dataclass(slots=True)
+class _Import:
+    """Documents read so far, by path, and what was found on the way."""
+
+    files: Mapping[str, bytes]
+    documents: dict[str, Document] = field(default_factory=dict)
+    found: list[Diagnostic] = field(default_factory=list)
+
+    def read(self, path: str) -> None:
+        """Reads a file and all that it includes, each once."""
+        waiting = [path]
+        while waiting:
+            current = waiting.pop()
+            if current in self.documents:
+                continue
+            document = read_document(self.files[current], file=current)
+            self.documents[current] = document
+            self.found.extend(document.diagnostics)
+            waiting.extend(reversed(list(self.included(document))))
+
+    def included(self, document: Document) -> Iterable[str]:
+        """Yields the files that a document includes; those that cannot be had are reported."""
+        folder = posixpath.dirname(document.file)
+        for element in document.includes:
+            place = Place(document.file, line=element.line, column=element.column)
+            path = element.attributes.get("path", "")
+            package = element.attributes.get("ros_pkg", "")
+            target = posixpath.normpath(posixpath.join(folder, path.replace("\\", "/")))
+            if not path:
+                self.found.append(diagnostic("BT0730", place))
+            elif package:
+                self.found.append(diagnostic("BT0731", place, package=package, path=path))
+            elif posixpath.isabs(path) or target.startswith("../"):
+                self.found.append(diagnostic("BT0732", place, path=path))
+            elif target not in self.files:
+                self.found.append(diagnostic("BT0733", place, path=path))
+            elif len(self.documents) > MAX_INCLUDES:
+                self.found.append(diagnostic("BT0705", place, what="included files", limit=MAX_INCLUDES))
+            else:
+                yield target
+
+
+def from_xml(
+    xml: bytes | str,
+    *,
+    file: str = "tree.xml",
+    included: Mapping[str, bytes] | None = None,
+    actions: Mapping[str, bytes] | None = None,
+) -> Project:
+    """Makes a project of a BehaviorTree.CPP document, v3 or v4, or of a Groot2 project.
+
+    Args:
+        xml: The document.
+        file: Its path, to which the paths of `<include>` are relative.
+        included: The files that it may include, by path.
+        actions: Sources of actions by file name, such as `Forward.py`. For the others stubs are made.
+
+    Raises:
+        TranslatorError: If the text is no behaviour tree that can be read.
+    """
+    raw = xml.encode("utf-8", "surrogatepass") if isinstance(xml, str) else xml
+    work = _Import({**(included or {}), file: raw})
+    work.read(file)
+    trees, settings = _merged(work, file)
+    if not trees:
+        raise TranslatorError([*work.found, diagnostic("BT0734", Place(file, line=1, column=1))])
+    documents = list(work.documents.values())
+    sources = {PurePosixPath(name).stem: raw for name, raw in (actions or {}).items()}
+    files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
+    files.update(project_files(settings, trees))
+    files.update(_actions(trees, documents, sources))
+    project = load(files)
+    return _with_findings(project, [item.moved(file=f"{IMPORTS}{item.place.file}") for item in work.found])
+
+
+def _with_findings(project: Project, found: list[Diagnostic]) -> Project:
+    return replace(project, diagnostics=(*found, *project.diagnostics))
+
+
+def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]:
+    """Returns `project.json` and the diagrams."""
+    text = json.dumps(settings.to_json(), ensure_ascii=False, indent=2) + "\n"
+    files = {PROJECT_FILE: text.encode()}
+    for tree in trees:
+        files[diagram_path(tree.id)] = diagram_text(tree).encode()
+    return files
+
+
+def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
+    """Joins the trees of all documents; of two with one id the first is taken."""
+    trees: dict[str, Tree] = {}
+    for document in work.documents.values():
+        for item in document.trees:
+            if item.tree.id in trees:
+                place = Place(document.file, tree=item.tree.id, line=item.element.line)
+                work.found.append(
+                    diagnostic("BT0015", place, id=item.tree.id, other=trees[item.tree.id].file)
+                )
+                continue
+            trees[item.tree.id] = item.tree
+    first = work.documents[file]
+    main = first.main or next((item.main for item in work.documents.values() if item.main), "")
+    if main not in trees and trees:
+        callers = {node.tree for tree in trees.values() for node in tree.subtree_calls()}
+        chosen = next((tree_id for tree_id in trees if tree_id not in callers), next(iter(trees)))
+        if main or len(trees) > 1:
+            work.found.append(diagnostic("BT0735", Place(file, line=1), main=main or "(none)", chosen=chosen))
+        main = chosen
+    name = first.source.root.attributes.get("project_name") or PurePosixPath(file).stem
+    return list(trees.values()), Settings(name=name[:200] or "Untitled", main_tree=main or "MainTree")
+
+
+def _actions(trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Returns the action files: those given, those of `<Code>`, and stubs for the others that are leaves."""
+    files = {f"actions/{name}.py": raw for name, raw in sources.items()}
+    for document in documents:
+        for name, code in document.code.items():
+            if can_be_class(name):
+                files.setdefault(f"actions/{name}.py", code.encode())
+    models: dict[str, NodeModel] = {}
+    kinds: dict[str, str] = {}
+    for document in documents:
+        models.update(document.models)
+        kinds.update(document.kinds)
+    for type_, ports in _unknown_leaves(trees).items():
+        path = f"actions/{type_}.py"
+        model = models.get(type_)
+        kind = model.kind if model is not None else kinds.get(type_, "action")
+        if path in files or kind in {"control", "decorator"}:
+            continue
+        source = stub_source(type_, model, ports, kind=kind)
+        files[path] = source.encode()
+    return files
+
+
+def _unknown_leaves(trees: list[Tree]) -> dict[str, set[str]]:
+    """Returns the types of leaves that are not built in, with the ports seen on them."""
+    ids = {tree.id for tree in trees}
+    with_children: set[str] = set()
+    seen: dict[str, set[str]] = {}
+    for tree in trees:
+        for node in tree.nodes.values():
+            if node.type in builtins() or node.type in ids or not can_be_class(node.type):
+                continue
+            if node.children:
+                with_children.add(node.type)
+            seen.setdefault(node.type, set()).update(node.ports)
+    return {type_: ports for type_, ports in sorted(seen.items()) if type_ not in with_children}

@@ -1,0 +1,91 @@
+"""Stubs: the Python of actions that an imported tree uses and nobody has written yet."""
+
+from __future__ import annotations
+
+import json
+import keyword
+from typing import TYPE_CHECKING
+
+from translator.catalog import PortModel
+from translator.check.action import STUB_MARK
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from translator.catalog import NodeModel
+
+_PYTHON_TYPES = {"int": "int", "uint": "int", "double": "float", "bool": "bool", "string": "str"}
+_ATTRIBUTES = {"input": "INPUT_PORTS", "output": "OUTPUT_PORTS", "inout": "INOUT_PORTS"}
+
+
+def can_be_class(name: str) -> bool:
+    """Whether a type of node can be the name of a Python class."""
+    return name.isidentifier() and not keyword.iskeyword(name)
+
+
+def stub_source(
+    name: str, model: NodeModel | None, ports_seen: Iterable[str], *, kind: str = "action"
+) -> str:
+    """Returns the source of an action that is still to be written, with the ports seen in the tree."""
+    seen = sorted(set(ports_seen))
+    declared = list(model.ports.values()) if model is not None else []
+    if declared:
+        declared += [PortModel(port) for port in seen if port not in {item.name for item in declared}]
+    kind = model.kind if model is not None else kind
+    lines = ["import py_trees", ""]
+    if declared:
+        lines += ["from tree_gardener.ports import Port", ""]
+    lines += ["", f"class {name}(py_trees.behaviour.Behaviour):", *_docstring([] if declared else seen), ""]
+    if kind == "condition":
+        lines += ['    NODE_KIND = "Condition"', ""]
+    lines += [*_declarations(declared), *_METHODS]
+    return "\n".join(lines)
+
+
+_METHODS = (
+    "    def __init__(self, name, ports=None):",
+    "        super().__init__(name)",
+    "        self.ports = ports or {}",
+    "",
+    "    def update(self):",
+    "        return py_trees.common.Status.FAILURE",
+    "",
+)
+
+
+def _docstring(seen: list[str]) -> list[str]:
+    if not seen:
+        return [f'    """{STUB_MARK}."""']
+    return [f'    """{STUB_MARK}.', "", f"    Ports seen in the imported tree: {', '.join(seen)}.", '    """']
+
+
+def _declarations(ports: list[PortModel]) -> list[str]:
+    lines = []
+    for direction, attribute in _ATTRIBUTES.items():
+        chosen = [port for port in ports if port.direction == direction]
+        if chosen:
+            lines += [
+                f"    {attribute} = {{",
+                *(f"        {_text(port.name)}: {_port(port)}," for port in chosen),
+            ]
+            lines += ["    }", ""]
+    return lines
+
+
+def _port(port: PortModel) -> str:
+    arguments = [_python_type(port.type)] if port.type != "any" else []
+    if port.default is not None:
+        arguments.append(f"default={_text(port.default)}")
+    if port.description:
+        arguments.append(f"description={_text(port.description)}")
+    return f"Port({', '.join(arguments)})"
+
+
+def _python_type(type_: str) -> str:
+    if type_.startswith("list["):
+        return f"list[{_PYTHON_TYPES.get(type_[5:-1], 'str')}]"
+    return _PYTHON_TYPES.get(type_, "str")
+
+
+def _text(value: str) -> str:
+    return json.dumps(value, ensure_ascii=False)

@@ -1,0 +1,239 @@
+"""From BehaviorTree.CPP XML to trees: v3 and v4, compact and explicit form, with models and includes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from translator.catalog import NodeModel, PortModel
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.text import clean, is_clean
+from translator.tree import SUBTREE, Node, Span, Tree
+from translator.xml.attributes import from_attributes
+from translator.xml.source import Element, Source, parse_source
+from translator.xml.v3 import upgrade
+from translator.xml.write import CPP_TYPES, LAYOUT, PORT_TAGS
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+EXPLICIT = {"Control": "control", "Decorator": "decorator", "Action": "action", "Condition": "condition"}
+OTHER_TAGS = {"TreeNodesModel", "include", "Code"}
+_TYPE_NAMES = {cpp: name for name, cpp in reversed(CPP_TYPES.items())} | {
+    "BT::AnyTypeAllowed": "any",
+    "std::string": "string",
+    "float": "double",
+    "int32_t": "int",
+    "unsigned": "uint",
+    "uint32_t": "uint",
+}
+_DIRECTIONS = {tag: direction for direction, tag in PORT_TAGS.items()}
+
+
+@dataclass(slots=True)
+class TreeSource:
+    """One `<BehaviorTree>`: the tree as it was read, and the element of each node."""
+
+    tree: Tree
+    element: Element
+    elements: dict[str, Element]
+    upgraded: set[str] = field(default_factory=set)
+
+
+@dataclass(slots=True)
+class Document:
+    """What one XML file holds."""
+
+    source: Source
+    is_v4: bool
+    main: str
+    trees: list[TreeSource] = field(default_factory=list)
+    models: dict[str, NodeModel] = field(default_factory=dict)
+    includes: list[Element] = field(default_factory=list)
+    code: dict[str, str] = field(default_factory=dict)
+    kinds: dict[str, str] = field(default_factory=dict)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def file(self) -> str:
+        """The name under which the document was read."""
+        return self.source.file
+
+
+def read_document(raw: bytes | str, *, file: str) -> Document:
+    """Reads one document; findings that leave something to read are in its `diagnostics`.
+
+    Raises:
+        TranslatorError: If the text is no XML that we take, or no behaviour tree.
+    """
+    source = parse_source(raw, file=file)
+    root = source.root
+    if root.tag != "root":
+        place = Place(file, line=root.line, column=root.column)
+        raise TranslatorError([diagnostic("BT0703", place, tag=root.tag)])
+    document = Document(
+        source, root.attributes.get("BTCPP_format") == "4", root.attributes.get("main_tree_to_execute", "")
+    )
+    _Reader(document).read()
+    return document
+
+
+class _Reader:
+    """Fills a document from its root element."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.file = document.file
+
+    def report(self, code: str, element: Element, tree: str = "", node: str = "", **values: object) -> None:
+        place = Place(self.file, tree=tree, node=node, line=element.line, column=element.column)
+        self.document.diagnostics.append(diagnostic(code, place, **values))
+
+    def read(self) -> None:
+        root = self.document.source.root
+        taken: set[str] = set()
+        models = [element for element in root.children if element.tag == "TreeNodesModel"]
+        for element in models:
+            self.read_models(element)
+        for extra in models[1:]:
+            self.report("BT0710", extra)
+        for element in root.children:
+            if element.tag == "BehaviorTree":
+                self.read_tree(element, taken)
+            elif element.tag == "include":
+                self.document.includes.append(element)
+            elif element.tag == "Code":
+                self.read_code(element)
+            elif element.tag not in OTHER_TAGS:
+                self.report("BT0711", element, tag=element.tag)
+
+    def read_code(self, element: Element) -> None:
+        for child in element.children:
+            name = child.attributes.get("name", child.tag)
+            self.document.code[name] = child.text
+
+    def read_tree(self, element: Element, taken: set[str]) -> None:
+        tree_id = element.attributes.get("ID", "")
+        if not tree_id:
+            tree_id = self.document.main or "MainTree"
+            siblings = [other for other in self.document.source.root.children if other.tag == "BehaviorTree"]
+            if len(siblings) > 1:
+                self.report("BT0712", element, tree_id, id=tree_id)
+        if tree_id in taken:
+            self.report("BT0713", element, tree_id, id=tree_id)
+            tree_id = _free(tree_id, taken)
+        taken.add(tree_id)
+        if len(element.children) != 1:
+            self.report("BT0714", element, tree_id, id=tree_id, count=len(element.children))
+        self.document.trees.append(self.tree_source(element, tree_id))
+
+    def tree_source(self, element: Element, tree_id: str) -> TreeSource:
+        explicit_ids = {below.attributes.get("_bts_id", "") for below in element.walk()}
+        result = TreeSource(Tree(tree_id, None, {}), element, {})
+        ids = self.node_ids(element, explicit_ids)
+        nodes: dict[str, Node] = {}
+        for below in element.walk():
+            if below is not element:
+                node = self.node(below, ids, tree_id, result)
+                nodes[node.id] = node
+                result.elements[node.id] = below
+        tops = [ids[id(child)] for child in element.children]
+        model = self.document.models.get(f"{SUBTREE}:{tree_id}")
+        known = {"ID", LAYOUT}
+        result.tree = Tree(
+            id=tree_id,
+            root=tops[0] if tops else None,
+            nodes=nodes,
+            drafts=tuple(tops[1:]),
+            layout=element.attributes.get(LAYOUT, ""),
+            ports=tuple(model.ports.values()) if model else (),
+            attributes={key: text for key, text in element.attributes.items() if key not in known},
+            file=self.file,
+        )
+        return result
+
+    def node_ids(self, tree: Element, explicit: set[str]) -> dict[int, str]:
+        """Gives each element its id: the one it carries, else the next free `n<number>` in pre-order."""
+        ids: dict[int, str] = {}
+        used: set[str] = set()
+        number = 0
+        for below in tree.walk():
+            if below is tree:
+                continue
+            own = below.attributes.get("_bts_id", "")
+            if not own or own in used:
+                number += 1
+                while f"n{number}" in explicit or f"n{number}" in used:
+                    number += 1
+                own = f"n{number}"
+            used.add(own)
+            ids[id(below)] = own
+        return ids
+
+    def node(self, element: Element, ids: dict[int, str], tree_id: str, into: TreeSource) -> Node:
+        node_id = ids[id(element)]
+        type_, attributes = self.typed(element, tree_id, node_id)
+        if not self.document.is_v4:
+            upgraded = upgrade(type_, attributes)
+            if upgraded.changes:
+                into.upgraded.add(node_id)
+                for change in upgraded.changes:
+                    self.report("BT0720", element, tree_id, node_id, change=change)
+            type_, attributes = upgraded.type, upgraded.attributes
+        fields: dict[str, Any] = from_attributes(attributes, is_subtree=type_ == SUBTREE)
+        fields["id"] = node_id
+        children = tuple(ids[id(child)] for child in element.children)
+        return Node(type=type_, children=children, span=Span(element.line, element.column), **fields)
+
+    def typed(self, element: Element, tree_id: str, node_id: str) -> tuple[str, Mapping[str, str]]:
+        """Returns the type of an element in either form, and its other attributes."""
+        attributes = element.attributes
+        if element.tag not in EXPLICIT:
+            if "ID" in attributes and element.tag not in {SUBTREE, "SubTreePlus", "Subtree"}:
+                self.report("BT0715", element, tree_id, node_id, tag=element.tag)
+            return element.tag, attributes
+        type_ = attributes.get("ID", "")
+        if not type_:
+            self.report("BT0716", element, tree_id, node_id, tag=element.tag)
+            return element.tag, attributes
+        self.document.kinds.setdefault(type_, EXPLICIT[element.tag])
+        return type_, {name: text for name, text in attributes.items() if name != "ID"}
+
+    def read_models(self, element: Element) -> None:
+        for child in element.children:
+            kind = "subtree" if child.tag == SUBTREE else EXPLICIT.get(child.tag)
+            type_ = child.attributes.get("ID", "")
+            if kind is None or not type_:
+                self.report("BT0717", child, tag=child.tag)
+                continue
+            ports = [self.port(port) for port in child.children if port.tag in _DIRECTIONS]
+            low, high = {"control": (1, None), "decorator": (1, 1)}.get(kind, (0, 0))
+            model = NodeModel(type_, kind, low, high, {port.name: port for port in ports if port.name})
+            key = f"{SUBTREE}:{type_}" if kind == "subtree" else type_
+            self.document.models[key] = model
+
+    def port(self, element: Element) -> PortModel:
+        attributes = element.attributes
+        text = " ".join((element.text or attributes.get("description", "")).split())
+        return PortModel(
+            name=attributes.get("name", ""),
+            direction=_DIRECTIONS[element.tag],
+            type=type_name(attributes.get("type", "")),
+            default=attributes.get("default"),
+            description=text if is_clean(text) else clean(text),
+        )
+
+
+def type_name(cpp: str) -> str:
+    """Returns the catalogue's name of a C++ type; `any` for those that it does not have."""
+    if cpp.startswith("std::vector<") and cpp.endswith(">"):
+        inner = type_name(cpp[len("std::vector<") : -1])
+        return f"list[{inner}]" if inner in {"int", "double", "bool", "string"} else "any"
+    return _TYPE_NAMES.get(cpp, "any") if cpp not in {"script", "status"} else cpp
+
+
+def _free(name: str, taken: set[str]) -> str:
+    number = 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    return f"{name}_{number}"

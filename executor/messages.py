@@ -12,16 +12,14 @@ Stream socket (MessagePack binary frames), server to client only: one of `FRAMES
 
 from __future__ import annotations
 
-from typing import Any, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 import msgspec
-from msgspec import UNSET, Struct, UnsetType
+from msgspec import UNSET, Meta, Struct, UnsetType
 
 PROTOCOL: Final = "bt-studio.v1"
 
-State = Literal[
-    "idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused"
-]
+State = Literal["idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused"]
 Rung = Literal["connect", "launch_universe", "prepare_visualization", "run_application"]
 NodeStatus = Literal["IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"]
 StreamName = Literal["poses", "scan", "camera", "view"]
@@ -31,6 +29,11 @@ Role = Literal["driver", "viewer"]
 OnFinish = Literal["stop", "repeat"]
 OnError = Literal["stop", "failure"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
+TickRate = Annotated[float, Meta(gt=0, le=1000)]
+Speed = Annotated[float, Meta(ge=0, le=10)]
+StreamRate = Annotated[float, Meta(gt=0, le=120)]
+StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
+Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
 
 # --- commands: what a client may ask -------------------------------------------------------------
@@ -53,14 +56,14 @@ class LaunchUniverse(Struct, forbid_unknown_fields=True):
     universe: str | UniverseDocument
     robot: str | None = None
     seed: int = 0
-    speed: float = 1.0
+    speed: Speed = 1.0
 
 
 class RunApplication(Struct, forbid_unknown_fields=True):
     """(Re)starts the application from an app zip and un-pauses the world."""
 
     app_zip_base64: str
-    tick_hz: float = 20.0
+    tick_hz: TickRate = 20.0
     on_finish: OnFinish = "stop"
     on_error: OnError = "stop"
 
@@ -75,13 +78,13 @@ class Run(Struct, forbid_unknown_fields=True):
 class SetTickRate(Struct, forbid_unknown_fields=True):
     """Ticks a second of simulated time, from the next tick on."""
 
-    tick_hz: float
+    tick_hz: TickRate
 
 
 class SetSpeed(Struct, forbid_unknown_fields=True):
     """Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can."""
 
-    speed: float
+    speed: Speed
 
 
 class SetBlackboard(Struct, forbid_unknown_fields=True):
@@ -95,8 +98,8 @@ class SetBlackboard(Struct, forbid_unknown_fields=True):
 class Teleop(Struct, forbid_unknown_fields=True):
     """Drives the robot by hand: linear x in m/s, angular z in rad/s."""
 
-    linear: float
-    angular: float
+    linear: Velocity
+    angular: Velocity
 
 
 class MoveBody(Struct, forbid_unknown_fields=True):
@@ -117,8 +120,8 @@ class Subscribe(Struct, forbid_unknown_fields=True):
     """Asks for a stream on this client's stream socket; again with other values changes them."""
 
     stream: StreamName
-    max_hz: float = 30.0
-    width: int | None = None
+    max_hz: StreamRate = 30.0
+    width: StreamWidth | None = None
     camera_pose: CameraPose | None = None
 
 
@@ -132,7 +135,7 @@ class EchoTopic(Struct, forbid_unknown_fields=True):
     """Sends each message of a topic as a `topic_message`, at most `max_hz`; 0 ends it."""
 
     topic: str
-    max_hz: float = 10.0
+    max_hz: Annotated[float, Meta(ge=0, le=120)] = 10.0
 
 
 class PublishTopic(Struct, forbid_unknown_fields=True):

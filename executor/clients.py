@@ -1,0 +1,138 @@
+"""The clients of a session: who drives, who watches what, who may come back."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+from uuid import uuid4
+
+from executor.messages import Role, StreamName, Subscribe, TopicMessage, Topics
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from msgspec import Struct
+
+__all__ = ["Clients"]
+
+REMEMBERED: Final = 32
+
+
+@dataclass
+class _Client:
+    is_here: bool = True
+    left_s: float = 0.0
+    has_stream: bool = False
+    streams: dict[StreamName, Subscribe] = field(default_factory=dict)
+    echoed: set[str] = field(default_factory=set)
+
+
+class Clients:
+    """Keeps the clients by id. The first is the driver, later ones are viewers.
+
+    When the driver's connection is lost, whoever comes next drives (it may be the same page, loaded
+    again); a viewer that is already there takes over when the driver stays away.
+    """
+
+    def __init__(self, now_s: float) -> None:
+        self._clients: dict[str, _Client] = {}
+        self._driver: str | None = None
+        self._empty_since_s: float | None = now_s
+
+    def client_id(self, resumed: str | None) -> str:
+        """Returns the id for a new connection: the old one for a client that comes back."""
+        if resumed is not None and resumed in self._clients and not self._clients[resumed].is_here:
+            return resumed
+        return uuid4().hex
+
+    def role(self, client: str) -> Role:
+        """Whether the client drives."""
+        return "driver" if client == self._driver else "viewer"
+
+    def join(self, client: str) -> None:
+        """A client is there, new or again."""
+        record = self._clients.setdefault(client, _Client())
+        record.is_here = True
+        self._empty_since_s = None
+        if self._driver is None or not self._clients[self._driver].is_here:
+            self._driver = client
+
+    def leave(self, client: str, now_s: float) -> list[str]:
+        """A client lost its connection; returns the topics that nobody listens to any more."""
+        record = self._clients.get(client)
+        if record is None:
+            return []
+        record.is_here, record.left_s = False, now_s
+        orphaned = [t for t in record.echoed if not any(self._echoers(t))]
+        if not any(c.is_here for c in self._clients.values()):
+            self._empty_since_s = now_s
+        for gone in [c for c, r in self._clients.items() if not r.is_here][:-REMEMBERED]:
+            del self._clients[gone]
+            self._driver = None if self._driver == gone else self._driver
+        return orphaned
+
+    def deadline_s(self, grace_s: float, promote_s: float) -> float | None:
+        """When `promote` or `is_abandoned` will have something to say."""
+        if self._empty_since_s is not None:
+            return self._empty_since_s + grace_s if grace_s else None
+        if self._driver is not None and not self._clients[self._driver].is_here:
+            return self._clients[self._driver].left_s + promote_s
+        return None
+
+    def promote(self, now_s: float, promote_s: float) -> list[str]:
+        """Makes a viewer the driver where the driver stays away; returns whose role changed."""
+        driver = self._clients.get(self._driver) if self._driver else None
+        if driver is None or driver.is_here or now_s < driver.left_s + promote_s:
+            return []
+        viewers = [client for client, record in self._clients.items() if record.is_here]
+        if viewers:
+            self._driver = viewers[0]
+        return viewers[:1]
+
+    def is_abandoned(self, now_s: float, grace_s: float) -> bool:
+        """Whether nobody has been there for the grace period (0: for ever is fine)."""
+        return bool(grace_s) and self._empty_since_s is not None and now_s >= self._empty_since_s + grace_s
+
+    # --- streams and topics -----------------------------------------------------------------------
+
+    def set_stream(self, client: str, *, is_open: bool) -> None:
+        """The client's stream socket was opened or closed."""
+        if client in self._clients:
+            self._clients[client].has_stream = is_open
+
+    def has_stream(self, client: str) -> bool:
+        """Whether frames can reach the client."""
+        return client in self._clients and self._clients[client].has_stream
+
+    def subscribe(self, client: str, data: Subscribe) -> None:
+        """The client wants a stream."""
+        self._clients[client].streams[data.stream] = data
+
+    def unsubscribe(self, client: str, stream: StreamName) -> None:
+        """The client wants a stream no more."""
+        self._clients[client].streams.pop(stream, None)
+
+    def streams_of(self, client: str) -> list[Subscribe]:
+        """What is to be sent to a client."""
+        return list(self._clients[client].streams.values()) if self.has_stream(client) else []
+
+    def wanted_streams(self) -> Iterator[tuple[str, Subscribe]]:
+        """What is to be sent to whom."""
+        for client in self._clients:
+            for data in self.streams_of(client):
+                yield client, data
+
+    def echo(self, client: str, topic: str, *, wanted: bool) -> bool:
+        """Notes who listens to a topic; tells whether anybody does."""
+        (self._clients[client].echoed.add if wanted else self._clients[client].echoed.discard)(topic)
+        return any(self._echoers(topic))
+
+    def listeners(self, event: Struct) -> list[str]:
+        """Who gets a `topics` or `topic_message` event."""
+        if isinstance(event, TopicMessage):
+            return list(self._echoers(event.topic))
+        assert isinstance(event, Topics)  # noqa: S101 - the only other type that comes here
+        return [client for client, record in self._clients.items() if record.is_here]
+
+    def _echoers(self, topic: str) -> Iterator[str]:
+        return (c for c, record in self._clients.items() if record.is_here and topic in record.echoed)

@@ -1,0 +1,458 @@
+"""The session as a state machine without I/O: events in, effects out, time as an argument.
+
+`Session.handle` takes one event of `executor.events` and returns the effects that it asks for. What a
+command does in which state is in `executor.ladder.TABLE`; what its steps are is in `executor.steps`.
+A step that takes time is a generator that says what it waits for, so every other event is answered
+meanwhile; one step goes on at a time, and `cancel` and `disconnect` end it early.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+from msgspec import Struct
+
+from executor import messages, steps
+from executor.child import Child
+from executor.clients import Clients
+from executor.events import (
+    ChildExited,
+    ChildSaid,
+    ClientJoined,
+    ClientLeft,
+    CommandCame,
+    Effect,
+    EndSession,
+    Event,
+    Interrupt,
+    Kill,
+    Kind,
+    Retire,
+    Send,
+    Spawn,
+    StreamClosed,
+    StreamOpened,
+    Tell,
+    TimePassed,
+    Unpack,
+    Unpacked,
+)
+from executor.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
+from executor.mirror import Mirror
+from executor.steps import StepFailed, Wait
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+
+__all__ = ["About", "Session"]
+
+_log = logging.getLogger(__name__)
+
+_EVENT_NAMES: Final = {kind: name for name, kind in messages.EVENTS.items()}
+_CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application"})
+_FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
+    "application": {
+        "tree": messages.Tree,
+        "tick": messages.Tick,
+        "blackboard": messages.Blackboard,
+        "log": messages.Log,
+        "fault": messages.Fault,
+        "finished": messages.Finished,
+    },
+    "world": {"log": messages.Log, "sim": messages.Sim},
+}
+RETIRE_GRACE_S: Final = 2.0
+
+
+@dataclass(frozen=True)
+class About:
+    """What does not change during a session."""
+
+    version: str
+    ros_distro: str = "jazzy"
+    ros_domain_id: int = 0
+    grace_s: float = 300.0
+    promote_s: float = 5.0
+
+
+@dataclass
+class _Job:
+    """The step that goes on, for the client and request to be answered at its end."""
+
+    command: str
+    askers: list[tuple[str, str]]
+    steps: Generator[Wait, Any, None]
+    wait: Wait | None = None
+    deadline_s: float = 0.0
+
+
+@dataclass
+class _Counters:
+    child: int = 0
+    archive: int = 0
+    unpacked: dict[int, Unpacked] = field(default_factory=dict)
+
+
+class Session:
+    """One session: its ladder, its clients, and what is known of its two child processes."""
+
+    def __init__(self, about: About, *, now_s: float = 0.0) -> None:
+        self.about = about
+        self.mirror = Mirror()
+        self.clients = Clients(now_s)
+        self.children: dict[Kind, Child] = {}
+        self.leaving: set[tuple[Kind, int]] = set()
+        self.run = steps.LastRun()
+        self.sim_time_s = 0.0
+        self._now_s = now_s
+        self._effects: list[Effect] = []
+        self._job: _Job | None = None
+        self._count = _Counters()
+        self._renderer = ""
+        self._has_tf = False
+
+    # --- what the adapter calls -------------------------------------------------------------------
+
+    @property
+    def state(self) -> State:
+        """The rung on which the ladder stands."""
+        return self.mirror.state
+
+    @property
+    def deadline_s(self) -> float | None:
+        """When `TimePassed` is due at the latest, if nothing else happens."""
+        times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
+        if self._job is not None:
+            times.append(self._job.deadline_s)
+        return min((t for t in times if t is not None), default=None)
+
+    def prestart(self) -> list[Effect]:
+        """Starts both processes ahead of the first command, since their imports take time."""
+        self.replenish()
+        return self._take_effects()
+
+    def handle(self, event: Event, now_s: float) -> list[Effect]:
+        """Takes an event and returns what is to be done, in order."""
+        self._now_s = now_s
+        self._dispatch(event)
+        self._advance()
+        self._expire()
+        return self._take_effects()
+
+    # --- what the steps use -----------------------------------------------------------------------
+
+    def enter(self, state: State, reason: str = "") -> None:
+        """Moves the ladder: the one place where its state changes."""
+        _log.info("%s -> %s %s", self.state, state, reason)
+        self.emit(messages.StateChanged(state.value, reason))
+
+    def emit(self, event: Struct) -> None:
+        """Sends an event to all clients and remembers it for those that come later."""
+        self.mirror.apply(event)
+        self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
+
+    def child(self, kind: Kind) -> Child:
+        """Returns the living child of a kind, and starts it where there is none."""
+        if kind not in self.children:
+            self._count.child += 1
+            self.children[kind] = Child(kind, self._count.child)
+            self._effects.append(Spawn(kind, self._count.child))
+        return self.children[kind]
+
+    def replenish(self) -> None:
+        """Has a process of each kind ready for what may come next."""
+        self.child("world")
+        self.child("application")
+
+    def tell(self, kind: Kind, type_: str, **fields: Any) -> None:
+        """Sends a message to the living child of a kind, if there is one."""
+        if kind in self.children:
+            self._effects.append(Tell(kind, self.children[kind].number, {"type": type_, **fields}))
+
+    def interrupt(self, child: Child) -> None:
+        """Has the child's tick broken off."""
+        self._effects.append(Interrupt(child.kind, child.number))
+
+    def drop(self, kind: Kind, *, grace_s: float = 0.0) -> None:
+        """Ends the child of a kind: now, or when it had time to end by itself."""
+        child = self.children.pop(kind, None)
+        if child is None:
+            return
+        self.leaving.add((kind, child.number))
+        if grace_s:
+            self._effects.append(Tell(kind, child.number, {"type": "stop"}))
+            self._effects.append(Retire(kind, child.number, grace_s))
+        else:
+            self._effects.append(Kill(kind, child.number))
+
+    def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
+        """Has an archive unpacked; returns a function that tells the result once it is there."""
+        self._count.archive += 1
+        token = self._count.archive
+        self._effects.append(Unpack(token, archive_base64))
+        return lambda: self._count.unpacked.get(token)
+
+    def open_streams(self) -> None:
+        """Asks the world for all that the clients want to see."""
+        for client, data in self.clients.wanted_streams():
+            self.subscribe(client, data)
+
+    def subscribe(self, client: str, data: messages.Subscribe) -> None:
+        """Asks the world for one stream."""
+        self.tell("world", "subscribe", client=client, **msgspec.to_builtins(data))
+
+    def close_streams(self) -> None:
+        """Asks the world to send nothing more."""
+        for client, data in self.clients.wanted_streams():
+            self.tell("world", "unsubscribe", client=client, stream=data.stream)
+
+    # --- events -----------------------------------------------------------------------------------
+
+    def _dispatch(self, event: Event) -> None:
+        match event:
+            case ClientJoined():
+                self.clients.join(event.client)
+                self._introspect(event.client)
+                self._effects.append(Send(event.client, "snapshot", self.mirror.snapshot()))
+            case ClientLeft():
+                for topic in self.clients.leave(event.client, self._now_s):
+                    self.tell("world", "echo_topic", topic=topic, max_hz=0.0)
+            case StreamOpened():
+                self._open_stream(event.client)
+            case StreamClosed():
+                self._close_stream(event.client)
+            case CommandCame():
+                self._on_command(event)
+            case ChildSaid():
+                self._on_message(event)
+            case ChildExited():
+                self._on_exit(event)
+            case Unpacked():
+                self._count.unpacked = {event.token: event}
+            case TimePassed():
+                pass
+
+    def _introspect(self, client: str) -> None:
+        payload = messages.Introspection(
+            protocol=messages.PROTOCOL,
+            client_id=client,
+            role=self.clients.role(client),
+            state=self.state.value,
+            version=self.about.version,
+            ros_distro=self.about.ros_distro,
+            ros_domain_id=self.about.ros_domain_id,
+            renderer=self._renderer,
+            tf=self._has_tf,
+        )
+        self._effects.append(Send(client, "introspection", payload))
+
+    def _open_stream(self, client: str) -> None:
+        self.clients.set_stream(client, is_open=True)
+        if self.state.reaches(State.VISUALIZATION_READY):
+            for data in self.clients.streams_of(client):
+                self.subscribe(client, data)
+
+    def _close_stream(self, client: str) -> None:
+        for data in self.clients.streams_of(client):
+            self.tell("world", "unsubscribe", client=client, stream=data.stream)
+        self.clients.set_stream(client, is_open=False)
+
+    def _on_message(self, event: ChildSaid) -> None:
+        child = self.children.get(event.kind)
+        if child is None or child.number != event.number:
+            if event.message["type"] == "log":
+                self._forward(event)  # the last words of a child that was let go
+            return
+        child.note(event.message)
+        match event.message["type"]:
+            case "progress":
+                rung = "launch_universe" if event.kind == "world" else "run_application"
+                self._forward_as(messages.Progress, {**event.message, "rung": rung})
+            case "topics" | "topic_message":
+                self._forward_topics(event)
+            case "error" if self.state.reaches(State.UNIVERSE_READY):
+                text = f"{event.message.get('message', '')} {event.message.get('hint', '')}".strip()
+                self.emit(messages.Log("world", "error", text))
+            case "ready" if event.kind == "world":
+                self._renderer = str(event.message.get("renderer", ""))
+                self._has_tf = bool(event.message.get("tf"))
+            case _:
+                self._forward(event)
+                self._after_forward(child, event.message)
+
+    def _forward(self, event: ChildSaid) -> None:
+        kind = _FORWARDED[event.kind].get(event.message["type"])
+        if kind is None:
+            return
+        source = "action" if event.kind == "application" else "world"
+        self._forward_as(kind, {"source": source, **event.message} if kind is messages.Log else event.message)
+
+    def _forward_as(self, kind: type[Struct], message: dict[str, Any]) -> None:
+        if isinstance(t := message.get("t"), float | int):
+            self.sim_time_s = float(t)
+        try:
+            payload = msgspec.convert(message, kind, strict=False)
+        except msgspec.ValidationError as error:
+            _log.warning("a %s message of a child is dropped: %s", message.get("type"), error)
+            return
+        self.emit(payload)
+
+    def _forward_topics(self, event: ChildSaid) -> None:
+        kind = messages.EVENTS[event.message["type"]]
+        try:
+            payload = msgspec.convert(event.message, kind, strict=False)
+        except msgspec.ValidationError as error:
+            _log.warning("topics dropped: %s", error)
+            return
+        name = _EVENT_NAMES[kind]
+        for client in self.clients.listeners(payload):
+            self._effects.append(Send(client, name, payload))
+
+    def _after_forward(self, child: Child, message: dict[str, Any]) -> None:
+        """The application ended by itself: the ladder goes down, the process is let go."""
+        if message["type"] == "finished" and self.state in HAS_APPLICATION and not child.is_stopping:
+            steps.stop_moving(self)
+            self.drop(child.kind, grace_s=RETIRE_GRACE_S)
+            child.end("finished its run")
+            self.enter(State.VISUALIZATION_READY, str(message.get("message") or "The run ended."))
+            self.replenish()
+        elif message["type"] == "fault" and message.get("kind") == "timeout":
+            self.tell("world", "stop_robot")
+
+    def _on_exit(self, event: ChildExited) -> None:
+        child = self.children.get(event.kind)
+        if child is None or child.number != event.number:
+            return
+        del self.children[event.kind]
+        child.end(event.reason, event.last_lines)
+        if event.kind == "world" and self.state.reaches(State.UNIVERSE_READY):
+            self._fall(child, State.CONNECTED, "The simulated world")
+        elif event.kind == "application" and self.state in HAS_APPLICATION:
+            steps.stop_moving(self)
+            self._fall(child, State.VISUALIZATION_READY, "The application")
+        elif not child.is_started:
+            lines = "\n".join(event.last_lines)
+            self.emit(
+                messages.Log("manager", "warning", f"A spare {event.kind} {event.reason}. {lines}".strip())
+            )
+
+    def _fall(self, child: Child, state: State, what: str) -> None:
+        message = f"{what} {child.exit_reason}."
+        lines = "\n".join(child.last_lines)
+        self.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
+        if self.state in HAS_APPLICATION:
+            status: messages.NodeStatus = "IDLE"
+            self.emit(messages.Finished(status, "process_died", message))
+        if child.kind == "world":
+            self.drop("application")
+        self.enter(state, message)
+        self.replenish()
+
+    # --- commands ---------------------------------------------------------------------------------
+
+    def _on_command(self, event: CommandCame) -> None:
+        row = TABLE[event.command]
+        if not row.for_viewers and self.clients.role(event.client) != "driver":
+            self._refuse(event, "not_driver", "Another client drives this session; you are a viewer.")
+        elif event.command == "cancel":
+            self._cancel()
+            self._ack(event.client, event.request)
+        elif event.command == "disconnect":
+            self._disconnect(event)
+        elif self._job is not None and row.is_step:
+            self._join_or_refuse(self._job, event)
+        elif not is_legal(self.state, event.command):
+            message = f"{event.command} is not possible in {self.state}."
+            self._refuse(event, "wrong_state", message, f"It is in: {where(event.command)}.")
+        elif row.is_step:
+            self._begin(event)
+        else:
+            steps.ACTIONS[event.command](self, event)
+            self._ack(event.client, event.request)
+
+    def _begin(self, event: CommandCame) -> None:
+        generator = steps.STEPS[event.command](self, event.data)
+        self._job = _Job(event.command, [(event.client, event.request)], generator)
+
+    def _join_or_refuse(self, job: _Job, event: CommandCame) -> None:
+        if job.command == event.command and event.command.startswith("terminate_"):
+            job.askers.append((event.client, event.request))
+            return
+        self._refuse(event, "busy", f"{job.command} is going on.", "Wait for it, or send cancel.")
+
+    def _disconnect(self, event: CommandCame) -> None:
+        if self._job is not None and self._job.command == "disconnect":
+            self._job.askers.append((event.client, event.request))
+            return
+        self._cancel(also_bounded=True)
+        self._begin(event)
+
+    def _cancel(self, *, also_bounded: bool = False) -> None:
+        """Ends the step that goes on; those that end by themselves soon are left alone."""
+        if self._job is None or not (also_bounded or self._job.command in _CLIMBING):
+            return
+        job, self._job = self._job, None
+        failure = StepFailed("cancelled", f"{job.command} was cancelled.")
+        if job.wait is not None:
+            with contextlib.suppress(StepFailed, StopIteration):
+                job.steps.throw(failure)
+        job.steps.close()
+        self._fail(job, failure)
+
+    def _advance(self) -> None:
+        """Lets the step go on as far as it can."""
+        while (job := self._job) is not None:
+            try:
+                if not self._resume(job):
+                    return
+            except StopIteration:
+                self._job = None
+                for client, request in job.askers:
+                    self._ack(client, request)
+            except StepFailed as failure:
+                self._job = None
+                self._fail(job, failure)
+
+    def _resume(self, job: _Job) -> bool:
+        """Resumes the generator if what it waits for is there; tells whether it moved."""
+        if job.wait is None:
+            job.wait = next(job.steps)
+        else:
+            try:
+                value = job.wait.until()
+            except StepFailed as failure:
+                job.wait = job.steps.throw(failure)
+            else:
+                if value is not None:
+                    job.wait = job.steps.send(value)
+                elif self._now_s >= job.deadline_s:
+                    job.wait = job.steps.throw(StepFailed("timeout", job.wait.too_late))
+                else:
+                    return False
+        job.deadline_s = self._now_s + job.wait.timeout_s
+        return True
+
+    def _expire(self) -> None:
+        for client in self.clients.promote(self._now_s, self.about.promote_s):
+            self._introspect(client)
+        if self.clients.is_abandoned(self._now_s, self.about.grace_s):
+            self._effects.append(EndSession("no client came back within the grace period"))
+
+    def _ack(self, client: str, request: str) -> None:
+        self._effects.append(Send(client, "ack", messages.Ack(), request))
+
+    def _fail(self, job: _Job, failure: StepFailed) -> None:
+        payload = messages.Error(failure.code, failure.message, failure.hint)
+        for client, request in job.askers:
+            self._effects.append(Send(client, "error", payload, request))
+
+    def _refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
+        self._effects.append(Send(event.client, "error", messages.Error(code, message, hint), event.request))
+
+    def _take_effects(self) -> list[Effect]:
+        effects, self._effects = self._effects, []
+        return effects

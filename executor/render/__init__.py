@@ -1,0 +1,6 @@
+"""Draws the world: robot cameras, and the server's own view for browsers without WebGL."""
+
+from executor.render.choose import make_renderer
+from executor.render.interface import Renderer, RenderError, Viewpoint, look_at
+
+__all__ = ["RenderError", "Renderer", "Viewpoint", "look_at", "make_renderer"]

@@ -1,0 +1,111 @@
+"""The renderer of last resort: PyBullet's TinyRenderer, which needs no OpenGL. Slow, but the same geometry."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from executor.world.engine import Bullet
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from executor.messages import Scene, SceneObject, Shape
+    from executor.render.interface import Viewpoint
+
+GROUND_SIZE_M: Final = 80.0
+
+
+class TinyRenderer:
+    """Draws through a physics server of its own that holds pictures of bodies and simulates nothing."""
+
+    name = "TinyRenderer"
+
+    def __init__(self) -> None:
+        self._bullet = Bullet()
+        self._bodies: list[list[int]] = []
+        self._sun = [-0.3, -0.4, 0.8]
+
+    def load(self, scene: Scene) -> None:
+        """Takes a scene in place of the last one."""
+        self._bullet.resetSimulation()
+        self._meshes = scene.meshes
+        self._bodies = [self._body(scene_object) for scene_object in scene.objects]
+        half = [GROUND_SIZE_M / 2, GROUND_SIZE_M / 2, 0.01]
+        ground = self._bullet.createVisualShape(
+            self._bullet.GEOM_BOX, halfExtents=half, rgbaColor=scene.ground_color
+        )
+        self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
+        self._sun = [-value for value in scene.lights[0].direction]
+
+    def draw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.uint8]:
+        """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
+        picture = self._shoot(poses, view, width, height)[2]
+        return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
+
+    def close(self) -> None:
+        """Ends the physics server. May be called twice."""
+        self._bullet.close()
+
+    def _shoot(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> Any:
+        for uids, pose in zip(self._bodies, poses.tolist(), strict=True):
+            for uid in uids:
+                self._bullet.resetBasePositionAndOrientation(uid, pose[:3], pose[3:])
+        return self._bullet.getCameraImage(
+            width,
+            height,
+            viewMatrix=view.view_matrix().T.ravel().tolist(),
+            projectionMatrix=view.projection_matrix(width, height).T.ravel().tolist(),
+            lightDirection=self._sun,
+            shadow=0,
+            renderer=self._bullet.ER_TINY_RENDERER,
+        )
+
+    def _body(self, scene_object: SceneObject) -> list[int]:
+        """Makes one body for each shape: TinyRenderer colours the shapes of one body alike."""
+        return [
+            self._bullet.createMultiBody(0, -1, self._visual(shape), basePosition=scene_object.pose[:3])
+            for shape in scene_object.shapes
+        ]
+
+    def _visual(self, shape: Shape) -> int:
+        bullet, size = self._bullet, shape.size
+        common = {
+            "rgbaColor": shape.color,
+            "visualFramePosition": shape.pose[:3],
+            "visualFrameOrientation": shape.pose[3:],
+        }
+        visual: int
+        match shape.shape:
+            case "box":
+                visual = bullet.createVisualShape(
+                    bullet.GEOM_BOX, halfExtents=[length / 2 for length in size], **common
+                )
+            case "plane":
+                half = [size[0] / 2, size[1] / 2, 0.001]
+                visual = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=half, **common)
+            case "sphere":
+                visual = bullet.createVisualShape(bullet.GEOM_SPHERE, radius=size[0], **common)
+            case "cylinder":
+                visual = bullet.createVisualShape(
+                    bullet.GEOM_CYLINDER, radius=size[0], length=size[1], **common
+                )
+            case "capsule":
+                visual = bullet.createVisualShape(
+                    bullet.GEOM_CAPSULE, radius=size[0], length=max(size[1], 1e-4), **common
+                )
+            case _:
+                visual = self._mesh(shape, common)
+        return visual
+
+    def _mesh(self, shape: Shape, common: dict[str, Any]) -> int:
+        mesh = self._meshes[shape.mesh]
+        points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3)
+        order = np.frombuffer(mesh.indices, "<u4")
+        visual: int = self._bullet.createVisualShape(
+            self._bullet.GEOM_MESH, vertices=points.tolist(), indices=order.tolist(), meshScale=shape.size, **common
+        )
+        return visual

@@ -1,0 +1,26 @@
+"""The environment in which a process joins a session's ROS graph. Set it before `rclpy` is imported."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Final
+
+FASTDDS_PROFILE: Final = Path(__file__).with_name("fastdds.xml")
+
+
+def ros_environment(domain_id: int) -> dict[str, str]:
+    """Returns the variables that put a process into the graph of a session on this host."""
+    return {
+        "ROS_DOMAIN_ID": str(domain_id),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "RMW_IMPLEMENTATION": "rmw_fastrtps_cpp",
+        "FASTDDS_DEFAULT_PROFILES_FILE": str(FASTDDS_PROFILE),
+        "FASTRTPS_DEFAULT_PROFILES_FILE": str(FASTDDS_PROFILE),
+        "RCUTILS_COLORIZED_OUTPUT": "0",
+    }
+
+
+def has_tf() -> bool:
+    """Tells whether `tf2_msgs` was built at set-up; without it `/tf` is left out."""
+    return find_spec("tf2_msgs") is not None

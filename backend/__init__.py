@@ -1,1 +1,3 @@
 """The web server: projects, sessions, and the command line."""
+
+__version__ = "0.1.0"

@@ -1,0 +1,12 @@
+"""Addresses of the catalogue, below `/api/v1/`."""
+
+from django.urls import path
+
+from backend.catalog import views
+
+urlpatterns = [
+    path("catalog/nodes", views.Nodes.as_view()),
+    path("catalog/universes", views.Universes.as_view()),
+    path("catalog/robots", views.Robots.as_view()),
+    path("catalog/templates", views.Templates.as_view()),
+]

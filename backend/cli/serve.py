@@ -1,0 +1,76 @@
+"""`bt-studio serve`: the IDE."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import threading
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from backend.cli.errors import CliError
+
+
+def serve(  # noqa: PLR0913 - one parameter an option
+    host: Annotated[str | None, typer.Option(help="Address to listen on; loopback only.")] = None,
+    port: Annotated[
+        int | None, typer.Option(help="Port to listen on; 0 takes a free one.", min=0, max=65535)
+    ] = None,
+    data_dir: Annotated[Path | None, typer.Option(help="Folder of the database and the logs.")] = None,
+    launcher: Annotated[str | None, typer.Option(help="What starts executors: process.")] = None,
+    browser: Annotated[bool, typer.Option(help="Open the page in the browser.")] = True,  # noqa: FBT002
+    ready_file: Annotated[
+        Path | None, typer.Option(help="Write {url, port, pid} there as soon as the page can be opened.")
+    ] = None,
+) -> None:
+    """Serves the IDE until Ctrl+C."""
+    options = {"HOST": host, "PORT": port, "DATA_DIR": data_dir, "LAUNCHER": launcher}
+    for name, value in options.items():
+        if value is not None:
+            os.environ[f"BT_STUDIO_{name}"] = str(value)
+    os.environ.setdefault("BT_STUDIO_TOKEN", secrets.token_urlsafe(24))
+    from backend.config.environment import InvalidEnvironmentError, environment
+    from backend.config.server import ServeError
+
+    try:
+        settings = environment()
+        if settings.host not in {"127.0.0.1", "localhost", "::1"}:
+            raise ServeError(
+                f"Without accounts the IDE is served on this machine only, not on {settings.host}: "
+                "use --host 127.0.0.1, and an SSH tunnel to reach it from elsewhere."
+            )
+        _serve(open_browser=browser, ready_file=ready_file)
+    except InvalidEnvironmentError as error:
+        raise CliError(str(error), status=2) from error
+    except ServeError as error:
+        raise CliError(str(error)) from error
+
+
+def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
+    from backend.config.environment import environment
+    from backend.config.server import bind, data_folder, migrate, run, write_ready_file
+
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
+    settings = environment()
+    with bind(settings.host, settings.port) as listener, data_folder(settings.data_dir):
+        migrate()
+        port: int = listener.getsockname()[1]
+        name = f"[{settings.host}]" if ":" in settings.host else settings.host
+        url = f"http://{name}:{port}/?token={settings.token.get_secret_value()}"
+
+        def on_ready() -> None:
+            print(f"BT Studio is at {url}\nCtrl+C ends it and every robot that runs.", flush=True)
+            if ready_file:
+                write_ready_file(ready_file, url, port)
+            if open_browser:
+                threading.Thread(target=_open, args=(url,), daemon=True).start()
+
+        run(listener, on_ready=on_ready, log_level=settings.log_level)
+
+
+def _open(url: str) -> None:
+    import webbrowser
+
+    webbrowser.open(url)

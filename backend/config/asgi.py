@@ -1,0 +1,39 @@
+"""The ASGI application: Django for HTTP, raw relays for sockets, and what happens at start and end."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+import django
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, Scope
+
+os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
+django.setup()
+
+from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up first
+from channels.routing import ProtocolTypeRouter  # noqa: E402
+from django.core.handlers.asgi import ASGIHandler  # noqa: E402
+
+from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
+from backend.sessions.consumers import relay_sockets  # noqa: E402
+
+
+async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
+    """Clears up after a server that was killed, and ends all sessions when this one stops."""
+    while True:
+        message = await receive()
+        if message["type"] == "lifespan.startup":
+            await sync_to_async(end_orphans)()
+            await send({"type": "lifespan.startup.complete"})
+        elif message["type"] == "lifespan.shutdown":
+            await sync_to_async(end_all_sessions)()
+            await send({"type": "lifespan.shutdown.complete"})
+            return
+
+
+application: ASGI3Application = ProtocolTypeRouter(
+    {"http": ASGIHandler(), "websocket": relay_sockets, "lifespan": lifespan}
+)

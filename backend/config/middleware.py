@@ -1,0 +1,152 @@
+"""Django middleware: the guard for pages and API, and the headers of every answer."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from http.cookies import CookieError, SimpleCookie
+from typing import Final
+from urllib.parse import urlencode
+
+from asgiref.sync import iscoroutinefunction, markcoroutinefunction
+from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
+from django.http.response import HttpResponseBase
+from django.shortcuts import render
+
+from backend.config import guard
+from backend.config.environment import environment
+from backend.config.problems import problem, problem_response
+
+CONTENT_SECURITY_POLICY: Final = "; ".join(
+    (
+        "default-src 'self'",
+        "script-src 'self' 'wasm-unsafe-eval'",
+        "style-src 'self' 'unsafe-inline'",  # Mantine sets style attributes
+        "img-src 'self' data: blob:",
+        "font-src 'self' data:",
+        "connect-src 'self' ws: wss:",
+        "worker-src 'self' blob:",
+        "object-src 'none'",
+        "base-uri 'none'",
+        "form-action 'self'",
+        "frame-ancestors 'none'",
+    )
+)
+HEADERS: Final = {
+    "Content-Security-Policy": CONTENT_SECURITY_POLICY,
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
+}
+
+GetResponse = Callable[[HttpRequest], HttpResponseBase | Awaitable[HttpResponseBase]]
+
+
+class Middleware:
+    """A middleware whose hooks do no I/O: one body serves the sync and the async chain."""
+
+    sync_capable = True
+    async_capable = True
+
+    def __init__(self, get_response: GetResponse) -> None:
+        self.get_response = get_response
+        if iscoroutinefunction(get_response):
+            markcoroutinefunction(self)
+
+    def __call__(self, request: HttpRequest) -> HttpResponseBase | Awaitable[HttpResponseBase]:
+        early = self.before(request)
+        if iscoroutinefunction(self):
+            return self._async(request, early)
+        answer = early or self.get_response(request)
+        assert isinstance(answer, HttpResponseBase)  # noqa: S101 - the sync chain
+        return self.after(request, answer)
+
+    async def _async(self, request: HttpRequest, early: HttpResponseBase | None) -> HttpResponseBase:
+        if early is None:
+            answer = self.get_response(request)
+            early = answer if isinstance(answer, HttpResponseBase) else await answer
+        return self.after(request, early)
+
+    def before(self, request: HttpRequest) -> HttpResponseBase | None:
+        """May answer in place of the view."""
+        return None
+
+    def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """May change the answer."""
+        return response
+
+
+class SecurityHeaders(Middleware):
+    """Puts the security headers on every answer."""
+
+    def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """Adds what the view did not set itself."""
+        for name, value in HEADERS.items():
+            response.headers.setdefault(name, value)
+        if request.path_info.startswith("/api/"):
+            response.headers.setdefault("Cache-Control", "private, no-cache")
+        return response
+
+
+class Guard(Middleware):
+    """Lets requests pass that `guard.judge` allows; exchanges the token for the cookie."""
+
+    def before(self, request: HttpRequest) -> HttpResponseBase | None:
+        """Answers refused requests and the link with the token."""
+        facts = facts_of(request)
+        keys = guard.keys()
+        link = request.method == "GET" and request.path_info == "/" and "token" in request.GET
+        if link and keys.is_token(request.GET["token"]):
+            refusal = guard.judge(
+                guard.Facts("GET", facts.host, cookie=keys.cookie_value),
+                keys,
+                extra_hosts=environment().allowed_hosts,
+            )
+            return refuse(request, refusal) if refusal else exchange(request, facts.host)
+        refusal = guard.judge(facts, keys, extra_hosts=environment().allowed_hosts)
+        return refuse(request, refusal) if refusal else None
+
+
+def facts_of(request: HttpRequest) -> guard.Facts:
+    """What the guard needs to know of a request."""
+    host = request.META.get("HTTP_HOST", "")
+    scheme, _, bearer = request.META.get("HTTP_AUTHORIZATION", "").partition(" ")
+    return guard.Facts(
+        method=request.method or "GET",
+        host=host,
+        origin=request.META.get("HTTP_ORIGIN"),
+        fetch_site=request.META.get("HTTP_SEC_FETCH_SITE"),
+        cookie=request.COOKIES.get(guard.cookie_name(host)),
+        bearer=bearer if scheme.lower() == "bearer" else None,
+    )
+
+
+def exchange(request: HttpRequest, host: str) -> HttpResponse:
+    """Sets the cookie and goes on to the same page without the token."""
+    rest = {key: value for key, value in request.GET.items() if key != "token"}
+    response = HttpResponseRedirect("/" + (f"?{urlencode(rest)}" if rest else ""))
+    response.set_cookie(
+        guard.cookie_name(host), guard.keys().cookie_value, httponly=True, samesite="Strict", path="/"
+    )
+    response.headers["Cache-Control"] = "no-store"
+    return response
+
+
+def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
+    """Tells a person in HTML, a program as a problem document."""
+    document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
+    if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
+        return problem_response(document)
+    response = render(request, "config/refused.html", {"problem": document}, status=refusal.status)
+    response.headers["Cache-Control"] = "no-store"
+    return response
+
+
+def cookies_of(header: str) -> dict[str, str]:
+    """Reads a `Cookie` header; a broken one holds no cookies."""
+    try:
+        return {name: morsel.value for name, morsel in SimpleCookie(header).items()}
+    except CookieError:
+        return {}

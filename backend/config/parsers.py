@@ -1,0 +1,38 @@
+"""Reading request bodies."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from rest_framework.exceptions import ParseError
+from rest_framework.parsers import JSONParser
+
+
+class StrictJSONParser(JSONParser):
+    """JSON in UTF-8; NaN, infinities, NUL and lone surrogates are refused: the database holds none."""
+
+    def parse(
+        self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
+    ) -> Any:
+        """Reads the whole body."""
+        try:
+            text = stream.read().decode("utf-8")
+            value = json.loads(text, parse_constant=_refuse_constant)
+            if "\\u" in text or "\0" in text:
+                _refuse_unstorable(value)
+        except RecursionError as error:
+            raise ParseError("The JSON is nested too deeply.") from error
+        except ValueError as error:
+            raise ParseError(f"The body is not valid JSON: {error}.") from error
+        return value
+
+
+def _refuse_constant(name: str) -> None:
+    raise ValueError(f"{name} is not a JSON number")
+
+
+def _refuse_unstorable(value: Any) -> None:
+    """Raises ValueError for text that UTF-8 cannot encode or that PostgreSQL cannot hold in a column."""
+    json.dumps(value, ensure_ascii=False).encode("utf-8")

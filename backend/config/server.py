@@ -1,0 +1,133 @@
+"""Runs the web server: prepares the data folder, takes the port, serves until it is told to stop."""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import json
+import logging
+import os
+import secrets
+import socket
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+GRACE_S: Final = 2
+
+
+class ServeError(Exception):
+    """The server cannot start; the text is for the user, with the remedy."""
+
+
+@contextmanager
+def data_folder(folder: Path) -> Iterator[None]:
+    """Makes the folder with its secret key, and holds it: one server owns the sessions in it.
+
+    Raises:
+        ServeError: it cannot be written, or another server holds it.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        _make_secret_key(folder / "secret_key")
+        lock = (folder / "serve.lock").open("a+", encoding="utf-8")
+    except OSError as error:
+        raise ServeError(f"The data folder {folder} cannot be used: {error.strerror}.") from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            lock.seek(0)
+            raise ServeError(
+                f"Another server (process {lock.read().strip() or '?'}) uses the data folder {folder}: "
+                "end it, or choose another folder with --data-dir."
+            ) from error
+        lock.truncate(0)
+        lock.write(str(os.getpid()))
+        lock.flush()
+        yield
+
+
+def _make_secret_key(path: Path) -> None:
+    with suppress(FileExistsError):
+        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+        with os.fdopen(descriptor, "w", encoding="ascii") as file:
+            file.write(secrets.token_urlsafe(48))
+
+
+def bind(host: str, port: int) -> socket.socket:
+    """Takes the port before anything slow happens.
+
+    Raises:
+        ServeError: it is in use, or not ours to take.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    listener = socket.socket(family, socket.SOCK_STREAM)
+    listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listener.bind((host, port))
+        listener.listen(128)
+    except OSError as error:
+        listener.close()
+        if error.errno == errno.EADDRINUSE:
+            raise ServeError(
+                f"Port {port} is already in use: end the program that uses it, or choose another with --port."
+            ) from error
+        raise ServeError(f"Port {port} of {host} cannot be opened: {error.strerror}.") from error
+    return listener
+
+
+def migrate() -> None:
+    """Brings the database up to date; a database that is gets one query."""
+    import django  # noqa: PLC0415 - the environment must be set first
+
+    django.setup()
+    from django.core.management import call_command  # noqa: PLC0415
+
+    call_command("migrate", verbosity=0, interactive=False)
+
+
+def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
+    """Serves until SIGINT or SIGTERM; then ends every session and returns."""
+    import uvicorn  # noqa: PLC0415
+
+    logging.basicConfig(level=log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s")
+    for noisy in ("websockets", "uvicorn.error", "asyncio"):
+        logging.getLogger(noisy).setLevel(logging.WARNING)
+    # Refusals are answers, not news.
+    logging.getLogger("django.request").setLevel(logging.ERROR)
+
+    class Server(uvicorn.Server):
+        async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
+            await super().startup(sockets=list(sockets) if sockets else None)
+            if self.started:
+                on_ready()
+
+    config = uvicorn.Config(
+        "backend.config.asgi:application",
+        log_config=None,
+        access_log=False,
+        lifespan="on",
+        ws="websockets-sansio",
+        ws_max_size=64 * 1024 * 1024,
+        ws_per_message_deflate=False,
+        ws_ping_interval=20,
+        ws_ping_timeout=40,
+        server_header=False,
+        timeout_graceful_shutdown=GRACE_S,
+    )
+    with suppress(KeyboardInterrupt):
+        Server(config).run(sockets=[listener])
+
+
+def write_ready_file(path: Path, url: str, port: int) -> None:
+    """Tells a program that waits where the server is; the file appears whole, for its owner alone."""
+    partial = path.with_name(path.name + ".partial")
+    descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(descriptor, "w", encoding="utf-8") as file:
+        json.dump({"url": url, "port": port, "pid": os.getpid()}, file)
+    partial.replace(path)

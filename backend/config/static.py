@@ -1,0 +1,51 @@
+"""Hands out the built front end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from django.conf import settings
+from django.http import HttpRequest, HttpResponse
+from django.shortcuts import render
+from django.views.decorators.http import require_safe
+from whitenoise.middleware import WhiteNoiseMiddleware
+
+
+class FrontEndFiles(WhiteNoiseMiddleware):
+    """WhiteNoise, answering from memory: its file iterator would block the event loop."""
+
+    def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
+        super().__init__(get_response, settings)
+
+    def immutable_file_test(self, path: str, url: str) -> bool:
+        """Vite puts a hash of the content into the names of all assets."""
+        return url.startswith("/assets/")
+
+    @staticmethod
+    def serve(static_file: Any, request: HttpRequest) -> HttpResponse:
+        """Answers one file, or a part of it."""
+        found = static_file.get_response(request.method, request.META)
+        content = b""
+        if found.file is not None:
+            with found.file as file:
+                content = file.read()
+        response = HttpResponse(content, status=int(found.status))
+        del response["content-type"]
+        for name, value in found.headers:
+            if name.lower() != "access-control-allow-origin":
+                response[name] = value
+        return response
+
+
+@require_safe
+def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
+    """The page of every address that the front end routes itself."""
+    index = settings.ENVIRONMENT.frontend_dir / "index.html"
+    try:
+        content = index.read_bytes()
+    except FileNotFoundError:
+        return render(request, "config/not_built.html", status=503)
+    response = HttpResponse(content, content_type="text/html; charset=utf-8")
+    response.headers["Cache-Control"] = "no-cache"
+    return response

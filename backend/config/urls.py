@@ -1,0 +1,25 @@
+"""All addresses of the server; sockets are in `asgi`."""
+
+from __future__ import annotations
+
+from django.urls import include, path, re_path
+
+from backend.config import static
+from backend.config.schema_view import OpenApi
+from backend.projects.views_legacy import urlpatterns as legacy
+
+api = [
+    path("", include("backend.projects.urls")),
+    path("", include("backend.catalog.urls")),
+    path("", include("backend.sessions.urls")),
+    path("", include("backend.accounts.urls")),
+    path("openapi.json", OpenApi.as_view()),
+]
+urlpatterns = [
+    path("api/v1/", include(api)),
+    path("tree_api/", include(legacy)),
+    path("", static.page),
+    re_path(r"^projects/[0-9a-f-]+/?$", static.page),
+]
+handler404 = "backend.config.problems.not_found"
+handler500 = "backend.config.problems.server_error"

@@ -1,0 +1,175 @@
+"""What the translator says of a project. Answers are kept by content, since most calls repeat one."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from threading import Lock
+from typing import TYPE_CHECKING, Any, Final, NoReturn
+
+from backend.config.problems import InvalidInputError
+from backend.projects.errors import CheckFailedError
+
+if TYPE_CHECKING:
+    from translator import Project as LoadedProject
+    from translator import TranslatorError
+
+_KEPT: Final = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Diagnostics and actions of a project, as JSON."""
+
+    diagnostics: list[dict[str, Any]]
+    actions: list[dict[str, Any]]
+
+
+class _Reports:
+    """The newest reports by the hash of what they are about; used by several threads."""
+
+    def __init__(self) -> None:
+        self._lock = Lock()
+        self._reports: OrderedDict[str, Report] = OrderedDict()
+
+    def get(self, key: str) -> Report | None:
+        with self._lock:
+            if key in self._reports:
+                self._reports.move_to_end(key)
+            return self._reports.get(key)
+
+    def put(self, key: str, report: Report) -> None:
+        with self._lock:
+            self._reports[key] = report
+            while len(self._reports) > _KEPT:
+                self._reports.popitem(last=False)
+
+
+_reports: Final = _Reports()
+
+
+def report(files: Mapping[str, bytes]) -> Report:
+    """Checks a project."""
+    key = _fingerprint(files)
+    found = _reports.get(key)
+    if found is None:
+        found = _report(files)
+        _reports.put(key, found)
+    return found
+
+
+def _report(files: Mapping[str, bytes]) -> Report:
+    import translator  # noqa: PLC0415 - keeps the start of the server short
+
+    try:
+        project = translator.load(files)
+    except translator.TranslatorError as error:
+        return Report([d.to_json() for d in error.diagnostics], [])
+    diagnostics = [d.to_json() for d in translator.check(project)]
+    return Report(diagnostics, [action.to_json() for action in project.actions.values()])
+
+
+def _fingerprint(files: Mapping[str, bytes]) -> str:
+    digest = hashlib.sha256()
+    for path in sorted(files):
+        name = path.encode()
+        digest.update(b"%d %d " % (len(name), len(files[path])) + name)
+        digest.update(files[path])
+    return digest.hexdigest()
+
+
+def xml(files: Mapping[str, bytes], *, self_contained: bool) -> str:
+    """The tree as BT.CPP XML.
+
+    Raises:
+        CheckFailedError: the project has errors.
+    """
+    import translator  # noqa: PLC0415
+
+    try:
+        project = translator.load(files)
+        return translator.self_contained(project) if self_contained else translator.to_xml(project)
+    except translator.TranslatorError as error:
+        _refuse(error)
+
+
+def app(files: Mapping[str, bytes]) -> dict[str, Any]:
+    """What the browser sends to the executor to run the project.
+
+    Raises:
+        CheckFailedError: the project has errors.
+    """
+    import translator  # noqa: PLC0415
+
+    try:
+        project = translator.load(files)
+        zipped = translator.to_app_zip(project)
+    except translator.TranslatorError as error:
+        _refuse(error)
+    settings = project.settings
+    return {
+        "app_zip_base64": base64.b64encode(zipped).decode("ascii"),
+        "tick_hz": settings.tick_hz,
+        "on_finish": settings.on_finish,
+        "on_error": settings.on_error,
+        "universe": universe(files, settings.universe),
+        "robot": settings.robot,
+    }
+
+
+def app_zip(files: Mapping[str, bytes]) -> bytes:
+    """The dockerized app.
+
+    Raises:
+        CheckFailedError: the project has errors.
+    """
+    import translator  # noqa: PLC0415
+
+    try:
+        return translator.to_app_zip(translator.load(files))
+    except translator.TranslatorError as error:
+        _refuse(error)
+
+
+def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
+    """A universe of the project as document with its assets, or the id of a built-in one."""
+    from backend.projects.archive import pack  # noqa: PLC0415
+
+    document = files.get(f"universes/{name}.yaml")
+    if document is None:
+        return name
+    try:
+        text = document.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise InvalidInputError(f"universes/{name}.yaml is not UTF-8 text.", field="universe") from error
+    assets = {p: data for p, data in files.items() if p.startswith(("assets/", "robots/", "universes/"))}
+    return {"document": text, "assets_zip_base64": base64.b64encode(pack(assets)).decode("ascii")}
+
+
+def inspect(source: str, filename: str) -> dict[str, Any]:
+    """What the source of an action says about it."""
+    import translator  # noqa: PLC0415
+
+    return translator.inspect_action(source, filename).to_json()
+
+
+def load(files: Mapping[str, bytes]) -> LoadedProject:
+    """The project as the translator reads it."""
+    import translator  # noqa: PLC0415
+
+    return translator.load(files)
+
+
+def _refuse(error: TranslatorError) -> NoReturn:
+    diagnostics = [diagnostic.to_json() for diagnostic in error.diagnostics]
+    first = next(
+        (d for d in diagnostics if d["severity"] == "error"), diagnostics[0] if diagnostics else None
+    )
+    raise CheckFailedError(
+        first["message"] if first else "The project cannot be translated.",
+        hint=(first or {}).get("hint") or "The list of problems says what to do about each.",
+        diagnostics=diagnostics,
+    ) from error

@@ -1,0 +1,61 @@
+"""Errors of projects; the tree of exceptions starts at `backend.config.problems.StudioError`."""
+
+from __future__ import annotations
+
+from backend.config.problems import StudioError
+
+
+class RevisionConflictError(StudioError):
+    """A file was changed by someone else since the revision that the write is based on."""
+
+    status = 409
+    code = "revision_conflict"
+    title = "Someone else changed this file"
+
+
+class NameTakenError(StudioError):
+    """The user has another project of this name."""
+
+    status = 409
+    code = "name_taken"
+    title = "The name is taken"
+
+
+class QuotaExceededError(StudioError):
+    """The write would take more room than there is for it."""
+
+    status = 413
+    code = "quota_exceeded"
+    title = "Too large"
+
+
+class PreconditionFailedError(StudioError):
+    """`If-Match` names a revision that is no longer the newest."""
+
+    status = 412
+    code = "precondition_failed"
+    title = "The project has changed"
+
+
+class CheckFailedError(StudioError):
+    """The project has errors that keep it from running; they are in `diagnostics`."""
+
+    status = 422
+    code = "check_failed"
+    title = "The project has errors"
+
+
+class ArchiveError(StudioError):
+    """A file that is imported is no archive that we open."""
+
+    status = 422
+    code = "bad_archive"
+    title = "The archive cannot be imported"
+
+
+class IdempotencyError(StudioError):
+    """One idempotency key was used for two different requests."""
+
+    status = 422
+    code = "idempotency_key_reused"
+    title = "The idempotency key was used for another request"

@@ -1,0 +1,100 @@
+"""Rows as the JSON that the API answers with."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from backend.projects import queries
+from backend.projects.checking import report
+from backend.projects.manifest import MANIFEST, read
+from backend.projects.models import ChangeSet, Draft, Project
+from backend.projects.queries import StoredFile
+
+
+def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
+    """A project in a list."""
+    return {
+        "id": str(project.id),
+        "name": project.name,
+        "description": project.description,
+        "main_tree": project.main_tree,
+        "universe": project.universe,
+        "revision": project.revision,
+        "size": project.size,
+        "created_at": project.created_at.isoformat(),
+        "updated_at": project.updated_at.isoformat(),
+        "archived_at": project.archived_at and project.archived_at.isoformat(),
+        "deleted_at": project.deleted_at and project.deleted_at.isoformat(),
+        "root_diagram": root_diagram,
+    }
+
+
+def file(stored: StoredFile) -> dict[str, Any]:
+    """A file with its content."""
+    return file_info(stored) | {"updated_at": stored.updated_at.isoformat(), "content": stored.text}
+
+
+def file_info(stored: StoredFile) -> dict[str, Any]:
+    """A file without its content."""
+    return {
+        "path": stored.path,
+        "revision": stored.revision,
+        "size": len(stored.data),
+        "sha256": stored.sha256,
+    }
+
+
+def detail(project: Project) -> dict[str, Any]:
+    """An opened project."""
+    files = queries.current_files(project)
+    found = report({path: stored.data for path, stored in files.items()})
+    diagram = queries.root_diagrams([project]).get(project.id)
+    return summary(project, diagram) | {
+        "settings": dict(read(files[MANIFEST].data).document),
+        "files": [file(stored) for stored in files.values()],
+        "actions": found.actions,
+        "diagnostics": found.diagnostics,
+    }
+
+
+def changed(project: Project) -> dict[str, Any]:
+    """A project after a change set."""
+    files = queries.current_files(project)
+    found = report({path: stored.data for path, stored in files.items()})
+    return {
+        "revision": project.revision,
+        "files": [file_info(stored) for stored in files.values()],
+        "actions": found.actions,
+        "diagnostics": found.diagnostics,
+    }
+
+
+def revision(change: ChangeSet) -> dict[str, Any]:
+    """One entry of a project's history."""
+    renamed = {row.renamed_from for row in change.files.all() if row.renamed_from}
+    return {
+        "number": change.number,
+        "message": change.message,
+        "label": change.label,
+        "author": change.author.username if change.author else "",
+        "created_at": change.created_at.isoformat(),
+        "files": [
+            {
+                "path": row.path,
+                "change": "renamed" if row.renamed_from else "written" if row.blob_id else "deleted",
+                "renamed_from": row.renamed_from,
+            }
+            for row in sorted(change.files.all(), key=lambda row: row.path)
+            if row.blob_id or row.path not in renamed
+        ],
+    }
+
+
+def draft(row: Draft) -> dict[str, Any]:
+    """What a user typed and did not save."""
+    return {
+        "path": row.path,
+        "base_revision": row.base_revision,
+        "content": row.content,
+        "updated_at": row.updated_at.isoformat(),
+    }

@@ -1,0 +1,196 @@
+"""All reads of projects, each in a number of queries that does not grow with the project."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any, Final, Literal
+from uuid import UUID
+
+from django.db.models import F, Max, Q, QuerySet, Value
+from django.db.models.functions import Concat, Lower
+
+from backend.accounts.models import User
+from backend.config.problems import NotFoundError
+from backend.projects import names
+from backend.projects.changes import Existing
+from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
+
+Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
+Shelf = Literal["current", "archived", "deleted"]
+NOT_FOUND: Final = "There is no such project."
+
+
+@dataclass(frozen=True, slots=True)
+class StoredFile:
+    """A file with its bytes."""
+
+    path: str
+    revision: int
+    sha256: str
+    updated_at: datetime
+    data: bytes = field(repr=False)
+
+    @property
+    def text(self) -> str | None:
+        """The content, when it is text."""
+        return as_text(self.data)
+
+
+def as_text(data: bytes) -> str | None:
+    """Bytes as text, or None when they are not: no UTF-8, or with NUL in it."""
+    if b"\0" in data:
+        return None
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return None
+
+
+def etag(project: Project) -> str:
+    """Changes with every revision."""
+    return f'"{project.revision}"'
+
+
+def project(project_id: UUID, *, user: User, lock: bool = False) -> Project:
+    """The project, if this user may see it; with `lock`, until the end of the transaction."""
+    rows = Project.objects.select_for_update() if lock else Project.objects.all()
+    found = rows.filter(id=project_id, owner=user, deleted_at=None).first()
+    if found is None:
+        raise NotFoundError(NOT_FOUND)
+    return found
+
+
+def project_named(name: str, *, user: User) -> Project:
+    """The project of this name."""
+    found = Project.objects.filter(owner=user, name_key=names.key(name), deleted_at=None).first()
+    if found is None:
+        raise NotFoundError(f"There is no project named “{names.shown(name)}”.")
+    return found
+
+
+def deleted_project(project_id: UUID, *, user: User) -> Project:
+    """The project, deleted or not."""
+    found = Project.objects.select_for_update().filter(id=project_id, owner=user).first()
+    if found is None:
+        raise NotFoundError(NOT_FOUND)
+    return found
+
+
+def projects(
+    *, user: User, search: str = "", sort: Sort = "-updated_at", shelf: Shelf = "current"
+) -> QuerySet[Project]:
+    """The user's projects whose name or description contains each word of the search."""
+    rows = Project.objects.filter(owner=user)
+    if shelf == "deleted":
+        rows = rows.exclude(deleted_at=None)
+    else:
+        rows = rows.filter(deleted_at=None, archived_at__isnull=shelf == "current")
+    for word in search.split()[:10]:
+        rows = rows.filter(Q(name_key__contains=names.key(word)) | Q(description__icontains=word))
+    backwards, column = sort.startswith("-"), sort.removeprefix("-")
+    order = Lower("name") if column == "name" else F(column)
+    return rows.order_by(order.desc() if backwards else order.asc(), "id")
+
+
+def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
+    """The main tree of each project, where it can be read."""
+    rows = CurrentFile.objects.filter(
+        project__in=[p.id for p in found],
+        path=Concat(Value("trees/"), F("project__main_tree"), Value(".json")),
+    ).values_list("project_id", "blob__data")
+    diagrams = {}
+    for project_id, data in rows:
+        try:
+            diagram = json.loads(bytes(data))
+        except (ValueError, RecursionError):
+            continue
+        if isinstance(diagram, dict):
+            diagrams[project_id] = diagram
+    return diagrams
+
+
+def existing_files(project: Project) -> dict[str, Existing]:
+    """The current files without their bytes."""
+    rows = CurrentFile.objects.filter(project=project).values_list(
+        "path", "revision", "blob_id", "blob__size"
+    )
+    return {row[0]: Existing(*row) for row in rows}
+
+
+def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
+    """The current files (all, or these) with their bytes, in one query, in the order of their paths."""
+    rows = CurrentFile.objects.filter(project=project)
+    if paths is not None:
+        rows = rows.filter(path__in=paths)
+    fields = rows.order_by("path").values_list("path", "revision", "blob_id", "updated_at", "blob__data")
+    return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in fields}
+
+
+def contents(project: Project) -> dict[str, bytes]:
+    """The bytes of the current files, as the translator takes them."""
+    return {path: file.data for path, file in current_files(project).items()}
+
+
+def change_set(project: Project, number: int) -> ChangeSet:
+    """One revision of the project."""
+    found = ChangeSet.objects.filter(project=project, number=number).first()
+    if found is None:
+        raise NotFoundError(f"The project has no revision {number}.")
+    return found
+
+
+def history(
+    project: Project, *, path: str = "", before: int | None = None, limit: int = 100
+) -> list[ChangeSet]:
+    """Change sets, the newest first, with their files; all, or those that touched one path."""
+    rows = ChangeSet.objects.filter(project=project).select_related("author").prefetch_related("files")
+    if path:
+        rows = rows.filter(files__path=path)
+    if before is not None:
+        rows = rows.filter(number__lt=before)
+    return list(rows.order_by("-number")[:limit])
+
+
+def files_at(project: Project, number: int, paths: Sequence[str] | None = None) -> Mapping[str, StoredFile]:
+    """The files as they were after change set `number`."""
+    change_set(project, number)
+    rows = FileRevision.objects.filter(change__project=project, change__number__lte=number)
+    if paths is not None:
+        rows = rows.filter(path__in=paths)
+    newest = rows.values("path").annotate(newest=Max("change__number")).values_list("path", "newest")
+    wanted = dict(newest)
+    found = (
+        FileRevision.objects.filter(
+            change__project=project,
+            change__number__in=set(wanted.values()),
+            path__in=wanted,
+            blob__isnull=False,
+        )
+        .order_by("path")
+        .values_list("path", "change__number", "blob_id", "change__created_at", "blob__data")
+    )
+    return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in found if wanted[row[0]] == row[1]}
+
+
+def file_at(project: Project, number: int, path: str) -> StoredFile:
+    """One file as it was after change set `number`."""
+    file = files_at(project, number, [path]).get(path)
+    if file is None:
+        raise NotFoundError(f"Revision {number} has no file “{names.shown(path)}”.")
+    return file
+
+
+def drafts(project: Project, *, user: User) -> list[Draft]:
+    """What this user typed and did not save."""
+    return list(Draft.objects.filter(project=project, author=user).order_by("path"))
+
+
+def current_file(project: Project, path: str) -> StoredFile:
+    """One current file with its bytes."""
+    file = current_files(project, [path]).get(path)
+    if file is None:
+        raise NotFoundError(f"The project has no file “{names.shown(path)}”.")
+    return file

@@ -1,0 +1,240 @@
+"""Projects over HTTP: parse, call, answer."""
+
+from __future__ import annotations
+
+from typing import Any
+from uuid import UUID
+
+from drf_spectacular.utils import extend_schema
+from rest_framework.request import Request
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.config.api import parsed, user_of
+from backend.config.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
+from backend.projects import actions, checking, names, presentation, queries, templates
+from backend.projects import serializers as s
+from backend.projects.idempotency import once
+from backend.projects.models import Project
+from backend.projects.schema import ConflictProblemSerializer
+
+
+def detail_response(project: Project, status: int = 200) -> Response:
+    """An opened project with its ETag."""
+    return Response(presentation.detail(project), status=status, headers={"ETag": queries.etag(project)})
+
+
+class Projects(APIView):
+    """All projects of a user."""
+
+    @extend_schema(
+        operation_id="list_projects",
+        parameters=[s.ProjectListQuerySerializer],
+        responses=s.ProjectListSerializer,
+        tags=["projects"],
+    )
+    def get(self, request: Request) -> Response:
+        """Lists the user's projects."""
+        asked = parsed(s.ProjectListQuerySerializer, request.query_params.dict())
+        rows = queries.projects(
+            user=user_of(request), search=asked["search"], sort=asked["sort"], shelf=asked["shelf"]
+        )
+        total = rows.count()
+        end = asked["offset"] + asked["limit"]
+        page = list(rows[asked["offset"] : end])
+        diagrams = queries.root_diagrams(page)
+        items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
+        return Response({"items": items, "total": total, "next_offset": end if end < total else None})
+
+    @extend_schema(
+        operation_id="create_project",
+        parameters=[IDEMPOTENCY_KEY],
+        request=s.CreateProjectSerializer,
+        responses={201: s.ProjectDetailSerializer},
+        tags=["projects"],
+    )
+    def post(self, request: Request) -> Response:
+        """Creates a project from a template."""
+        asked = parsed(s.CreateProjectSerializer, request.data)
+        user = user_of(request)
+
+        def effect() -> Response:
+            files = templates.files_of(asked["template"])
+            project = actions.create_project(files, acting_user=user, name=asked["name"])
+            return detail_response(project, 201)
+
+        return once(request, user, effect)
+
+
+class OneProject(APIView):
+    """One project."""
+
+    @extend_schema(
+        operation_id="get_project",
+        parameters=[IF_NONE_MATCH],
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
+    )
+    def get(self, request: Request, project_id: UUID) -> Response:
+        """Opens a project: its files, actions and problems."""
+        project = queries.project(project_id, user=user_of(request))
+        if queries.etag(project) in request.headers.get("If-None-Match", ""):
+            return Response(status=304, headers={"ETag": queries.etag(project)})
+        return detail_response(project)
+
+    @extend_schema(
+        operation_id="edit_project",
+        parameters=[IF_MATCH],
+        request=s.EditProjectSerializer,
+        responses={200: s.ProjectDetailSerializer}
+        | problem_of(ConflictProblemSerializer, "project.json changed meanwhile, or the name is taken."),
+        tags=["projects"],
+    )
+    def patch(self, request: Request, project_id: UUID) -> Response:
+        """Renames a project or changes its settings."""
+        asked = parsed(s.EditProjectSerializer, request.data)
+        if_match = request.headers.get("If-Match", "")
+        return detail_response(
+            actions.edit_settings(project_id, acting_user=user_of(request), if_match=if_match, **asked)
+        )
+
+    @extend_schema(
+        operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
+    )
+    def delete(self, request: Request, project_id: UUID) -> Response:
+        """Deletes a project; `restore` brings it back."""
+        actions.delete_project(
+            project_id, acting_user=user_of(request), if_match=request.headers.get("If-Match", "")
+        )
+        return Response(status=204)
+
+
+class Restore(APIView):
+    """Undo of a deletion."""
+
+    @extend_schema(
+        operation_id="restore_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Brings a deleted project back, under another name where its own was taken since."""
+        return detail_response(actions.restore_project(project_id, acting_user=user_of(request)))
+
+
+class Archive(APIView):
+    """Puts a project out of the way."""
+
+    @extend_schema(
+        operation_id="archive_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Moves a project to the archive."""
+        return detail_response(actions.set_archived(project_id, acting_user=user_of(request), archived=True))
+
+
+class Unarchive(APIView):
+    """Takes a project back into use."""
+
+    @extend_schema(
+        operation_id="unarchive_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Moves a project out of the archive."""
+        return detail_response(actions.set_archived(project_id, acting_user=user_of(request), archived=False))
+
+
+class Duplicate(APIView):
+    """Copies a project."""
+
+    @extend_schema(
+        operation_id="duplicate_project",
+        parameters=[IDEMPOTENCY_KEY],
+        request=s.DuplicateProjectSerializer,
+        responses={201: s.ProjectDetailSerializer},
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Makes a new project of the current files."""
+        asked = parsed(s.DuplicateProjectSerializer, request.data)
+        user = user_of(request)
+
+        def effect() -> Response:
+            return detail_response(
+                actions.duplicate_project(project_id, acting_user=user, name=asked["name"]), 201
+            )
+
+        return once(request, user, effect)
+
+
+class Changes(APIView):
+    """The one way to write files."""
+
+    @extend_schema(
+        operation_id="save_changes",
+        parameters=[IF_MATCH, IDEMPOTENCY_KEY],
+        request=s.ChangesSerializer,
+        responses={200: s.ChangesDoneSerializer}
+        | problem_of(ConflictProblemSerializer, "A base is stale; nothing was written."),
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Writes, renames and deletes files in one step, all or nothing."""
+        asked = parsed(s.ChangesSerializer, request.data)
+        user = user_of(request)
+
+        def effect() -> Response:
+            project = actions.save_files(
+                project_id,
+                s.file_changes(asked),
+                acting_user=user,
+                message=asked["message"],
+                if_match=request.headers.get("If-Match", ""),
+            )
+            return Response(presentation.changed(project), headers={"ETag": queries.etag(project)})
+
+        return once(request, user, effect)
+
+
+class Check(APIView):
+    """Problems before saving."""
+
+    @extend_schema(
+        operation_id="check_project",
+        request=s.CheckSerializer,
+        responses=s.ReportSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Checks the project as it would be with these files."""
+        asked = parsed(s.CheckSerializer, request.data)
+        files = queries.contents(queries.project(project_id, user=user_of(request)))
+        for overlay in asked["files"]:
+            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        found = checking.report(files)
+        return Response({"diagnostics": found.diagnostics, "actions": found.actions})
+
+
+class App(APIView):
+    """What runs."""
+
+    @extend_schema(operation_id="get_app", responses=s.AppSerializer, tags=["projects"])
+    def get(self, request: Request, project_id: UUID) -> Response:
+        """What the executor needs to run the project; 422 with `diagnostics` when it has errors."""
+        project = queries.project(project_id, user=user_of(request))
+        return Response(checking.app(queries.contents(project)))
+
+
+class InspectAction(APIView):
+    """Reads the source of one action."""
+
+    @extend_schema(
+        operation_id="inspect_action",
+        request=s.InspectActionSerializer,
+        responses=s.ActionSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request) -> Response:
+        """What the source of an action declares."""
+        asked = parsed(s.InspectActionSerializer, request.data)
+        filename = names.file_path(asked["filename"], field="filename")
+        answer: dict[str, Any] = checking.inspect(asked["source"], filename)
+        return Response(answer)

@@ -1,0 +1,126 @@
+"""Files of a project as downloads: one file, the whole project, the tree as XML; and the way back."""
+
+from __future__ import annotations
+
+from urllib.parse import quote
+from uuid import UUID
+
+from django.http import HttpResponse
+from drf_spectacular.types import OpenApiTypes
+from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
+from rest_framework import serializers
+from rest_framework.parsers import MultiPartParser
+from rest_framework.request import Request
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.config.api import user_of
+from backend.config.environment import environment
+from backend.config.openapi import IDEMPOTENCY_KEY
+from backend.config.problems import InvalidInputError
+from backend.projects import actions, archive, checking, names, queries
+from backend.projects import serializers as s
+from backend.projects.errors import QuotaExceededError
+from backend.projects.idempotency import once
+from backend.projects.views import detail_response
+
+
+def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
+    """Bytes that the browser saves and never shows: what users stored must not run as a page."""
+    response = HttpResponse(data, content_type=content_type)
+    response.headers["Content-Disposition"] = f"attachment; filename*=UTF-8''{quote(filename, safe='')}"
+    response.headers["Content-Security-Policy"] = "default-src 'none'; sandbox"
+    return response
+
+
+class File(APIView):
+    """One file as it is."""
+
+    @extend_schema(
+        operation_id="download_file",
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
+        """The bytes of a current file."""
+        project = queries.project(project_id, user=user_of(request))
+        return file_response(queries.current_file(project, names.file_path(path)))
+
+
+def file_response(file: queries.StoredFile) -> HttpResponse:
+    """A stored file with its revision in the ETag."""
+    response = download(file.data, "application/octet-stream", file.path.rpartition("/")[2])
+    response.headers["ETag"] = f'"{file.sha256}"'
+    response.headers["X-Revision"] = str(file.revision)
+    return response
+
+
+class Xml(APIView):
+    """The tree as XML."""
+
+    @extend_schema(
+        operation_id="get_xml",
+        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request))
+        wish = request.query_params.get("self_contained", "false").lower()
+        if wish not in {"", "0", "1", "true", "false"}:
+            raise InvalidInputError("self_contained is true or false.", field="self_contained")
+        text = checking.xml(queries.contents(project), self_contained=wish in {"1", "true"})
+        return download(text, "text/xml; charset=utf-8", f"{project.name}.xml")
+
+
+class Export(APIView):
+    """The project folder as a zip."""
+
+    @extend_schema(
+        operation_id="export_project",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+        """The current files as a zip; the same revision gives the same bytes."""
+        project = queries.project(project_id, user=user_of(request))
+        return download(archive.pack(queries.contents(project)), "application/zip", f"{project.name}.zip")
+
+
+class UploadSerializer(serializers.Serializer[dict[str, object]]):
+    """A file to import."""
+
+    file = serializers.FileField()
+
+
+class Import(APIView):
+    """The way back."""
+
+    parser_classes = (MultiPartParser,)
+
+    @extend_schema(
+        operation_id="import_project",
+        parameters=[IDEMPOTENCY_KEY],
+        request={"multipart/form-data": UploadSerializer},
+        responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
+        tags=["files"],
+    )
+    def post(self, request: Request) -> Response:
+        """Makes a project of a zip."""
+        user = user_of(request)
+        uploaded = request.FILES.get("file")
+        if uploaded is None:
+            raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
+        if uploaded.size is None or uploaded.size > environment().max_request_bytes:
+            raise QuotaExceededError("The file is too large to import.", field="file")
+        data = uploaded.read()
+        uploaded.seek(0)
+
+        def effect() -> Response:
+            files = archive.unpack(data)
+            archive.require_project(files)
+            project = actions.create_project(files, acting_user=user, message="Import")
+            return detail_response(project, 201)
+
+        return once(request, user, effect)

@@ -1,0 +1,190 @@
+"""The 2024 endpoints of JdeRobot BT Studio under `/tree_api/`, answered by the same functions as our own.
+
+Calls that change state were GET there; here they are POST. The graph of such a project is its main
+diagram in our format, and its files are the actions.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any, Final
+
+from django.http import HttpResponse
+from django.urls import re_path
+from drf_spectacular.utils import extend_schema
+from rest_framework.parsers import FormParser, MultiPartParser
+from rest_framework.request import Request
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.models import User
+from backend.config.api import user_of
+from backend.config.parsers import StrictJSONParser
+from backend.config.problems import InvalidInputError
+from backend.projects import actions, checking, names, queries, templates
+from backend.projects.changes import Content, FileChange
+from backend.projects.models import Project
+from backend.projects.views_files import download
+
+Parameters = dict[str, str]
+Handler = Callable[[User, Parameters], Response | HttpResponse]
+DONE: Final = {"success": True}
+
+
+def create_project(user: User, asked: Parameters) -> Response:
+    """An empty project of this name."""
+    actions.create_project(
+        templates.files_of(templates.EMPTY), acting_user=user, name=_need(asked, "project_name")
+    )
+    return Response(DONE, status=201)
+
+
+def delete_project(user: User, asked: Parameters) -> Response:
+    """Deletes; our own API can bring it back."""
+    actions.delete_project(_project(user, asked).id, acting_user=user)
+    return Response(DONE)
+
+
+def get_project_list(user: User, asked: Parameters) -> Response:
+    """The names of all projects."""
+    return Response({"project_list": [project.name for project in queries.projects(user=user, sort="name")]})
+
+
+def save_project_graph(user: User, asked: Parameters) -> Response:
+    """Replaces the main diagram."""
+    project = _project(user, asked)
+    graph = _need(asked, "graph_json")
+    try:
+        parsed = json.loads(graph)
+    except (ValueError, RecursionError) as error:
+        raise InvalidInputError("graph_json is not valid JSON.", field="graph_json") from error
+    if not isinstance(parsed, dict):
+        raise InvalidInputError("graph_json must be a JSON object.", field="graph_json")
+    _write(user, project, _graph_path(project), graph)
+    return Response(DONE)
+
+
+def get_project_graph(user: User, asked: Parameters) -> Response:
+    """The main diagram, as text."""
+    project = _project(user, asked)
+    return Response({"graph_json": queries.current_file(project, _graph_path(project)).text})
+
+
+def get_file_list(user: User, asked: Parameters) -> Response:
+    """The names of the actions' files."""
+    files = queries.existing_files(_project(user, asked))
+    return Response(
+        {"file_list": sorted(p.removeprefix("actions/") for p in files if p.startswith("actions/"))}
+    )
+
+
+def get_file(user: User, asked: Parameters) -> Response:
+    """The source of one action."""
+    return Response({"content": queries.current_file(_project(user, asked), _action_path(asked)).text})
+
+
+def create_file(user: User, asked: Parameters) -> Response:
+    """A new action; one that exists is a conflict."""
+    _write(user, _project(user, asked), _action_path(asked), asked.get("content", ""), base=0)
+    return Response(DONE, status=201)
+
+
+def save_file(user: User, asked: Parameters) -> Response:
+    """Replaces the source of an action; that API knows no revisions, so the last writer wins."""
+    project = _project(user, asked)
+    queries.current_file(project, _action_path(asked))
+    _write(user, project, _action_path(asked), _need(asked, "content"))
+    return Response(DONE)
+
+
+def delete_file(user: User, asked: Parameters) -> Response:
+    """Deletes an action."""
+    project = _project(user, asked)
+    queries.current_file(project, _action_path(asked))
+    change = FileChange(_action_path(asked), project.revision, delete=True)
+    actions.save_files(project.id, [change], acting_user=user, message="Delete a file")
+    return Response(DONE)
+
+
+def get_dockerized_app(user: User, asked: Parameters) -> HttpResponse:
+    """The app as the manager runs it."""
+    project = _project(user, asked)
+    name = asked.get("app_name") or project.name
+    return download(checking.app_zip(queries.contents(project)), "application/zip", f"{name}.zip")
+
+
+def _need(asked: Parameters, name: str) -> str:
+    if not asked.get(name):
+        raise InvalidInputError(f"The parameter {name} is missing.", field=name)
+    return asked[name]
+
+
+def _project(user: User, asked: Parameters) -> Project:
+    return queries.project_named(_need(asked, "project_name"), user=user)
+
+
+def _graph_path(project: Project) -> str:
+    return names.file_path(f"trees/{project.main_tree}.json", field="project_name")
+
+
+def _action_path(asked: Parameters) -> str:
+    return names.file_path("actions/" + _need(asked, "filename"), field="filename")
+
+
+def _write(user: User, project: Project, file: str, content: str, *, base: int | None = None) -> None:
+    change = FileChange(file, project.revision if base is None else base, Content.of(content.encode()))
+    actions.save_files(project.id, [change], acting_user=user, message="Save")
+
+
+class Reading(APIView):
+    """An endpoint that was GET and is."""
+
+    handler: Handler | None = None
+
+    @extend_schema(exclude=True)
+    def get(self, request: Request) -> Response | HttpResponse:
+        """Parameters are in the query."""
+        return _call(self.handler, request, request.query_params.dict())
+
+
+class Writing(APIView):
+    """An endpoint that changes state: POST only."""
+
+    handler: Handler | None = None
+    parser_classes = (StrictJSONParser, FormParser, MultiPartParser)
+
+    @extend_schema(exclude=True)
+    def post(self, request: Request) -> Response | HttpResponse:
+        """Parameters are in the body."""
+        data: Any = request.data
+        if not isinstance(data, dict):
+            raise InvalidInputError("The body must be a JSON object or a form.")
+        values = {name: data[name] for name in data}
+        if wrong := next((name for name, value in values.items() if not isinstance(value, str | dict)), None):
+            raise InvalidInputError("A parameter must be text.", field=str(wrong)[:100])
+        texts = {
+            name: value if isinstance(value, str) else json.dumps(value) for name, value in values.items()
+        }
+        return _call(self.handler, request, texts)
+
+
+def _call(handler: Handler | None, request: Request, asked: Parameters) -> Response | HttpResponse:
+    assert handler is not None  # noqa: S101 - each address below names one
+    return handler(user_of(request), asked)
+
+
+READING: Final = (get_project_list, get_project_graph, get_file_list, get_file, get_dockerized_app)
+WRITING: Final = (create_project, delete_project, save_project_graph, create_file, delete_file, save_file)
+ALIASES: Final = {"save_project": save_project_graph, "get_simplified_app": get_dockerized_app}
+
+
+def _address(name: str, handler: Handler) -> Any:
+    view = Writing if handler in WRITING else Reading
+    return re_path(f"^{name}/?$", view.as_view(handler=staticmethod(handler)))
+
+
+urlpatterns = [
+    *(_address(handler.__name__, handler) for handler in READING + WRITING),
+    *(_address(name, handler) for name, handler in ALIASES.items()),
+]

@@ -1,0 +1,172 @@
+"""All writes to sessions. Launching is slow, so a thread of its own does it and stores the outcome."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import logging
+import os
+from concurrent.futures import Future, ThreadPoolExecutor
+from functools import lru_cache
+from threading import Lock
+from typing import Final
+from uuid import UUID
+
+from django.conf import settings
+from django.db import IntegrityError, connection, transaction
+from django.utils import timezone
+
+from backend.accounts.models import User
+from backend.config.environment import environment
+from backend.projects import queries as projects
+from backend.sessions import queries
+from backend.sessions.choices import SessionState
+from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.launchers.base import Launcher, Spec
+from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.models import LIVE_STATES, Session
+
+log = logging.getLogger(__name__)
+
+# Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
+ROS_DOMAINS: Final = range(1, 102)
+_launches: Final[dict[UUID, Future[None]]] = {}
+_launches_lock: Final = Lock()
+
+
+@lru_cache(maxsize=1)
+def launcher() -> Launcher:
+    """The launcher of this server; it lives as long as the process."""
+    return ProcessLauncher(environment().data_dir / "logs")
+
+
+@lru_cache(maxsize=1)
+def _workers() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(max_workers=4, thread_name_prefix="session")
+
+
+def manager_token(session: Session) -> str:
+    """The secret between relay and manager; derived, so that it is stored nowhere."""
+    return hmac.new(
+        settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
+    ).hexdigest()
+
+
+def start_session(project_id: UUID, *, acting_user: User) -> Session:
+    """Starts an executor for the project, or returns the one that runs; it may still be starting.
+
+    Raises:
+        HostFullError: there is no free ROS domain.
+    """
+    project = projects.project(project_id, user=acting_user)
+    running = queries.live_session(project_id, user=acting_user)
+    if running is not None and refresh(running).state in LIVE_STATES:
+        return running
+    try:
+        with transaction.atomic():
+            session = Session.objects.create(
+                project=project,
+                user=acting_user,
+                launcher=launcher().name,
+                ros_domain_id=_free_domain(),
+                created_at=timezone.now(),
+            )
+    except IntegrityError:
+        # Another request was faster; its session is the one.
+        running = queries.live_session(project_id, user=acting_user)
+        if running is None:
+            raise
+        return running
+    with _launches_lock:
+        _launches[session.id] = _workers().submit(_launch, session)
+    return session
+
+
+def refresh(session: Session) -> Session:
+    """Notes when a session's executor has died."""
+    if session.state == SessionState.READY:
+        status = launcher().poll(session.launcher_state)
+        if status is not None:
+            launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+            _finish(session, SessionState.FAILED, f"The executor ended by itself (status {status}).")
+    return session
+
+
+def end_session(session: Session) -> Session:
+    """Ends the executor and everything that it started; ending twice is no error."""
+    with _launches_lock:
+        launch = _launches.pop(session.id, None)
+    if launch is not None and not launch.cancel():
+        launch.result()
+        session.refresh_from_db()
+    if session.launcher_state:
+        launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+    if session.state in LIVE_STATES:
+        _finish(session, SessionState.ENDED)
+    return session
+
+
+def end_all_sessions() -> None:
+    """Ends every session whose executor does not outlive the server; for its last moments."""
+    if launcher().survives_server:
+        return
+    live = queries.live_sessions()
+    with ThreadPoolExecutor(max_workers=max(1, len(live))) as pool:
+        list(pool.map(_end_and_disconnect, live))
+
+
+def _end_and_disconnect(session: Session) -> None:
+    try:
+        end_session(session)
+    finally:
+        connection.close()
+
+
+def end_orphans() -> None:
+    """Ends what a server that was killed left behind; called before the first session starts."""
+    for session in queries.live_sessions():
+        if not launcher().survives_server or launcher().poll(session.launcher_state) is not None:
+            if session.launcher_state:
+                launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+            _finish(session, SessionState.ENDED, "The server was restarted.")
+
+
+def _launch(session: Session) -> None:
+    limits = environment()
+    spec = Spec(
+        session_id=str(session.id),
+        token=manager_token(session),
+        ros_domain_id=session.ros_domain_id,
+        start_timeout_s=limits.session_start_timeout_s,
+        stop_timeout_s=limits.session_stop_timeout_s,
+    )
+    try:
+        started = launcher().start(spec)
+    except LaunchError as error:
+        log.warning("session %s: %s", session.id, error.detail)
+        _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
+    except Exception:
+        log.exception("session %s", session.id)
+        _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
+    else:
+        session.address, session.launcher_state = started.address, started.state
+        session.state = SessionState.READY
+        session.save(update_fields=["address", "launcher_state", "state"])
+    finally:
+        connection.close()
+
+
+def _finish(session: Session, state: SessionState, error: str = "") -> None:
+    session.state, session.error, session.ended_at = state, error, timezone.now()
+    session.save(update_fields=["state", "error", "ended_at"])
+
+
+def _free_domain() -> int:
+    taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
+    # Where to begin differs among servers on one host, so that their first sessions do not meet.
+    offset = os.getpid() % len(ROS_DOMAINS)
+    candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
+    free = next((domain for domain in candidates if domain not in taken), None)
+    if free is None:
+        raise HostFullError("Every ROS domain of this host is in use.", hint="End a session and try again.")
+    return free

@@ -1,0 +1,14 @@
+"""Closed sets of the sessions app."""
+
+from __future__ import annotations
+
+from django.db import models
+
+
+class SessionState(models.TextChoices):
+    """`starting` becomes `ready` or `failed`; `ready` becomes `ended`, or `failed` when the process dies."""
+
+    STARTING = "starting"
+    READY = "ready"
+    FAILED = "failed"
+    ENDED = "ended"

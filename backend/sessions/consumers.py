@@ -1,0 +1,182 @@
+"""The two sockets of a session, relayed verbatim between browser and manager.
+
+Nothing is read into the messages and nothing is queued: each direction takes one message and hands it
+on before it takes the next, so that a slow browser slows its manager's socket down, and the manager,
+which knows what a message supersedes, sends it less. Frames never touch the channel layer.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+from uuid import UUID
+
+from asgiref.sync import sync_to_async
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed, InvalidHandshake
+
+from backend.accounts.actions import local_user
+from backend.config import guard
+from backend.config.environment import environment
+from backend.config.middleware import cookies_of
+from backend.config.problems import NotFoundError
+from backend.sessions import actions, queries
+from backend.sessions.choices import SessionState
+from backend.sessions.models import Session
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
+
+log = logging.getLogger(__name__)
+
+ADDRESS: Final = re.compile(r"^/ws/sessions/([0-9a-f-]{36})/(control|stream)$")
+PROTOCOL: Final = "bt-studio.v1"
+MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
+QUEUED_MESSAGES: Final = 2
+POLL_S: Final = 0.03
+
+GOING_AWAY: Final = 1001
+NO_SUCH_SESSION: Final = 4404
+EXECUTOR_FAILED: Final = 4503
+
+
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """How one side ended its socket."""
+
+    code: int
+    reason: str
+
+
+async def relay_sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
+    """The ASGI application of all sockets."""
+    await receive()  # websocket.connect
+    address = ADDRESS.match(scope["path"])
+    if address is None or _refusal(scope) is not None:
+        # A close before the accept makes the server answer the handshake with 403.
+        await send({"type": "websocket.close", "code": 1008, "reason": ""})
+        return
+    offered = list(scope.get("subprotocols") or [])
+    subprotocol = PROTOCOL if PROTOCOL in offered else None
+    await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
+    closed = await _serve(
+        UUID(address[1]), address[2], scope["query_string"].decode("latin-1"), receive, send
+    )
+    if closed is not None:
+        with contextlib.suppress(OSError, RuntimeError):
+            await send({"type": "websocket.close", "code": closed.code, "reason": closed.reason})
+
+
+def _refusal(scope: WebSocketScope) -> guard.Refusal | None:
+    headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+    scheme, _, bearer = headers.get("authorization", "").partition(" ")
+    host = headers.get("host", "")
+    facts = guard.Facts(
+        method="GET",
+        host=host,
+        origin=headers.get("origin"),
+        cookie=cookies_of(headers.get("cookie", "")).get(guard.cookie_name(host)),
+        bearer=bearer if scheme.lower() == "bearer" else None,
+        socket=True,
+    )
+    return guard.judge(facts, guard.keys(), extra_hosts=environment().allowed_hosts)
+
+
+async def _serve(
+    session_id: UUID, channel: str, query: str, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    """Relays until a side ends; returns what the browser is told, None when it has gone itself."""
+    try:
+        session = await _when_ready(session_id)
+    except NotFoundError as error:
+        return Closed(NO_SUCH_SESSION, error.detail)
+    if session.state != SessionState.READY:
+        return Closed(EXECUTOR_FAILED, _short(session.error or "The session has ended."))
+    uri = f"ws://{session.address}/{channel}" + (f"?{query}" if query else "")
+    headers = {"Authorization": f"Bearer {actions.manager_token(session)}"}
+    try:
+        async with connect(
+            uri,
+            additional_headers=headers,
+            compression=None,
+            max_size=MAX_MESSAGE_BYTES,
+            max_queue=QUEUED_MESSAGES,
+            ping_interval=None,
+            proxy=None,
+            close_timeout=2,
+        ) as manager:
+            closed = await _relay(manager, receive, send)
+    except (OSError, InvalidHandshake, TimeoutError) as error:
+        log.warning("session %s: no %s socket: %s", session_id, channel, error)
+        closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")
+    if closed is None:
+        return None
+    session = await sync_to_async(actions.refresh)(session)
+    return closed if session.state == SessionState.READY else Closed(EXECUTOR_FAILED, _short(session.error))
+
+
+async def _when_ready(session_id: UUID) -> Session:
+    """The session, as soon as it is no longer starting."""
+    find = sync_to_async(lambda: queries.session(session_id, user=local_user()))
+    while (session := await find()).state == SessionState.STARTING:
+        await asyncio.sleep(POLL_S)
+    return session
+
+
+async def _relay(
+    manager: ClientConnection, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    up = asyncio.create_task(_browser_to_manager(receive, manager))
+    down = asyncio.create_task(_manager_to_browser(manager, send))
+    try:
+        done, _ = await asyncio.wait((up, down), return_when=asyncio.FIRST_COMPLETED)
+        first = up if up in done else down
+        return await first
+    finally:
+        for task in (up, down):
+            task.cancel()
+        await asyncio.gather(up, down, return_exceptions=True)
+
+
+async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConnection) -> Closed | None:
+    while True:
+        message: Any = await receive()
+        if message["type"] == "websocket.disconnect":
+            code = message.get("code") or 1000
+            await manager.close(code if code in {1000, 1001} or 3000 <= code < 5000 else GOING_AWAY)
+            return None
+        payload = message.get("text")
+        try:
+            await manager.send(message["bytes"] if payload is None else payload)
+        except ConnectionClosed as error:
+            return _closed_by(error)
+
+
+async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable) -> Closed | None:
+    try:
+        while True:
+            message = await manager.recv()
+            if isinstance(message, str):
+                await send({"type": "websocket.send", "text": message, "bytes": None})
+            else:
+                await send({"type": "websocket.send", "bytes": message, "text": None})
+    except ConnectionClosed as error:
+        return _closed_by(error)
+    except OSError:
+        return None  # the browser has gone
+
+
+def _closed_by(error: ConnectionClosed) -> Closed:
+    if error.rcvd is None or error.rcvd.code in {1005, 1006}:
+        return Closed(EXECUTOR_FAILED, "The connection to the executor was lost.")
+    return Closed(error.rcvd.code, _short(error.rcvd.reason))
+
+
+def _short(reason: str) -> str:
+    """A close frame holds 123 bytes."""
+    first = reason.splitlines()[0] if reason else ""
+    return first.encode()[:120].decode(errors="ignore")

@@ -1,0 +1,21 @@
+"""Errors of sessions; the tree of exceptions starts at `backend.config.problems.StudioError`."""
+
+from __future__ import annotations
+
+from backend.config.problems import StudioError
+
+
+class LaunchError(StudioError):
+    """An executor could not be started."""
+
+    status = 503
+    code = "session_failed"
+    title = "The executor did not start"
+
+
+class HostFullError(StudioError):
+    """Every ROS domain of this host is in use."""
+
+    status = 503
+    code = "host_full"
+    title = "Too many sessions"

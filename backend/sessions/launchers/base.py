@@ -1,0 +1,71 @@
+"""The contract between sessions and whatever runs their executors.
+
+A launcher starts one executor manager for a session, tells whether it runs, and ends it. It keeps
+nothing that it could not lose: all it needs to find an executor again is in the *state* that `start`
+returns, a JSON object that the caller stores and hands back, also after a restart of the web server.
+
+    start(spec)      blocks until the manager listens; returns where, and the state. On failure it
+                     raises LaunchError, and leaves nothing running.
+    poll(state)      None while the executor runs; else its exit status, or UNKNOWN_EXIT when it is
+                     gone and nobody saw how. Never blocks.
+    stop(state)      ends the executor and all that it started, politely at first. Returns when
+                     nothing is left; stopping what has ended is no error.
+    survives_server  whether executors outlive the web server.
+
+A class that lacks one of them, or leaves `name` empty, fails when it is defined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Final
+
+State = Mapping[str, Any]
+UNKNOWN_EXIT: Final = -1
+_METHODS: Final = ("start", "poll", "stop")
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """What an executor is told."""
+
+    session_id: str
+    token: str = field(repr=False)
+    ros_domain_id: int
+    start_timeout_s: float
+    stop_timeout_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """A manager that listens at `address` (host:port), and what finds it again."""
+
+    address: str
+    state: dict[str, Any]
+
+
+class Launcher:
+    """See the module for what each method promises."""
+
+    name: ClassVar[str] = ""
+    survives_server: ClassVar[bool] = False
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        missing = [method for method in _METHODS if getattr(cls, method) is getattr(Launcher, method)]
+        if missing or not cls.name:
+            lacking = ", ".join(missing or ["name"])
+            raise TypeError(f"The launcher {cls.__name__} does not define {lacking}.")
+
+    def start(self, spec: Spec) -> Started:
+        """Starts an executor, and returns when its manager listens."""
+        raise NotImplementedError
+
+    def poll(self, state: State) -> int | None:
+        """Tells whether the executor runs (None) or how it ended."""
+        raise NotImplementedError
+
+    def stop(self, state: State, *, timeout_s: float) -> None:
+        """Ends the executor and everything that it started."""
+        raise NotImplementedError

@@ -1,0 +1,183 @@
+"""Executors as child processes of the web server; they end with it.
+
+The manager asks the kernel for a signal when its parent dies. That signal comes when the *thread*
+that forked ends, so one thread, which lives as long as the server, starts them all.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from threading import Lock
+from typing import IO, Final
+
+import psutil
+
+from backend.config.environment import REPOSITORY
+from backend.sessions.errors import LaunchError
+from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
+
+TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not the token
+STDERR_LINES: Final = 20
+
+
+class ProcessLauncher(Launcher):
+    """Starts `bt-studio manager` on a free port of the loopback interface."""
+
+    name = "process"
+
+    def __init__(
+        self, log_folder: Path, command: tuple[str, ...] = (sys.executable, "-m", "backend.cli.main")
+    ) -> None:
+        self._log_folder = log_folder
+        self._command = command
+        self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="launcher")
+        self._children: dict[int, subprocess.Popen[bytes]] = {}
+        self._lock = Lock()
+
+    def start(self, spec: Spec) -> Started:
+        """Starts a manager and waits for the line on its ready pipe."""
+        ready_read, ready_write = os.pipe()
+        log = self._log_folder / f"{spec.session_id}.log"
+        try:
+            with open(ready_read, "rb", buffering=0) as ready:  # noqa: PTH123 - a file descriptor
+                try:
+                    child = self._thread.submit(self._spawn, spec, ready_write, log).result()
+                finally:
+                    os.close(ready_write)
+                port = _await_port(ready, spec.start_timeout_s)
+        except OSError as error:
+            raise LaunchError(f"The executor could not be started: {error}.") from error
+        state = {"pid": child.pid, "created": _created(child.pid)}
+        if port is None:
+            status = child.poll()
+            self.stop(state, timeout_s=spec.stop_timeout_s)
+            raise LaunchError(_why(status, spec.start_timeout_s), hint=_last_lines(log))
+        return Started(f"127.0.0.1:{port}", state)
+
+    def poll(self, state: State) -> int | None:
+        """Reaps the child when it has ended."""
+        with self._lock:
+            child = self._children.get(state["pid"])
+        if child is not None:
+            return child.poll()
+        return None if _find(state) else UNKNOWN_EXIT
+
+    def stop(self, state: State, *, timeout_s: float) -> None:
+        """Asks the manager to end, and kills what is left after the time is up."""
+        process = _find(state)
+        family = [process, *_descendants(process)] if process else []
+        if process:
+            with contextlib.suppress(psutil.Error):
+                process.send_signal(signal.SIGTERM)
+            _, alive = psutil.wait_procs([process], timeout=timeout_s)
+            if alive:
+                family += _descendants(process)
+        for member in family:
+            with contextlib.suppress(psutil.Error):
+                member.kill()
+        psutil.wait_procs(family, timeout=timeout_s)
+        with self._lock:
+            child = self._children.pop(state["pid"], None)
+        if child is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                child.wait(timeout_s)
+            if child.stdin:
+                child.stdin.close()
+
+    def _spawn(self, spec: Spec, ready_fd: int, log: Path) -> subprocess.Popen[bytes]:
+        log.parent.mkdir(parents=True, exist_ok=True)
+        arguments = ("manager", "--host", "127.0.0.1", "--port", "0")
+        options = ("--token-env", TOKEN_VARIABLE, "--ready-fd", str(ready_fd))
+        with log.open("wb") as output:
+            child = subprocess.Popen(
+                (*self._command, *arguments, *options),
+                cwd=REPOSITORY,
+                env=_environment(spec),
+                # The pipe is never written to: its end tells the child that the server is gone.
+                stdin=subprocess.PIPE,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                pass_fds=(ready_fd,),
+                start_new_session=True,
+            )
+        with self._lock:
+            self._children[child.pid] = child
+        return child
+
+
+def _environment(spec: Spec) -> dict[str, str]:
+    """Ours, without our secrets, and with what this session's ROS graph needs."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
+    return kept | {
+        TOKEN_VARIABLE: spec.token,
+        "ROS_DOMAIN_ID": str(spec.ros_domain_id),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+        "PYTHONUNBUFFERED": "1",
+    }
+
+
+def _await_port(ready: IO[bytes], timeout_s: float) -> int | None:
+    """The port from the ready line; None when the child ends or the time is up before."""
+    deadline = time.monotonic() + timeout_s
+    line = b""
+    while not line.endswith(b"\n"):
+        left = deadline - time.monotonic()
+        if left <= 0 or not select.select([ready], [], [], left)[0]:
+            return None
+        chunk = os.read(ready.fileno(), 4096)
+        if not chunk:
+            return None
+        line += chunk
+    try:
+        return int(json.loads(line)["port"])
+    except (ValueError, KeyError, TypeError):
+        return None
+
+
+def _why(status: int | None, timeout_s: float) -> str:
+    if status is None:
+        return f"The executor did not report that it is ready within {timeout_s:g} s."
+    if status < 0:
+        return f"The executor was ended by {signal.Signals(-status).name} before it was ready."
+    return f"The executor ended with exit status {status} before it was ready."
+
+
+def _last_lines(log: Path) -> str:
+    try:
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return ""
+    return "\n".join(lines[-STDERR_LINES:])
+
+
+def _created(pid: int) -> float:
+    try:
+        return psutil.Process(pid).create_time()
+    except psutil.Error:
+        return 0.0
+
+
+def _find(state: State) -> psutil.Process | None:
+    """The process of this state; the time of its start tells it from a later one with its number."""
+    try:
+        process = psutil.Process(state["pid"])
+        same = abs(process.create_time() - state["created"]) < 0.01
+        return process if same and process.status() != psutil.STATUS_ZOMBIE else None
+    except psutil.Error:
+        return None
+
+
+def _descendants(process: psutil.Process) -> list[psutil.Process]:
+    try:
+        return process.children(recursive=True)
+    except psutil.Error:
+        return []

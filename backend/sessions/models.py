@@ -1,0 +1,39 @@
+"""Which executor runs which project."""
+
+from __future__ import annotations
+
+import uuid
+
+from django.conf import settings
+from django.db import models
+from django.db.models import Q
+
+from backend.sessions.choices import SessionState
+
+LIVE_STATES = (SessionState.STARTING, SessionState.READY)
+
+
+class Session(models.Model):
+    """One executor: a manager with its world and its application. One live one per project and user."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    project = models.ForeignKey("projects.Project", on_delete=models.CASCADE, related_name="sessions")
+    user = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)
+    state = models.CharField(max_length=16, choices=SessionState.choices, default=SessionState.STARTING)
+    launcher = models.CharField(max_length=32)
+    launcher_state = models.JSONField(default=dict)
+    address = models.CharField(max_length=200, blank=True)
+    ros_domain_id = models.PositiveSmallIntegerField()
+    error = models.TextField(blank=True)
+    created_at = models.DateTimeField()
+    ended_at = models.DateTimeField(null=True)
+
+    class Meta:
+        constraints = [
+            models.UniqueConstraint(
+                fields=["project", "user"], condition=Q(state__in=LIVE_STATES), name="session_live_unique"
+            ),
+            models.UniqueConstraint(
+                fields=["ros_domain_id"], condition=Q(state__in=LIVE_STATES), name="session_domain_unique"
+            ),
+        ]

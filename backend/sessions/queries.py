@@ -1,0 +1,27 @@
+"""Reads of sessions."""
+
+from __future__ import annotations
+
+from uuid import UUID
+
+from backend.accounts.models import User
+from backend.config.problems import NotFoundError
+from backend.sessions.models import LIVE_STATES, Session
+
+
+def session(session_id: UUID, *, user: User) -> Session:
+    """The session, if it is this user's."""
+    found = Session.objects.filter(id=session_id, user=user).first()
+    if found is None:
+        raise NotFoundError("There is no such session.")
+    return found
+
+
+def live_session(project_id: UUID, *, user: User) -> Session | None:
+    """The session that runs this project for this user, if one does."""
+    return Session.objects.filter(project_id=project_id, user=user, state__in=LIVE_STATES).first()
+
+
+def live_sessions() -> list[Session]:
+    """Every session that starts or runs."""
+    return list(Session.objects.filter(state__in=LIVE_STATES))

@@ -1,0 +1,35 @@
+"""Answers of the sessions API."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rest_framework import serializers
+
+from backend.sessions.choices import SessionState
+from backend.sessions.models import Session
+
+
+class SessionSerializer(serializers.Serializer[Any]):
+    """An executor that runs, or ran, a project."""
+
+    id = serializers.UUIDField()
+    project_id = serializers.UUIDField()
+    state = serializers.ChoiceField(choices=SessionState.choices)
+    control_url = serializers.CharField()
+    stream_url = serializers.CharField()
+    error = serializers.CharField(help_text="Why it failed; else empty.")
+    created_at = serializers.DateTimeField()
+
+
+def presented(session: Session) -> dict[str, Any]:
+    """A session as the API shows it."""
+    return {
+        "id": str(session.id),
+        "project_id": str(session.project_id),
+        "state": session.state,
+        "control_url": f"/ws/sessions/{session.id}/control",
+        "stream_url": f"/ws/sessions/{session.id}/stream",
+        "error": session.error,
+        "created_at": session.created_at.isoformat(),
+    }

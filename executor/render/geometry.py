@@ -45,7 +45,14 @@ def cylinder() -> Vertices:
     up = np.array([0.0, 0.0, 1.0])
     half = up / 2
     for a, b in zip(circle, circle[1:], strict=False):
-        triangles += [(a - half, a), (b - half, b), (b + half, b), (a - half, a), (b + half, b), (a + half, a)]
+        triangles += [
+            (a - half, a),
+            (b - half, b),
+            (b + half, b),
+            (a - half, a),
+            (b + half, b),
+            (a + half, a),
+        ]
         triangles += [(half, up), (a + half, up), (b + half, up)]
         triangles += [(-half, -up), (b - half, -up), (a - half, -up)]
     return _pack(triangles)

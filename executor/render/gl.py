@@ -65,9 +65,7 @@ class GlRenderer:
             self._batches.append(self._batch(vertices, rows, group))
         self._set_light(scene)
 
-    def draw(
-        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
-    ) -> NDArray[np.uint8]:
+    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
         self._place(poses)
         shown, resolved = self._target(width, height)

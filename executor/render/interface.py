@@ -88,9 +88,7 @@ class Renderer(Protocol):
     def load(self, scene: Scene) -> None:
         """Takes a scene in place of the last one."""
 
-    def draw(
-        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
-    ) -> NDArray[np.uint8]:
+    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first.
 
         Args:

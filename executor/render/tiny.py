@@ -39,9 +39,7 @@ class TinyRenderer:
         self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
         self._sun = [-value for value in scene.lights[0].direction]
 
-    def draw(
-        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
-    ) -> NDArray[np.uint8]:
+    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
         picture = self._shoot(poses, view, width, height)[2]
         return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
@@ -106,6 +104,10 @@ class TinyRenderer:
         points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3)
         order = np.frombuffer(mesh.indices, "<u4")
         visual: int = self._bullet.createVisualShape(
-            self._bullet.GEOM_MESH, vertices=points.tolist(), indices=order.tolist(), meshScale=shape.size, **common
+            self._bullet.GEOM_MESH,
+            vertices=points.tolist(),
+            indices=order.tolist(),
+            meshScale=shape.size,
+            **common,
         )
         return visual

@@ -88,7 +88,9 @@ def parse_urdf(data: bytes, file: str = "robot.urdf") -> Urdf:
     if root.tag != "robot":
         raise UrdfError(f"{file}:{root.sourceline}: the first element must be <robot>")
     try:
-        colors = {m.get("name", ""): _color(m) for m in root.findall("material") if m.find("color") is not None}
+        colors = {
+            m.get("name", ""): _color(m) for m in root.findall("material") if m.find("color") is not None
+        }
         links = {link.get("name", ""): _link(link, colors) for link in root.findall("link")}
         joints = {joint.get("name", ""): _joint(joint) for joint in root.findall("joint")}
     except (ValueError, AttributeError, IndexError) as error:
@@ -164,7 +166,9 @@ def _joint(element: etree._Element) -> Joint:
     axis = _numbers(axis_element.get("xyz", "1 0 0")) if axis_element is not None else (1.0, 0.0, 0.0)
     parent, child = element.find("parent"), element.find("child")
     if parent is None or child is None or len(axis) != 3:
-        raise ValueError(f"line {element.sourceline}: a joint needs parent, child and an axis of three numbers")
+        raise ValueError(
+            f"line {element.sourceline}: a joint needs parent, child and an axis of three numbers"
+        )
     return Joint(
         element.get("name", ""),
         element.get("type", "fixed"),

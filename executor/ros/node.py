@@ -20,14 +20,11 @@ from executor.ros import messages
 from executor.ros.environment import has_tf
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-    from numpy.typing import NDArray
     from rclpy.context import Context
 
     from executor.robots.config import Camera, Lidar
-    from executor.world.interface import LidarReading, Robot, World
+    from executor.world.interface import Robot, World
+    from executor.world.sensors import Sensors
 
 CLOCK_HZ: Final = 60.0
 ODOMETRY_HZ: Final = 30.0
@@ -80,7 +77,9 @@ class _RobotTopics:
 class WorldNode:
     """The topics of a world. A second robot's stand under its id, the first one's at the root."""
 
-    def __init__(self, world: World, context: Context, *, topics: dict[str, dict[str, str]] | None = None) -> None:
+    def __init__(
+        self, world: World, context: Context, *, topics: dict[str, dict[str, str]] | None = None
+    ) -> None:
         self._world = world
         self.node = Node(
             "world",
@@ -91,7 +90,9 @@ class WorldNode:
         self._clock = self.node.create_publisher(Clock, "/clock", _CLOCK_QOS)
         self._clock_due, self._odometry_due = Due(CLOCK_HZ), Due(ODOMETRY_HZ)
         renamed = topics or {}
-        self._robots = [self._make_topics(i, robot, renamed.get(robot.id, {})) for i, robot in enumerate(world.robots)]
+        self._robots = [
+            self._make_topics(i, robot, renamed.get(robot.id, {})) for i, robot in enumerate(world.robots)
+        ]
         self._tf = self._make_tf() if has_tf() else None
         self.refused_commands = 0
 
@@ -106,8 +107,8 @@ class WorldNode:
             ):
                 self.refused_commands += 1
 
-    def publish(self, draw: Callable[[Robot, Camera], NDArray[np.uint8]]) -> None:
-        """Sends what is due now. `draw` is asked for a picture only when somebody receives it."""
+    def publish(self, sensors: Sensors) -> None:
+        """Sends what is due now. Nothing is measured or drawn that nobody receives."""
         now_s = self._world.time_s
         if self._clock_due(now_s):
             self.publish_clock()
@@ -118,10 +119,11 @@ class WorldNode:
                 self._publish_motion(topics, robot, now_s)
             for lidar in topics.lidars:
                 if lidar.due(now_s) and lidar.publisher.get_subscription_count():
-                    lidar.publisher.publish(messages.laser_scan(lidar.lidar, robot.scan(lidar.lidar)))
+                    reading = sensors.scan(robot, lidar.lidar)
+                    lidar.publisher.publish(messages.laser_scan(lidar.lidar, reading))
             for camera in topics.cameras:
                 if camera.due(now_s):
-                    self._publish_picture(camera, robot, now_s, draw)
+                    self._publish_picture(camera, robot, now_s, sensors)
 
     def publish_clock(self) -> None:
         """Sends the simulated time, also while it stands still."""
@@ -159,7 +161,9 @@ class WorldNode:
             topics.lidars.append(_LidarTopic(lidar, publisher, Due(lidar.rate_hz)))
         for camera in robot.config.cameras:
             names = [renamed.get(camera.name, camera.topic), *camera.aliases]
-            pictures = [node.create_publisher(Image, prefix + name, _CAMERA_QOS) for name in dict.fromkeys(names)]
+            pictures = [
+                node.create_publisher(Image, prefix + name, _CAMERA_QOS) for name in dict.fromkeys(names)
+            ]
             infos = [node.create_publisher(CameraInfo, prefix + camera.info_topic, _CAMERA_QOS)]
             topics.cameras.append(_CameraTopic(camera, pictures, infos, Due(camera.rate_hz)))
         return topics
@@ -193,15 +197,13 @@ class WorldNode:
             transform = messages.odometry_transform(robot.odometry, now_s)
             self._tf.publish(messages.transforms([transform]))
 
-    def _publish_picture(
-        self, topic: _CameraTopic, robot: Robot, now_s: float, draw: Callable[[Robot, Camera], NDArray[np.uint8]]
-    ) -> None:
+    def _publish_picture(self, topic: _CameraTopic, robot: Robot, now_s: float, sensors: Sensors) -> None:
         for publisher in topic.infos:
             if publisher.get_subscription_count():
                 publisher.publish(messages.camera_info(topic.camera, now_s))
         if not _has_receiver(topic.pictures):
             return
-        message = messages.image(topic.camera, draw(robot, topic.camera), now_s)
+        message = messages.image(topic.camera, sensors.picture(robot, topic.camera), now_s)
         for publisher in topic.pictures:
             if publisher.get_subscription_count():
                 publisher.publish(message)

@@ -112,4 +112,6 @@ class _Reader:
             raise self._error(node, f"the document is nested deeper than {MAX_DEPTH}")
 
     def _error(self, node: yaml.Node, message: str) -> DocumentError:
-        return DocumentError([Problem(message, node.start_mark.line + 1, node.start_mark.column + 1)], self._file)
+        return DocumentError(
+            [Problem(message, node.start_mark.line + 1, node.start_mark.column + 1)], self._file
+        )

@@ -22,7 +22,9 @@ SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "mesh": ("scale x", "scale y", "scale z"),
 }
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
-_RANDOM_KEY: Final = re.compile(rf"^(?P<id>[\w-]+)\.(?:pose\.(?P<axis>{'|'.join(_AXES)})|(?P<field>mass|friction|speed))$")
+_RANDOM_KEY: Final = re.compile(
+    rf"^(?P<id>[\w-]+)\.(?:pose\.(?P<axis>{'|'.join(_AXES)})|(?P<field>mass|friction|speed))$"
+)
 
 
 class _Strict(BaseModel):
@@ -82,7 +84,9 @@ class RobotPlace(_Strict):
     id: Name = "robot"
     model: Name = "turtle2"
     pose: Pose = (0, 0, 0, 0, 0, 0)
-    topics: dict[str, Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]] = Field(default_factory=dict)
+    topics: dict[str, Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]] = Field(
+        default_factory=dict
+    )
 
 
 class Light(_Strict):
@@ -118,7 +122,11 @@ class Universe(_Strict):
         seen: set[str] = {"ground"}
         for thing in (*self.models, *self.actors, *self.robots):
             if thing.id in seen:
-                raise ValueError(f"the id {thing.id!r} is used twice" if thing.id != "ground" else "the id 'ground' is taken")
+                raise ValueError(
+                    f"the id {thing.id!r} is used twice"
+                    if thing.id != "ground"
+                    else "the id 'ground' is taken"
+                )
             seen.add(thing.id)
         return self
 

@@ -27,7 +27,12 @@ class BulletActor:
         self._walker = Walker(Path(actor.path, loop=actor.loop), actor.speed, actor.start_m)
         self._parts = person_parts(rgba(actor.color))
         self._solid = [
-            (part, capsule(bullet, part.capsule[0], part.capsule[1], from_xyz_rpy((0, 0, part.capsule[2], 0, 0, 0))))
+            (
+                part,
+                capsule(
+                    bullet, part.capsule[0], part.capsule[1], from_xyz_rpy((0, 0, part.capsule[2], 0, 0, 0))
+                ),
+            )
             for part in self._parts
             if part.capsule is not None
         ]

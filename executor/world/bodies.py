@@ -42,7 +42,9 @@ def make_body(bullet: Bullet, model: Model) -> Body:
     pose = from_xyz_rpy(model.pose)
     shape = _collision_shape(bullet, model)
     uid: int = bullet.createMultiBody(model.mass, shape, basePosition=pose[:3], baseOrientation=pose[3:])
-    bullet.changeDynamics(uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001)
+    bullet.changeDynamics(
+        uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001
+    )
     return Body(uid, is_dynamic=model.mass > 0)
 
 

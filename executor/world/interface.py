@@ -43,9 +43,11 @@ class Robot(Protocol):
     @property
     def pose(self) -> tuple[float, float, float]:
         """True x and y in m and yaw in rad."""
+
     @property
     def distance_m(self) -> float:
         """How far the true pose has travelled since the start."""
+
     @property
     def collisions(self) -> int:
         """How many times the robot has bumped into something."""
@@ -78,6 +80,7 @@ class World(Protocol):
     @property
     def scene(self) -> Scene:
         """What there is to see; `poses` are of its objects, in their order."""
+
     @property
     def robots(self) -> Sequence[Robot]: ...
 

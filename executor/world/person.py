@@ -75,5 +75,7 @@ def _arm(name: str, y: float, sign: float, color: Rgba) -> Part:
     return Part(name, (0, y, 1.38), sign, shapes)
 
 
-def _shape(kind: str, size: list[float], at: tuple[float, float, float], color: Rgba, *, roll: float = 0) -> Shape:
+def _shape(
+    kind: str, size: list[float], at: tuple[float, float, float], color: Rgba, *, roll: float = 0
+) -> Shape:
     return Shape(shape=kind, size=size, pose=list(from_xyz_rpy((*at, roll, 0, 0))), color=color)  # type: ignore[arg-type]

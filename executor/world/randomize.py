@@ -14,9 +14,7 @@ def draw(universe: Universe, seed: int) -> Universe:
         return universe
     generator = random.Random(seed)  # noqa: S311 - for variety, not for secrets
     document = universe.model_dump()
-    things = {
-        thing["id"]: thing for group in ("models", "actors", "robots") for thing in document[group]
-    }
+    things = {thing["id"]: thing for group in ("models", "actors", "robots") for thing in document[group]}
     for key, (low, high) in universe.random.items():
         target, field, index = universe.random_target(key)
         _set(things[target], field, index, generator.uniform(low, high))

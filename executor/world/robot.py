@@ -259,7 +259,9 @@ class BulletRobot:
                 self.uid, index, lateralFriction=friction, linearDamping=0.0, angularDamping=0.0,
                 rollingFriction=0.0, spinningFriction=0.0, restitution=0.0,
             )  # fmt: skip
-        self._bullet.changeDynamics(self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING)
+        self._bullet.changeDynamics(
+            self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING
+        )
 
 
 def _shape(visual: Visual, carrier: Pose) -> Shape:

@@ -1,0 +1,202 @@
+"""The world as a process of its own: `python -m executor.world.process --channel-fd N`.
+
+It is told what to do by messages on its channel, and answers by messages; `executor/protocol.py` is the
+other end. The process may be started ahead of its use: it warms up, and waits for ``start``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import signal
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+from executor.channel import Channel, ChannelClosed
+from executor.messages import CameraPose
+from executor.ros.environment import has_tf, ros_environment
+from executor.universes.document import DocumentError, Problem
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.render.interface import Renderer
+    from executor.world.clockwork import Clockwork
+
+_log = logging.getLogger(__name__)
+
+LONGEST_WAIT_S: Final = 0.25
+
+
+class _Stop(Exception):  # noqa: N818 - the way out, not an error
+    """The manager wants no more."""
+
+
+class WorldProcess:
+    """Receives messages and keeps the clockwork going, in one thread."""
+
+    def __init__(self, channel: Channel) -> None:
+        self._channel = channel
+        self._clockwork: Clockwork | None = None
+        self._renderer: Renderer | None = None
+        self._close: list[Callable[[], None]] = []
+
+    def run(self) -> None:
+        """Works until it is told to stop, or the manager is gone."""
+        try:
+            self._warm_up()
+            while True:
+                self._turn()
+        except (_Stop, ChannelClosed):
+            pass
+        finally:
+            for close in reversed(self._close):
+                close()
+
+    def _turn(self) -> None:
+        clockwork = self._clockwork
+        wait_s = LONGEST_WAIT_S if clockwork is None else clockwork.next_due_s(time.monotonic())
+        message = self._channel.receive(min(wait_s, LONGEST_WAIT_S))
+        while message is not None:
+            self._obey(message)
+            message = self._channel.receive(0)
+        if self._clockwork is not None:
+            self._clockwork.run_due(time.monotonic())
+
+    def _warm_up(self) -> None:
+        """Loads now what `start` would otherwise have to wait for."""
+        import executor.ros.node  # noqa: PLC0415 - ROS reads the environment when it is loaded
+        from executor.render import make_renderer  # noqa: PLC0415 - dito
+        from executor.world import bullet, clockwork  # noqa: F401, PLC0415
+
+        self._renderer = make_renderer()
+
+    def _obey(self, message: dict[str, Any]) -> None:
+        try:
+            self._dispatch(message)
+        except DocumentError as error:
+            self._refuse(error.problems[0], error.file, more=len(error.problems) - 1)
+        except (ValueError, TypeError, KeyError, msgspec.ValidationError, OSError) as error:
+            _log.exception("%s failed", message["type"])
+            self._say_error("bad_request", f"{message['type']}: {error}")
+
+    def _dispatch(self, message: dict[str, Any]) -> None:
+        kind = message["type"]
+        if kind == "stop":
+            raise _Stop
+        if kind == "start":
+            self._start(message)
+            return
+        if self._clockwork is None:
+            self._say_error("not_started", f"The world must be started before {kind!r}.")
+            return
+        self._command(self._clockwork, kind, message)
+
+    def _command(self, clockwork: Clockwork, kind: str, message: dict[str, Any]) -> None:
+        match kind:
+            case "pause":
+                clockwork.pause()
+            case "resume":
+                clockwork.resume()
+            case "step":
+                clockwork.step(float(message["dt_s"]))
+            case "reset":
+                clockwork.reset()
+            case "set_speed":
+                clockwork.set_speed(float(message["speed"]))
+            case "stop_robot":
+                clockwork.stop_robots()
+            case "teleop":
+                clockwork.teleop(float(message["linear"]), float(message["angular"]))
+            case "move_body":
+                clockwork.move_body(str(message["id"]), message["pose"])
+            case "subscribe":
+                self._subscribe(clockwork, message)
+            case "unsubscribe":
+                clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
+            case "list_topics" | "echo_topic" | "publish_topic":
+                self._topics.obey(message)
+            case _:
+                self._say_error("unknown_message", f"The world knows no message {kind!r}.")
+
+    def _subscribe(self, clockwork: Clockwork, message: dict[str, Any]) -> None:
+        pose = message.get("camera_pose")
+        clockwork.streams.subscribe(
+            message.get("client"),
+            message["stream"],
+            max_hz=float(message.get("max_hz") or 30.0),
+            width=message.get("width"),
+            camera_pose=None if pose is None else msgspec.convert(pose, CameraPose),
+        )
+
+    def _start(self, message: dict[str, Any]) -> None:
+        if self._clockwork is not None:
+            self._say_error("already_started", "The world is running already.")
+            return
+        import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
+        from rclpy.context import Context  # noqa: PLC0415
+
+        from executor.ros.node import WorldNode  # noqa: PLC0415
+        from executor.ros.topics import Topics  # noqa: PLC0415
+        from executor.world.clockwork import Clockwork  # noqa: PLC0415
+        from executor.world.launch import make_world  # noqa: PLC0415
+        from executor.world.sensors import Sensors  # noqa: PLC0415
+
+        self._progress(0.2, "Building the world")
+        assets = Path(message["assets"]) if message.get("assets") else None
+        world = make_world(
+            message["universe"], seed=int(message.get("seed") or 0), robot=message.get("robot"), assets=assets
+        )
+        self._close.append(world.close)
+        renderer = self._renderer
+        if renderer is None:
+            raise ValueError("no renderer")
+        sensors = Sensors(world, lambda: renderer)
+        self._close.append(sensors.close)
+        self._progress(0.6, "Joining the ROS graph")
+        context = Context()
+        rclpy.init(context=context, domain_id=int(message.get("domain_id") or 0))
+        self._close.append(context.try_shutdown)
+        renamed = {place.id: place.topics for place in world.universe.robots}
+        node = WorldNode(world, context, topics=renamed)
+        self._close.append(node.close)
+        self._topics = Topics(node.node, self._channel.send)
+        self._clockwork = Clockwork(
+            world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
+        )
+        self._clockwork.watchers.append(self._topics.poll)
+        self._channel.send(
+            {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
+        )
+
+    def _progress(self, fraction: float, text: str) -> None:
+        self._channel.send({"type": "progress", "fraction": fraction, "message": text})
+
+    def _refuse(self, problem: Problem, file: str, *, more: int) -> None:
+        text = f"{file}:{problem.line}:{problem.column}: {problem.message}"
+        if more:
+            text += f" (and {more} more)"
+        self._say_error(problem.code, text, problem.hint)
+
+    def _say_error(self, code: str, text: str, hint: str = "") -> None:
+        self._channel.send({"type": "error", "code": code, "message": text, "hint": hint})
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs a world for the manager at the other end of a channel."""
+    parser = argparse.ArgumentParser(prog="python -m executor.world.process", description=__doc__)
+    parser.add_argument("--channel-fd", type=int, required=True)
+    options = parser.parse_args(arguments)
+    logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s")
+    for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
+        os.environ.setdefault(name, value)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
+    WorldProcess(Channel(options.channel_fd)).run()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,77 @@
+"""What a world's sensors measure, each at most once at a time, for ROS and for streams alike."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from executor.render.interface import Renderer, Viewpoint
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from executor.robots.config import Camera, Lidar
+    from executor.world.interface import LidarReading, Robot, World
+
+    Picture = NDArray[np.uint8]
+
+
+class Sensors:
+    """Measures and draws on demand. Call `changed` when the world has moved on.
+
+    Args:
+        renderer: makes the renderer at the first picture; who needs none never pays for it.
+    """
+
+    def __init__(self, world: World, renderer: Callable[[], Renderer]) -> None:
+        self._world = world
+        self._make_renderer = renderer
+        self._renderer: Renderer | None = None
+        self._kept: dict[Hashable, object] = {}
+        self.version = 0
+
+    def changed(self) -> None:
+        """The world is not as it was: measure anew."""
+        self.version += 1
+        self._kept.clear()
+
+    def load_scene(self) -> None:
+        """Takes the world's scene, which a reset made anew."""
+        if self._renderer is not None:
+            self._renderer.load(self._world.scene)
+        self.changed()
+
+    def scan(self, robot: Robot, lidar: Lidar) -> LidarReading:
+        """Returns what a LIDAR measures now."""
+        key = ("scan", robot.id, lidar.name)
+        if key not in self._kept:
+            self._kept[key] = robot.scan(lidar)
+        return self._kept[key]  # type: ignore[return-value]
+
+    def picture(self, robot: Robot, camera: Camera, width: int | None = None) -> Picture:
+        """Returns what a camera sees now, in its own size or narrower."""
+        wide = min(width or camera.width, camera.width)
+        high = max(1, round(camera.height * wide / camera.width))
+        key = ("picture", robot.id, camera.name, wide)
+        if key not in self._kept:
+            view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
+            self._kept[key] = self._draw(view, wide, high)
+        return self._kept[key]  # type: ignore[return-value]
+
+    def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:
+        """Returns the world seen from anywhere."""
+        return self._draw(viewpoint, width, height)
+
+    def close(self) -> None:
+        """Frees the renderer."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+    def _draw(self, view: Viewpoint, width: int, height: int) -> Picture:
+        if self._renderer is None:
+            self._renderer = self._make_renderer()
+            self._renderer.load(self._world.scene)
+        return self._renderer.draw(self._world.poses(), view, width, height)

@@ -1,36 +1,43 @@
-"""Which names a script reads and writes, from its words alone, so that one with an error counts too."""
+"""What a script reads and writes, and what is wrong with it, by the engine's own parser."""
 
 from __future__ import annotations
 
-import re
 from functools import lru_cache
 from typing import NamedTuple
 
-_TOKENS = re.compile(
-    r"(?P<text>'[^']*'?|\"[^\"]*\"?)|(?P<number>\d[\w.]*)|(?P<name>[^\W\d]\w*|@\w*)\s*(?P<assign>:=|[-+*/]=|=(?!=))?"
-)
-_WORDS = {"true", "false"}
+from tree_gardener.script import ScriptError, names_read, names_written, parse
+
+MAX_LENGTH = 20_000
+
+
+class Problem(NamedTuple):
+    """Why a script cannot be read, and where in it."""
+
+    offset: int
+    message: str
+    hint: str
 
 
 class ScriptNames(NamedTuple):
-    """Names that a script reads from the blackboard, and names that it assigns."""
+    """The entries that a script reads and assigns, each once; none where it cannot be read."""
 
-    read: tuple[str, ...]
-    written: tuple[str, ...]
+    read: tuple[str, ...] = ()
+    written: tuple[str, ...] = ()
+    problem: Problem | None = None
 
 
 @lru_cache(maxsize=4096)
 def script_names(code: str) -> ScriptNames:
-    """Returns the names of a script, each once, in order."""
-    read: dict[str, None] = {}
-    written: dict[str, None] = {}
-    for match in _TOKENS.finditer(code):
-        name = match.group("name")
-        if not name or name in _WORDS:
-            continue
-        assign = match.group("assign")
-        if assign:
-            written.setdefault(name)
-        if assign is None or assign not in {":=", "="}:
-            read.setdefault(name)
-    return ScriptNames(tuple(read), tuple(written))
+    """Returns what is to be known about a script without running it."""
+    if len(code) > MAX_LENGTH:
+        return ScriptNames(problem=Problem(0, f"it is longer than {MAX_LENGTH} characters", ""))
+    try:
+        program = parse(code)
+        read, written = names_read(program), names_written(program)
+    except ScriptError as error:
+        return ScriptNames(problem=Problem(error.span[0], error.message, error.hint))
+    except RecursionError:
+        return ScriptNames(problem=Problem(0, "it is nested too deeply", ""))
+    return ScriptNames(
+        tuple(dict.fromkeys(name.name for name in read)), tuple(dict.fromkeys(name.name for name in written))
+    )

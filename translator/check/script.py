@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from translator.script_names import script_names
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -33,3 +35,17 @@ def check_scripts(context: Context) -> None:
 def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
     if not code.strip() and attribute in node.conditions:
         context.report("BT0301", tree, node, attribute, attribute=attribute)
+        return
+    problem = script_names(code).problem
+    if problem is None:
+        return
+    message = problem.message[:1].lower() + problem.message[1:].rstrip(".")
+    context.report(
+        "BT0302",
+        tree,
+        node,
+        attribute,
+        attribute=attribute,
+        problem=f"{message}, at character {problem.offset + 1} of “{code}”",
+        advice=problem.hint or "See the page on the script language.",
+    )

@@ -1,0 +1,178 @@
+"""Reading a project of JdeRobot's BT Studio, of any of its three layouts."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, Any
+
+from translator.catalog import builtins
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.importer import project_files
+from translator.jderobot.graph import GraphOptions, read_graph
+from translator.json_file import parse_json
+from translator.project import Project, load
+from translator.settings import Settings
+from translator.stub import can_be_class, stub_source
+from translator.text import bad_character, clean, is_clean
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from translator.tree import Tree
+
+MAIN_TREE = "MainTree"
+_MAIN_FILES = ("code/trees/main.json", "trees/main.json", "graph.json", "code/graph.json")
+_SUBTREE_FOLDERS = ("trees/subtrees/json/", "trees/subtrees/", "subtrees/json/", "subtrees/")
+_ACTION_FOLDERS = ("code/actions/", "actions/")
+
+
+@dataclass(frozen=True, slots=True)
+class _Layout:
+    """Where the parts of a project stand: folder, main graph, graphs of subtrees by name."""
+
+    folder: str
+    main: str
+    subtrees: Mapping[str, str]
+
+
+def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
+    """Whether the files look like a project of JdeRobot's BT Studio."""
+    return _find_layout(files) is not None
+
+
+def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
+    """Makes a project of ours; the actions are kept as they are.
+
+    Args:
+        files: The files of the project, by path; it may stand in a folder of its own.
+        name: What to call it where its settings do not say.
+
+    Raises:
+        TranslatorError: If there is no main graph, or it cannot be read.
+    """
+    layout = _find_layout(files)
+    if layout is None:
+        raise TranslatorError([diagnostic("BT0800", Place("graph.json"), files=", ".join(_MAIN_FILES))])
+    found: list[Diagnostic] = []
+    config = _read_config(files, layout.folder, found)
+    trees = _read_trees(files, layout, config, found)
+    given = config.get("name")
+    title = clean(given) if isinstance(given, str) and given.strip() else name or layout.folder.strip("/")
+    settings = Settings(
+        name=(title.rsplit("/", 1)[-1] or "Imported project")[:200],
+        main_tree=next(iter(trees)),
+        on_finish="repeat",
+    )
+    result = project_files(settings, trees.values())
+    result.update(_other_files(files, layout))
+    result.update(_stubs(trees, result))
+    project = load(result)
+    return replace(project, diagnostics=(*found, *project.diagnostics))
+
+
+def _find_layout(files: Mapping[str, bytes]) -> _Layout | None:
+    candidates = [
+        (path.count("/"), _MAIN_FILES.index(main), path[: -len(main)], path)
+        for path in files
+        for main in _MAIN_FILES
+        if (path == main or path.endswith(f"/{main}")) and b'"layers"' in files[path]
+    ]
+    if not candidates:
+        return None
+    _, _, folder, main = min(candidates)
+    subtrees: dict[str, str] = {}
+    for path in sorted(files):
+        if not path.startswith(folder) or not path.endswith(".json") or path == main:
+            continue
+        inside = path[len(folder) :].removeprefix("code/")
+        for subtree_folder in _SUBTREE_FOLDERS:
+            rest = inside.removeprefix(subtree_folder)
+            if rest != inside and "/" not in rest:
+                subtrees.setdefault(PurePosixPath(path).stem, path)
+                break
+    return _Layout(folder, main, subtrees)
+
+
+def _read_config(files: Mapping[str, bytes], folder: str, found: list[Diagnostic]) -> dict[str, Any]:
+    path = f"{folder}config.json"
+    if path not in files:
+        return {}
+    config, problem = parse_json(files[path], file=path)
+    if problem is not None:
+        found.append(problem)
+    return config if isinstance(config, dict) else {}
+
+
+def _is_bottom_to_top(config: dict[str, Any], folder: str, found: list[Diagnostic]) -> bool:
+    inner = config.get("config")
+    order = inner.get("btOrder") if isinstance(inner, dict) else config.get("btOrder")
+    if order not in {None, "bottom-to-top", "top-to-bottom"}:
+        found.append(diagnostic("BT0808", Place(f"{folder}config.json"), order=str(order)[:40]))
+    return order != "top-to-bottom"
+
+
+def _read_trees(
+    files: Mapping[str, bytes], layout: _Layout, config: dict[str, Any], found: list[Diagnostic]
+) -> dict[str, Tree]:
+    bottom_to_top = _is_bottom_to_top(config, layout.folder, found)
+    ids = _tree_ids(layout, found)
+    main_id = MAIN_TREE
+    while main_id in ids.values():
+        main_id += "_"
+    trees: dict[str, Tree] = {}
+    graphs = [(main_id, layout.main), *((ids[name], path) for name, path in layout.subtrees.items())]
+    for tree_id, path in graphs:
+        tree, problems = read_graph(files[path], GraphOptions(tree_id, path, bottom_to_top, ids))
+        found.extend(problems)
+        if tree is not None:
+            trees[tree_id] = tree
+        elif path == layout.main:
+            raise TranslatorError(found)
+    return trees
+
+
+def _tree_ids(layout: _Layout, found: list[Diagnostic]) -> dict[str, str]:
+    """Returns the id of each subtree: its name, but for characters that an id cannot have."""
+    ids: dict[str, str] = {}
+    for name, path in layout.subtrees.items():
+        tree_id = name
+        if bad_character(name) is not None or name in builtins() or name.lower() == "root":
+            tree_id = re.sub(r"[^\w-]+", "_", name).strip("_") or "SubTree1"
+            tree_id = f"{tree_id}Tree" if tree_id in builtins() or tree_id.lower() == "root" else tree_id
+            found.append(diagnostic("BT0809", Place(path), name=clean(name), id=tree_id))
+        while tree_id in ids.values():
+            tree_id += "_"
+        ids[name] = tree_id
+    return ids
+
+
+def _other_files(files: Mapping[str, bytes], layout: _Layout) -> dict[str, bytes]:
+    """Returns actions in our folder, and all that is no graph or setting among the assets."""
+    result: dict[str, bytes] = {}
+    graphs = {layout.main, *layout.subtrees.values(), f"{layout.folder}config.json"}
+    for path in sorted(files):
+        if not path.startswith(layout.folder) or path in graphs or not is_clean(path):
+            continue
+        inside = path[len(layout.folder) :]
+        for folder in _ACTION_FOLDERS:
+            if inside.startswith(folder):
+                result[f"actions/{inside[len(folder) :]}"] = files[path]
+                break
+        else:
+            result[f"assets/{inside.removeprefix('assets/')}"] = files[path]
+    return result
+
+
+def _stubs(trees: Mapping[str, Tree], files: Mapping[str, bytes]) -> dict[str, bytes]:
+    ports: dict[str, set[str]] = {}
+    for tree in trees.values():
+        for node in tree.nodes.values():
+            if node.type not in builtins() and not node.children and can_be_class(node.type):
+                ports.setdefault(node.type, set()).update(node.ports)
+    return {
+        f"actions/{name}.py": stub_source(name, None, ports[name]).encode()
+        for name in sorted(ports)
+        if f"actions/{name}.py" not in files
+    }

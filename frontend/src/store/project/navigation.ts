@@ -20,3 +20,7 @@ export function openTree(id: string): void {
 export function openAction(name: string): void {
   navigator?.openFile(actionPath(name));
 }
+
+export function openFile(path: string, line?: number): void {
+  navigator?.openFile(path, line);
+}

@@ -1,7 +1,6 @@
 import { PROTOCOL, type StreamName, type Subscribe } from '@/generated/messages';
 import { socketUrl } from '@/api/http';
 import { frames } from './frames';
-import './motion';
 import type { FromWorker, ToWorker } from './stream.worker';
 
 export type StreamOptions = Omit<Subscribe, 'stream'>;
@@ -9,6 +8,11 @@ export type StreamOptions = Omit<Subscribe, 'stream'>;
 interface Want {
   stream: StreamName;
   options: StreamOptions;
+}
+
+export interface StreamHandle {
+  update: (options: StreamOptions) => void;
+  release: () => void;
 }
 
 type SendSubscription = (stream: StreamName, options: StreamOptions | null) => void;
@@ -45,13 +49,19 @@ class Streams {
     this.send = null;
   }
 
-  want(stream: StreamName, options: StreamOptions): () => void {
-    const want = { stream, options };
+  want(stream: StreamName, options: StreamOptions): StreamHandle {
+    const want: Want = { stream, options };
     this.wants.push(want);
     this.announce(stream);
-    return () => {
-      this.wants = this.wants.filter((other) => other !== want);
-      this.announce(stream);
+    return {
+      update: (changed) => {
+        want.options = changed;
+        this.announce(stream);
+      },
+      release: () => {
+        this.wants = this.wants.filter((other) => other !== want);
+        this.announce(stream);
+      },
     };
   }
 
@@ -79,3 +89,6 @@ class Streams {
 }
 
 export const streams = new Streams();
+
+// The status bar shows the robot's measured speed whichever view is open.
+streams.want('poses', { max_hz: 10 });

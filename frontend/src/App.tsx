@@ -1,0 +1,27 @@
+import { ModalsProvider } from '@mantine/modals';
+import { Notifications } from '@mantine/notifications';
+import { lazy, Suspense } from 'react';
+import { ErrorBoundary } from '@/features/frame/ErrorBoundary';
+import { Waiting } from '@/features/frame/Waiting';
+import { StartPage } from '@/features/projects/StartPage';
+import { useRoute } from '@/store/route';
+
+const Studio = lazy(async () => ({ default: (await import('@/features/frame/Studio')).Studio }));
+
+export function App() {
+  const route = useRoute((state) => state.route);
+  return (
+    <ModalsProvider>
+      <Notifications position="bottom-left" limit={4} />
+      <ErrorBoundary>
+        {route.page === 'start' ? (
+          <StartPage />
+        ) : (
+          <Suspense fallback={<Waiting reason="openingProject" />}>
+            <Studio key={route.projectId} projectId={route.projectId} />
+          </Suspense>
+        )}
+      </ErrorBoundary>
+    </ModalsProvider>
+  );
+}

@@ -1,0 +1,50 @@
+import { ScrollArea, Table } from '@mantine/core';
+import { useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useSessionStore } from '@/store/session/store';
+import type { BlackboardRow as Row } from '@/store/session/types';
+import { BlackboardRow } from './BlackboardRow';
+import classes from './blackboard.module.css';
+
+function byScope(rows: readonly Row[]): [scope: string, rows: Row[]][] {
+  const groups = new Map<string, Row[]>();
+  const sorted = [...rows].sort((a, b) => a.scope.localeCompare(b.scope) || a.key.localeCompare(b.key));
+  for (const row of sorted) groups.set(row.scope, [...(groups.get(row.scope) ?? []), row]);
+  return [...groups];
+}
+
+/** The blackboard, by scope; what changes flashes, and can be written while the run is paused. */
+export function BlackboardPanel() {
+  const { t } = useTranslation('blackboard');
+  const blackboard = useSessionStore((state) => state.blackboard);
+  const isPaused = useSessionStore((state) => state.executor === 'paused');
+  const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
+  return (
+    <ScrollArea h="100%" type="auto" data-testid="blackboard">
+      {groups.length === 0 ? <p className={classes['empty']}>{t('empty')}</p> : null}
+      {groups.map(([scope, rows]) => (
+        <Table
+          key={scope}
+          className={classes['table']}
+          verticalSpacing={4}
+          horizontalSpacing="sm"
+          layout="fixed"
+        >
+          <caption className={classes['scope']}>{scope || t('root')}</caption>
+          <thead className={classes['head']}>
+            <tr>
+              <th scope="col">{t('key')}</th>
+              <th scope="col">{t('value')}</th>
+              <th scope="col">{t('type')}</th>
+            </tr>
+          </thead>
+          <tbody>
+            {rows.map((row) => (
+              <BlackboardRow key={row.key} row={row} canEdit={isPaused && !row.preview} />
+            ))}
+          </tbody>
+        </Table>
+      ))}
+    </ScrollArea>
+  );
+}

@@ -1,0 +1,13 @@
+import { json } from '@codemirror/lang-json';
+import { python } from '@codemirror/lang-python';
+import { xml } from '@codemirror/lang-xml';
+import { indentUnit } from '@codemirror/language';
+import type { Extension } from '@codemirror/state';
+
+/** How a file's text is coloured and indented, by its name. */
+export function languageOf(path: string): Extension {
+  if (path.endsWith('.py')) return [python(), indentUnit.of('    ')];
+  if (path.endsWith('.json')) return [json(), indentUnit.of('  ')];
+  if (/\.(xml|urdf|sdf|launch)$/.test(path)) return [xml(), indentUnit.of('  ')];
+  return indentUnit.of('  ');
+}

@@ -1,0 +1,32 @@
+import type { NewFileKind } from './newFile';
+
+const PYTHON_KEYWORDS = new Set(
+  'False None True and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not or pass raise return try while with yield'.split(
+    ' ',
+  ),
+);
+
+export type NameProblem = 'empty' | 'notIdentifier' | 'notPath' | 'taken' | 'builtin';
+
+export function pathFor(kind: NewFileKind, name: string): string {
+  if (kind === 'action') return `actions/${name}.py`;
+  return kind === 'tree' ? `trees/${name}.json` : name;
+}
+
+interface Taken {
+  paths: Iterable<string>;
+  /** Types of nodes that the catalogue or the project already has. */
+  types: ReadonlySet<string>;
+}
+
+/** Why a file cannot be called so; null when it can. */
+export function nameProblem(kind: NewFileKind, name: string, { paths, types }: Taken): NameProblem | null {
+  if (name.trim() === '') return 'empty';
+  if (kind === 'action' && (!/^[A-Za-z_]\w*$/.test(name) || PYTHON_KEYWORDS.has(name)))
+    return 'notIdentifier';
+  if (kind === 'tree' && !/^[\w.-]+$/.test(name)) return 'notIdentifier';
+  if (kind === 'file' && (!/^[\w][\w./-]*$/.test(name) || name.includes('..'))) return 'notPath';
+  const wanted = pathFor(kind, name).toLowerCase();
+  for (const path of paths) if (path.toLowerCase() === wanted) return 'taken';
+  return kind === 'action' && types.has(name) ? 'builtin' : null;
+}

@@ -1,0 +1,128 @@
+import { ActionIcon, NativeSelect, TextInput, Tooltip } from '@mantine/core';
+import { IconArrowDown, IconEraser, IconSearch } from '@tabler/icons-react';
+import { useVirtualizer } from '@tanstack/react-virtual';
+import { useEffect, useMemo, useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { LogLevel } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { useSessionStore } from '@/store/session/store';
+import classes from './console.module.css';
+import { ConsoleLine } from './ConsoleLine';
+import { filterLines, LEVELS, type ConsoleFilter } from './filter';
+
+const LINE_HEIGHT = 21;
+const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
+
+/** What actions, world and manager say; follows the end until the user scrolls up. */
+export function ConsolePanel() {
+  const { t } = useTranslation('console');
+  const logs = useSessionStore((state) => state.logs);
+  const filePaths = useProjectStore((state) => state.files);
+  const files = useMemo(() => new Set(Object.keys(filePaths)), [filePaths]);
+  const [filter, setFilter] = useState<ConsoleFilter>({ source: 'all', level: 'info', search: '' });
+  const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
+  const [isFollowing, setFollowing] = useState(true);
+  const scroller = useRef<HTMLDivElement>(null);
+  // The virtualizer keeps its own state; the compiler's memoisation does not apply to this component.
+  // eslint-disable-next-line react-hooks/incompatible-library
+  const rows = useVirtualizer({
+    count: lines.length,
+    getScrollElement: () => scroller.current,
+    estimateSize: () => LINE_HEIGHT,
+    getItemKey: (index) => lines[index]?.id ?? index,
+    overscan: 12,
+    initialRect: { width: 600, height: 200 },
+  });
+
+  useEffect(() => {
+    const element = scroller.current;
+    if (isFollowing && element) element.scrollTop = element.scrollHeight;
+  }, [lines, isFollowing]);
+
+  const onScroll = () => {
+    const element = scroller.current;
+    if (!element) return;
+    setFollowing(element.scrollHeight - element.scrollTop - element.clientHeight < LINE_HEIGHT * 2);
+  };
+
+  return (
+    <div className={classes['panel']} data-testid="console">
+      <div className={classes['bar']}>
+        <TextInput
+          size="xs"
+          type="search"
+          className={classes['search']}
+          value={filter.search}
+          placeholder={t('search')}
+          aria-label={t('search')}
+          leftSection={<IconSearch size={14} />}
+          onChange={(event) => setFilter({ ...filter, search: event.currentTarget.value })}
+        />
+        <NativeSelect
+          size="xs"
+          value={filter.source}
+          aria-label={t('source')}
+          data={SOURCES.map((value) => ({ value, label: t(`sources.${value}`) }))}
+          onChange={(event) =>
+            setFilter({ ...filter, source: event.currentTarget.value as ConsoleFilter['source'] })
+          }
+        />
+        <NativeSelect
+          size="xs"
+          value={filter.level}
+          aria-label={t('level')}
+          data={LEVELS.map((value) => ({ value, label: t(`levels.${value}`) }))}
+          onChange={(event) => setFilter({ ...filter, level: event.currentTarget.value as LogLevel })}
+        />
+        <span className={classes['spacer']} />
+        {isFollowing ? null : (
+          <Tooltip label={t('toEnd')}>
+            <ActionIcon aria-label={t('toEnd')} onClick={() => setFollowing(true)}>
+              <IconArrowDown size={16} />
+            </ActionIcon>
+          </Tooltip>
+        )}
+        <Tooltip label={t('clear')}>
+          <ActionIcon
+            aria-label={t('clear')}
+            disabled={logs.length === 0}
+            onClick={() => useSessionStore.setState({ logs: [] })}
+          >
+            <IconEraser size={16} />
+          </ActionIcon>
+        </Tooltip>
+      </div>
+      <div
+        ref={scroller}
+        className={classes['scroller']}
+        onScroll={onScroll}
+        role="log"
+        aria-label={t('label')}
+        // A region that scrolls has to be reachable by keyboard.
+        // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+        tabIndex={0}
+      >
+        {lines.length === 0 ? (
+          <p className={classes['empty']}>{t(logs.length === 0 ? 'empty' : 'nothingMatches')}</p>
+        ) : (
+          <div className={classes['lines']} style={{ height: rows.getTotalSize() }}>
+            {rows.getVirtualItems().map((row) => {
+              const line = lines[row.index];
+              return line ? (
+                <div
+                  key={row.key}
+                  ref={rows.measureElement}
+                  data-index={row.index}
+                  className={classes['row']}
+                  style={{ transform: `translateY(${row.start}px)` }}
+                >
+                  <ConsoleLine line={line} files={files} />
+                </div>
+              ) : null;
+            })}
+          </div>
+        )}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,37 @@
+import { Button, Center, Code, Stack, Text, Title } from '@mantine/core';
+import { Component, type ReactNode } from 'react';
+import { t } from '@/i18n';
+
+interface Props {
+  readonly children: ReactNode;
+}
+
+interface State {
+  readonly error: Error | null;
+}
+
+/** What the user sees of a mistake of ours: what happened, that edits are kept, and a way on. */
+export class ErrorBoundary extends Component<Props, State> {
+  override state: State = { error: null };
+
+  static getDerivedStateFromError(error: Error): State {
+    return { error };
+  }
+
+  override render() {
+    const { error } = this.state;
+    if (!error) return this.props.children;
+    return (
+      <Center h="100%" p="xl" role="alert">
+        <Stack maw={560} gap="md">
+          <Title order={3}>{t('frame:crash.title')}</Title>
+          <Text c="dimmed">{t('frame:crash.text')}</Text>
+          <Code block>{error.message}</Code>
+          <Button w="fit-content" onClick={() => window.location.reload()}>
+            {t('frame:crash.reload')}
+          </Button>
+        </Stack>
+      </Center>
+    );
+  }
+}

@@ -1,0 +1,64 @@
+import { ActionIcon, ScrollArea, Tooltip } from '@mantine/core';
+import { IconPlus } from '@tabler/icons-react';
+import { useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { openNewFile, type NewFileKind } from '@/features/code/newFile';
+import { useProjectStore } from '@/store/project';
+import { ExplorerItem } from './ExplorerItem';
+import classes from './explorer.module.css';
+
+type Section = 'trees' | 'actions' | 'others';
+
+const NEW_KIND: Record<Section, NewFileKind | null> = { trees: 'tree', actions: 'action', others: 'file' };
+
+function sectionOf(path: string): Section {
+  if (/^trees\/[^/]+\.json$/.test(path)) return 'trees';
+  return /^actions\/[^/]+\.py$/.test(path) ? 'actions' : 'others';
+}
+
+/** The project's files, by what they are. */
+export function Explorer() {
+  const { t } = useTranslation('frame');
+  const files = useProjectStore((state) => state.files);
+  const sections = useMemo(() => {
+    const found: Record<Section, string[]> = { trees: [], actions: [], others: [] };
+    for (const path of Object.keys(files).sort()) found[sectionOf(path)].push(path);
+    return found;
+  }, [files]);
+
+  return (
+    <ScrollArea h="100%" type="auto" scrollbarSize={8}>
+      <nav className={classes['explorer']} aria-label={t('panel.explorer')}>
+        {(Object.keys(sections) as Section[]).map((section) => {
+          const kind = NEW_KIND[section];
+          return (
+            <section key={section} aria-labelledby={`explorer-${section}`}>
+              <div className={classes['heading']}>
+                <h2 id={`explorer-${section}`}>{t(`explorer.${section}`)}</h2>
+                {kind ? (
+                  <Tooltip label={t(`explorer.new.${kind}`)}>
+                    <ActionIcon
+                      size="sm"
+                      aria-label={t(`explorer.new.${kind}`)}
+                      data-testid={`new-${kind}`}
+                      onClick={() => openNewFile(kind)}
+                    >
+                      <IconPlus size={15} />
+                    </ActionIcon>
+                  </Tooltip>
+                ) : null}
+              </div>
+              <ul className={classes['list']}>
+                {sections[section].map((path) => (
+                  <li key={path}>
+                    <ExplorerItem path={path} isTree={section === 'trees'} isAction={section === 'actions'} />
+                  </li>
+                ))}
+              </ul>
+            </section>
+          );
+        })}
+      </nav>
+    </ScrollArea>
+  );
+}

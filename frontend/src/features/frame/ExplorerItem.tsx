@@ -1,0 +1,115 @@
+import { ActionIcon, Menu, Tooltip } from '@mantine/core';
+import {
+  IconDots,
+  IconFileCode,
+  IconFileText,
+  IconGitFork,
+  IconPencil,
+  IconStar,
+  IconTrash,
+} from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { openRename } from '@/features/code/newFile';
+import { undoNotification } from '@/features/projects/undoNotification';
+import { useProjectStore } from '@/store/project';
+import { treeIdOf } from '@/store/project/state';
+import classes from './explorer.module.css';
+import { closeTab, openTab, type DocumentTab } from './tabs';
+
+interface ExplorerItemProps {
+  readonly path: string;
+  readonly isTree: boolean;
+  readonly isAction: boolean;
+}
+
+function nameOf(path: string): string {
+  const treeId = treeIdOf(path);
+  return treeId ?? path.replace(/^actions\//, '');
+}
+
+export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
+  const { t } = useTranslation('frame');
+  const treeId = treeIdOf(path);
+  const isDiagram = useProjectStore((state) => state.files[path]?.kind === 'tree');
+  const isBinary = useProjectStore((state) => state.files[path]?.kind === 'binary');
+  const isMain = useProjectStore((state) => treeId !== null && state.mainTree === treeId);
+  const worst = useProjectStore((state) => worstOf(state.diagnostics, path, treeId));
+  const tab: DocumentTab =
+    isDiagram && treeId !== null ? { kind: 'tree', id: treeId } : { kind: 'file', path };
+  const Icon = isTree ? IconGitFork : isAction ? IconFileCode : IconFileText;
+
+  const remove = () => {
+    const project = useProjectStore.getState();
+    const text = project.currentText(path);
+    closeTab(tab);
+    project.deleteFile(path);
+    if (text === null) return;
+    undoNotification({
+      message: t('explorer.deleted', { name: nameOf(path) }),
+      undoLabel: t('undo'),
+      undo: () => useProjectStore.getState().addFile(path, text),
+    });
+  };
+
+  return (
+    <div className={classes['item']} data-severity={worst}>
+      <button
+        type="button"
+        className={classes['open']}
+        data-testid={`file-${path}`}
+        disabled={isBinary}
+        title={path}
+        onClick={() => openTab(tab)}
+      >
+        <Icon size={16} stroke={1.6} aria-hidden="true" />
+        <span className={classes['name']}>{nameOf(path)}</span>
+        {isMain ? (
+          <Tooltip label={t('explorer.mainTree')}>
+            <IconStar size={13} className={classes['star']} role="img" aria-label={t('explorer.mainTree')} />
+          </Tooltip>
+        ) : null}
+      </button>
+      {path === 'project.json' ? null : (
+        <Menu position="bottom-end">
+          <Menu.Target>
+            <ActionIcon
+              size="sm"
+              className={classes['more']}
+              aria-label={t('explorer.moreFor', { name: nameOf(path) })}
+            >
+              <IconDots size={15} />
+            </ActionIcon>
+          </Menu.Target>
+          <Menu.Dropdown>
+            {isDiagram && treeId !== null && !isMain ? (
+              <Menu.Item
+                leftSection={<IconStar size={16} />}
+                onClick={() => useProjectStore.getState().setSettings({ main_tree: treeId })}
+              >
+                {t('explorer.makeMain')}
+              </Menu.Item>
+            ) : null}
+            {isTree || isAction ? (
+              <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
+                {t('explorer.rename')}
+              </Menu.Item>
+            ) : null}
+            <Menu.Item color="red" disabled={isMain} leftSection={<IconTrash size={16} />} onClick={remove}>
+              {t('explorer.delete')}
+            </Menu.Item>
+          </Menu.Dropdown>
+        </Menu>
+      )}
+    </div>
+  );
+}
+
+function worstOf(
+  diagnostics: readonly { severity: string; file?: string | null; tree?: string | null }[],
+  path: string,
+  treeId: string | null,
+): 'error' | 'warning' | undefined {
+  const mine = diagnostics.filter((item) => item.file === path || (treeId !== null && item.tree === treeId));
+  if (mine.some((item) => item.severity === 'error')) return 'error';
+  return mine.some((item) => item.severity === 'warning') ? 'warning' : undefined;
+}

@@ -1,0 +1,112 @@
+import { Tooltip } from '@mantine/core';
+import {
+  IconAlertTriangle,
+  IconCircleCheck,
+  IconPlugConnected,
+  IconPlugConnectedX,
+} from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { useProjectStore } from '@/store/project';
+import { useMotion } from '@/store/session/motion';
+import { useSessionStore } from '@/store/session/store';
+import classes from './frame.module.css';
+import { showPanel } from './tabs';
+
+export function StatusBar() {
+  const { t } = useTranslation('frame');
+  return (
+    <footer className={classes['statusBar']} aria-label={t('status.label')}>
+      <ConnectionStatus />
+      <ProblemCount />
+      <span className={classes['spacer']} />
+      <SimStatus />
+    </footer>
+  );
+}
+
+function ConnectionStatus() {
+  const { t } = useTranslation('frame');
+  const connection = useSessionStore((state) => state.connection);
+  const universe = useSessionStore((state) => state.universe);
+  const Icon = connection === 'open' ? IconPlugConnected : IconPlugConnectedX;
+  return (
+    <span className={classes['statusItem']} data-connection={connection}>
+      <Icon size={14} aria-hidden="true" />
+      {t(`connection.${connection}`)}
+      {connection === 'open' && universe ? ` · ${universe}` : null}
+    </span>
+  );
+}
+
+function ProblemCount() {
+  const { t } = useTranslation('frame');
+  const diagnostics = useProjectStore((state) => state.diagnostics);
+  const errors = diagnostics.filter((item) => item.severity === 'error').length;
+  const warnings = diagnostics.filter((item) => item.severity === 'warning').length;
+  const Icon = errors + warnings > 0 ? IconAlertTriangle : IconCircleCheck;
+  return (
+    <button type="button" className={classes['statusButton']} onClick={() => showPanel('problems')}>
+      <Icon size={14} aria-hidden="true" />
+      {errors + warnings > 0
+        ? [
+            errors > 0 ? t('status.errors', { count: errors }) : '',
+            warnings > 0 ? t('status.warnings', { count: warnings }) : '',
+          ]
+            .filter(Boolean)
+            .join(', ')
+        : t('status.noProblems')}
+    </button>
+  );
+}
+
+/** The numbers of the simulation; also what tests read, as data attributes. */
+function SimStatus() {
+  const { t } = useTranslation('frame');
+  const sim = useSessionStore((state) => state.sim);
+  const simTime = useSessionStore((state) => state.simTime);
+  const speed = useMotion((motion) => motion.speed);
+  const isSlow = sim !== null && !sim.paused && sim.real_time_factor < sim.speed * 0.9;
+  const isOverBudget = sim !== null && sim.tick_ms > sim.tick_budget_ms;
+  return (
+    <span
+      className={classes['sim']}
+      data-testid="sim-stats"
+      data-speed={speed.toFixed(3)}
+      data-distance={(sim?.distance_m ?? 0).toFixed(3)}
+      data-collisions={sim?.collisions ?? 0}
+      data-t={simTime.toFixed(3)}
+      data-rtf={(sim?.real_time_factor ?? 0).toFixed(3)}
+    >
+      {sim ? (
+        <>
+          <Stat label={t('status.speed')} value={`${speed.toFixed(2)} m/s`} />
+          <Stat label={t('status.distance')} value={`${sim.distance_m.toFixed(1)} m`} />
+          <Stat label={t('status.collisions')} value={String(sim.collisions)} isBad={sim.collisions > 0} />
+          <Stat
+            label={t('status.tick')}
+            value={`${sim.tick_ms.toFixed(1)} / ${sim.tick_budget_ms.toFixed(0)} ms`}
+            isBad={isOverBudget}
+          />
+          <Stat label={t('status.rtf')} value={`×${sim.real_time_factor.toFixed(2)}`} isBad={isSlow} />
+          <Stat label={t('status.simTime')} value={`${simTime.toFixed(1)} s`} />
+        </>
+      ) : null}
+    </span>
+  );
+}
+
+interface StatProps {
+  readonly label: string;
+  readonly value: string;
+  readonly isBad?: boolean;
+}
+
+function Stat({ label, value, isBad = false }: StatProps) {
+  return (
+    <Tooltip label={label}>
+      <span className={classes['stat']} data-bad={isBad || undefined}>
+        <span className={classes['statLabel']}>{label}</span> {value}
+      </span>
+    </Tooltip>
+  );
+}

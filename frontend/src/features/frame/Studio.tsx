@@ -1,0 +1,105 @@
+import { Button, Center, Stack, Text, Title } from '@mantine/core';
+import { useMediaQuery } from '@mantine/hooks';
+import { useEffect, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { ApiError } from '@/api/errors';
+import { useShortcuts } from '@/actions/shortcuts';
+import { registerCanvasActions } from '@/features/canvas/actions';
+import { ConflictDialog } from '@/features/code/ConflictDialog';
+import { FileDialog } from '@/features/code/FileDialog';
+import { Banner } from '@/features/run/Banner';
+import { RunProgress } from '@/features/run/RunProgress';
+import { registerRunActions } from '@/features/run/actions';
+import { useRunReactions } from '@/features/run/useRunReactions';
+import { hasWebGl } from '@/features/viewer/webgl';
+import { useProjectStore } from '@/store/project';
+import { setNavigator } from '@/store/project/navigation';
+import { navigate } from '@/store/route';
+import { registerFrameActions } from './actions';
+import { CommandPalette } from './CommandPalette';
+import { Dock } from './Dock';
+import classes from './frame.module.css';
+import { loadLayout } from './layoutModel';
+import { RestoredNotice } from './RestoredNotice';
+import { StatusBar } from './StatusBar';
+import { followFront, openTab, reopen, showPanel, useTabs } from './tabs';
+import { TopBar } from './TopBar';
+import { useProject } from './useProject';
+import { Waiting } from './Waiting';
+
+interface StudioProps {
+  readonly projectId: string;
+}
+
+/** The IDE of one project. */
+export function Studio({ projectId }: StudioProps) {
+  const opening = useProject(projectId);
+  if (opening.kind === 'failed') return <CannotOpen error={opening.error} />;
+  if (opening.kind === 'loading') return <Waiting reason="openingProject" />;
+  return <Workbench projectId={projectId} />;
+}
+
+function CannotOpen({ error }: { readonly error: Error }) {
+  const { t } = useTranslation('frame');
+  const isMissing = error instanceof ApiError && error.status === 404;
+  return (
+    <Center h="100%" role="alert">
+      <Stack maw={480} gap="sm">
+        <Title order={3}>{t(isMissing ? 'cannotOpen.missing' : 'cannotOpen.title')}</Title>
+        <Text c="dimmed">{error.message}</Text>
+        <Button w="fit-content" onClick={() => navigate('/')}>
+          {t('cannotOpen.back')}
+        </Button>
+      </Stack>
+    </Center>
+  );
+}
+
+function Workbench({ projectId }: StudioProps) {
+  const isNarrow = useMediaQuery('(max-width: 900px)', false, { getInitialValueInEffect: false });
+  const width = isNarrow ? 'narrow' : 'wide';
+  const model = useTabs((state) => state.model);
+  const [modelWidth, setModelWidth] = useState(width);
+  const name = useProjectStore((state) => state.name);
+  useShortcuts();
+  useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
+
+  useEffect(() => {
+    document.title = `${name} — BT Studio`;
+  }, [name]);
+
+  useEffect(() => {
+    const unregister = [registerCanvasActions(), registerRunActions(), registerFrameActions()];
+    setNavigator({
+      openTree: (id) => openTab({ kind: 'tree', id }),
+      openFile: (path, line) => openTab({ kind: 'file', path }, line),
+    });
+    return () => {
+      unregister.forEach((undo) => undo?.());
+      useTabs.setState({ model: null, target: null });
+    };
+  }, []);
+
+  useEffect(() => {
+    if (model && modelWidth === width) return;
+    const fresh = loadLayout(width, hasWebGl());
+    useTabs.setState({ model: fresh });
+    setModelWidth(width);
+    reopen(projectId, useProjectStore.getState().mainTree);
+    followFront(fresh);
+  }, [model, modelWidth, width, projectId]);
+
+  return (
+    <div className={classes['studio']}>
+      <TopBar />
+      <RunProgress />
+      <Banner />
+      <div className={classes['dock']}>{model ? <Dock model={model} width={width} key={width} /> : null}</div>
+      <StatusBar />
+      <CommandPalette />
+      <ConflictDialog />
+      <FileDialog />
+      <RestoredNotice />
+    </div>
+  );
+}

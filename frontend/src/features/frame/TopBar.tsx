@@ -1,0 +1,58 @@
+import { Anchor, Divider, Group, Text } from '@mantine/core';
+import { IconChevronRight } from '@tabler/icons-react';
+import type { MouseEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import { RunControls } from '@/features/run/RunControls';
+import { useProjectStore } from '@/store/project';
+import { navigate } from '@/store/route';
+import { Logo } from '@/ui/Logo';
+import { ThemeToggle } from '@/ui/ThemeToggle';
+import { ActionButton } from '@/ui/ActionButton';
+import classes from './frame.module.css';
+import { MoreMenu } from './MoreMenu';
+import { SaveIndicator } from './SaveIndicator';
+
+export function TopBar() {
+  const { t } = useTranslation('frame');
+  const name = useProjectStore((state) => state.name);
+  const activeTree = useProjectStore((state) => state.activeTree);
+  const history = useProjectStore((state) =>
+    state.activeTree ? state.histories[state.activeTree] : undefined,
+  );
+  const goHome = (event: MouseEvent) => {
+    if (event.metaKey || event.ctrlKey) return;
+    event.preventDefault();
+    navigate('/');
+  };
+  return (
+    <header className={classes['topBar']}>
+      <Group gap={8} wrap="nowrap" className={classes['where']}>
+        <Anchor href="/" onClick={goHome} aria-label={t('toProjects')} title={t('toProjects')} lh={0}>
+          <Logo size={26} />
+        </Anchor>
+        <Text fw={600} truncate="end" title={name}>
+          {name}
+        </Text>
+        {activeTree ? (
+          <Group gap={4} wrap="nowrap" className={classes['crumb']}>
+            <IconChevronRight size={14} aria-hidden="true" />
+            <Text size="sm" c="dimmed" truncate="end">
+              {activeTree}
+            </Text>
+          </Group>
+        ) : null}
+        <SaveIndicator />
+      </Group>
+      <Group gap={4} wrap="nowrap" className={classes['controls']}>
+        <ActionButton action="canvas.undo" testId="undo" isDisabled={!history?.past.length} />
+        <ActionButton action="canvas.redo" testId="redo" isDisabled={!history?.future.length} />
+        <Divider orientation="vertical" mx={4} my={8} />
+        <RunControls />
+      </Group>
+      <Group gap={2} wrap="nowrap" className={classes['right']}>
+        <ThemeToggle />
+        <MoreMenu />
+      </Group>
+    </header>
+  );
+}

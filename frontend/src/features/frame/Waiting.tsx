@@ -1,0 +1,22 @@
+import { Center, Loader, Stack, Text } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+
+interface WaitingProps {
+  /** Which text of `frame:waiting` says what is being waited for. */
+  readonly reason: 'openingProject' | 'loadingViewer' | 'loadingEditor';
+}
+
+/** A spinner that says why. */
+export function Waiting({ reason }: WaitingProps) {
+  const { t } = useTranslation('frame');
+  return (
+    <Center h="100%" mih={120} role="status">
+      <Stack align="center" gap="xs">
+        <Loader size="sm" />
+        <Text size="sm" c="dimmed">
+          {t(`waiting.${reason}`)}
+        </Text>
+      </Stack>
+    </Center>
+  );
+}

@@ -1,0 +1,104 @@
+import { spotlight } from '@mantine/spotlight';
+import {
+  IconCommand,
+  IconDeviceFloppy,
+  IconDownload,
+  IconHome,
+  IconLayout,
+  IconPlus,
+  IconTerminal2,
+  IconAlertTriangle,
+} from '@tabler/icons-react';
+import { registerActions, type UserAction } from '@/actions/registry';
+import { api } from '@/api/client';
+import { useProjectStore } from '@/store/project';
+import { navigate } from '@/store/route';
+import { saveNow } from '@/store/saving/autosave';
+import { openNewFile } from '@/features/code/newFile';
+import { resetLayout } from './Dock';
+import { showPanel } from './tabs';
+
+function download(): void {
+  const { projectId } = useProjectStore.getState();
+  if (!projectId) return;
+  void saveNow()
+    .catch(() => undefined)
+    .then(() => window.location.assign(api.exportUrl(projectId)));
+}
+
+const rows: UserAction[] = [
+  {
+    id: 'frame.palette',
+    group: 'view',
+    labelKey: 'frame:action.commandPalette',
+    icon: IconCommand,
+    shortcut: '$mod+KeyK',
+    inTextFields: true,
+    hidden: true,
+    run: () => spotlight.toggle(),
+  },
+  {
+    id: 'project.save',
+    group: 'project',
+    labelKey: 'frame:action.save',
+    icon: IconDeviceFloppy,
+    shortcut: '$mod+KeyS',
+    inTextFields: true,
+    run: () => void saveNow().catch(() => undefined),
+  },
+  {
+    id: 'project.newAction',
+    group: 'project',
+    labelKey: 'frame:action.newAction',
+    icon: IconPlus,
+    run: () => openNewFile('action'),
+  },
+  {
+    id: 'project.newTree',
+    group: 'project',
+    labelKey: 'frame:action.newTree',
+    icon: IconPlus,
+    run: () => openNewFile('tree'),
+  },
+  {
+    id: 'project.download',
+    group: 'project',
+    labelKey: 'frame:action.download',
+    icon: IconDownload,
+    run: download,
+  },
+  {
+    id: 'project.home',
+    group: 'go',
+    labelKey: 'frame:action.home',
+    icon: IconHome,
+    run: () => navigate('/'),
+  },
+  {
+    id: 'view.console',
+    group: 'view',
+    labelKey: 'frame:action.showConsole',
+    icon: IconTerminal2,
+    shortcut: '$mod+Backquote',
+    inTextFields: true,
+    run: () => showPanel('console'),
+  },
+  {
+    id: 'view.problems',
+    group: 'view',
+    labelKey: 'frame:action.showProblems',
+    icon: IconAlertTriangle,
+    shortcut: '$mod+Shift+KeyM',
+    inTextFields: true,
+    run: () => showPanel('problems'),
+  },
+  {
+    id: 'view.resetLayout',
+    group: 'view',
+    labelKey: 'frame:action.resetLayout',
+    icon: IconLayout,
+    run: resetLayout,
+  },
+];
+
+export const registerFrameActions = () => registerActions(rows);

@@ -1,0 +1,154 @@
+import { Model, type IJsonModel, type IJsonTabNode, type IJsonTabSetNode } from 'flexlayout-react';
+
+/** Panels of the frame; their names are texts of `frame:panel`. */
+export type PanelId =
+  | 'explorer'
+  | 'outline'
+  | 'palette'
+  | 'inspector'
+  | 'blackboard'
+  | 'viewer3d'
+  | 'video'
+  | 'camera'
+  | 'console'
+  | 'problems';
+
+export type FrameWidth = 'wide' | 'narrow';
+
+/** The tab set of trees and code; it stays when it is empty. */
+export const EDITORS = 'editors';
+
+/** Raise it when the default layout changes, so that old ones are not kept. */
+const VERSION = 1;
+const storageKey = (width: FrameWidth) => `bts.layout.${VERSION}.${width}`;
+
+const panel = (id: PanelId): IJsonTabNode => ({
+  type: 'tab',
+  id,
+  name: `panel.${id}`,
+  component: id,
+  enableClose: false,
+});
+
+const tabset = (id: string, weight: number, panels: PanelId[], selected = 0): IJsonTabSetNode => ({
+  type: 'tabset',
+  id,
+  weight,
+  selected: panels.length === 0 ? -1 : selected,
+  enableDeleteWhenEmpty: id !== EDITORS,
+  children: panels.map(panel),
+});
+
+const global: NonNullable<IJsonModel['global']> = {
+  tabEnableRename: false,
+  tabEnablePopout: false,
+  tabSetEnableTabScrollbar: true,
+  tabSetMinHeight: 80,
+  tabSetMinWidth: 120,
+};
+
+function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
+  const view = hasWebGl ? 0 : 1;
+  if (width === 'narrow') {
+    return {
+      global: { ...global, rootOrientationVertical: true },
+      layout: {
+        type: 'row',
+        children: [
+          tabset(EDITORS, 55, []),
+          tabset(
+            'panels',
+            45,
+            [
+              'viewer3d',
+              'video',
+              'camera',
+              'inspector',
+              'palette',
+              'console',
+              'problems',
+              'blackboard',
+              'explorer',
+              'outline',
+            ],
+            view,
+          ),
+        ],
+      },
+    };
+  }
+  return {
+    global,
+    layout: {
+      type: 'row',
+      children: [
+        {
+          type: 'row',
+          weight: 17,
+          children: [tabset('files', 36, ['explorer', 'outline']), tabset('nodes', 64, ['palette'])],
+        },
+        {
+          type: 'row',
+          weight: 53,
+          children: [tabset(EDITORS, 74, []), tabset('output', 26, ['console', 'problems'])],
+        },
+        {
+          type: 'row',
+          weight: 30,
+          children: [
+            tabset('views', 50, ['viewer3d', 'video', 'camera'], view),
+            tabset('details', 50, ['inspector', 'blackboard']),
+          ],
+        },
+      ],
+    },
+  };
+}
+
+/** Without the open documents: those belong to a project, the arrangement to the user. */
+function withoutDocuments(json: IJsonModel): IJsonModel {
+  const text = JSON.stringify(json, (key, value: unknown) => {
+    if (key !== 'children' || !Array.isArray(value)) return value;
+    return value.filter((child: { config?: { document?: boolean } }) => !child.config?.document);
+  });
+  const copy = JSON.parse(text) as IJsonModel;
+  resetSelection(copy.layout as LayoutNode);
+  return copy;
+}
+
+interface LayoutNode {
+  id?: string;
+  type?: string;
+  selected?: number;
+  children?: LayoutNode[];
+  maximized?: boolean;
+}
+
+function resetSelection(node: LayoutNode): void {
+  const count = node.children?.length ?? 0;
+  if (node.type === 'tabset' && (node.selected ?? 0) >= count) node.selected = count - 1;
+  delete node.maximized;
+  node.children?.forEach(resetSelection);
+}
+
+export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
+  const kept = localStorage.getItem(storageKey(width));
+  if (kept) {
+    try {
+      const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
+      if (model.getNodeById(EDITORS)) return model;
+    } catch {
+      // A layout that cannot be read is replaced by the default one.
+    }
+  }
+  return Model.fromJson(defaultLayout(width, hasWebGl));
+}
+
+export function keepLayout(width: FrameWidth, model: Model): void {
+  localStorage.setItem(storageKey(width), JSON.stringify(withoutDocuments(model.toJson())));
+}
+
+export function forgetLayouts(): void {
+  localStorage.removeItem(storageKey('wide'));
+  localStorage.removeItem(storageKey('narrow'));
+}

@@ -1,0 +1,52 @@
+import { lazy, Suspense, type ReactNode } from 'react';
+import type { TabNode } from 'flexlayout-react';
+import { BlackboardPanel } from '@/features/blackboard/BlackboardPanel';
+import { Canvas } from '@/features/canvas/Canvas';
+import { ConsolePanel } from '@/features/console/ConsolePanel';
+import { Inspector } from '@/features/inspector/Inspector';
+import { Outline } from '@/features/outline/Outline';
+import { Palette } from '@/features/palette/Palette';
+import { ProblemsPanel } from '@/features/problems/ProblemsPanel';
+import { CameraPanel } from '@/features/viewer/CameraPanel';
+import { VideoPanel } from '@/features/viewer/VideoPanel';
+import { ErrorBoundary } from './ErrorBoundary';
+import { Explorer } from './Explorer';
+import type { PanelId } from './layoutModel';
+import type { DocumentTab } from './tabs';
+import { Waiting } from './Waiting';
+
+const Viewer3d = lazy(async () => ({ default: (await import('@/features/viewer/Viewer3d')).Viewer3d }));
+const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
+
+const panels: Record<PanelId, () => ReactNode> = {
+  explorer: () => <Explorer />,
+  outline: () => <Outline />,
+  palette: () => <Palette />,
+  inspector: () => <Inspector />,
+  blackboard: () => <BlackboardPanel />,
+  viewer3d: () => (
+    <Suspense fallback={<Waiting reason="loadingViewer" />}>
+      <Viewer3d />
+    </Suspense>
+  ),
+  video: () => <VideoPanel />,
+  camera: () => <CameraPanel />,
+  console: () => <ConsolePanel />,
+  problems: () => <ProblemsPanel />,
+};
+
+function documentOf(tab: DocumentTab): ReactNode {
+  if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
+  return (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <CodeTab path={tab.path} />
+    </Suspense>
+  );
+}
+
+/** What a tab shows; one panel's mistake does not take the others down. */
+export function renderTab(node: TabNode): ReactNode {
+  const config = node.getConfig() as { tab?: DocumentTab } | undefined;
+  const content = config?.tab ? documentOf(config.tab) : panels[node.getComponent() as PanelId]();
+  return <ErrorBoundary>{content}</ErrorBoundary>;
+}

@@ -1,0 +1,115 @@
+import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Model } from 'flexlayout-react';
+import { create } from 'zustand';
+import { useProjectStore } from '@/store/project';
+import { EDITORS, type PanelId } from './layoutModel';
+
+/** A document that is open in a tab. */
+export type DocumentTab = { kind: 'tree'; id: string } | { kind: 'file'; path: string };
+
+/** Where an editor shall put its cursor; `request` makes the same line twice two requests. */
+export interface LineTarget {
+  path: string;
+  line: number;
+  request: number;
+}
+
+interface TabsData {
+  model: Model | null;
+  target: LineTarget | null;
+}
+
+export const useTabs = create<TabsData>(() => ({ model: null, target: null }));
+
+let requests = 0;
+
+const tabId = (tab: DocumentTab) => (tab.kind === 'tree' ? `tree:${tab.id}` : `file:${tab.path}`);
+
+function jsonOf(tab: DocumentTab): IJsonTabNode {
+  const name = tab.kind === 'tree' ? tab.id : (tab.path.split('/').at(-1) ?? tab.path);
+  return {
+    type: 'tab',
+    id: tabId(tab),
+    name,
+    component: tab.kind,
+    config: { document: true, tab },
+    helpText: tab.kind === 'file' ? tab.path : name,
+  };
+}
+
+/** Opens a document, or brings its tab to the front. */
+export function openTab(tab: DocumentTab, line?: number): void {
+  const { model } = useTabs.getState();
+  if (!model) return;
+  const id = tabId(tab);
+  if (model.getNodeById(id)) model.doAction(Actions.selectTab(id));
+  else model.doAction(Actions.addTab(jsonOf(tab), EDITORS, DockLocation.CENTER, -1, true));
+  if (tab.kind === 'file' && line) {
+    requests += 1;
+    useTabs.setState({ target: { path: tab.path, line, request: requests } });
+  }
+}
+
+export function closeTab(tab: DocumentTab): void {
+  const { model } = useTabs.getState();
+  if (model?.getNodeById(tabId(tab))) model.doAction(Actions.deleteTab(tabId(tab)));
+}
+
+/** Brings a panel to the front, if the user has not closed it. */
+export function showPanel(panel: PanelId): void {
+  const { model } = useTabs.getState();
+  const node = model?.getNodeById(panel);
+  if (node instanceof TabNode && !node.isVisible()) model?.doAction(Actions.selectTab(panel));
+}
+
+export function openDocuments(model: Model): DocumentTab[] {
+  const found: DocumentTab[] = [];
+  model.visitNodes((node) => {
+    const config =
+      node instanceof TabNode ? (node.getConfig() as { tab?: DocumentTab } | undefined) : undefined;
+    if (config?.tab) found.push(config.tab);
+  });
+  return found;
+}
+
+/** The document in front, in the tab set of the editors or the one the user made active. */
+export function frontDocument(model: Model): DocumentTab | null {
+  const active = model.getActiveTabset();
+  for (const tabset of [active, model.getNodeById(EDITORS)]) {
+    const selected = tabset instanceof TabSetNode ? tabset.getSelectedNode() : undefined;
+    const config =
+      selected instanceof TabNode ? (selected.getConfig() as { tab?: DocumentTab } | undefined) : undefined;
+    if (config?.tab) return config.tab;
+  }
+  return null;
+}
+
+/** The canvas, inspector and undo work on the tree in front. */
+export function followFront(model: Model): void {
+  const front = frontDocument(model);
+  const { activeTree, setActiveTree } = useProjectStore.getState();
+  if (front?.kind === 'tree' && front.id !== activeTree) setActiveTree(front.id);
+}
+
+const openKey = (projectId: string) => `bts.open.${projectId}`;
+
+export function keepOpen(projectId: string, model: Model): void {
+  const front = frontDocument(model);
+  localStorage.setItem(openKey(projectId), JSON.stringify({ tabs: openDocuments(model), front }));
+}
+
+/** Opens what was open in this project the last time, and at least its main tree. */
+export function reopen(projectId: string, mainTree: string): void {
+  const { files, diagrams } = useProjectStore.getState();
+  const exists = (tab: DocumentTab) => (tab.kind === 'tree' ? tab.id in diagrams : tab.path in files);
+  let kept: { tabs?: DocumentTab[]; front?: DocumentTab | null } = {};
+  try {
+    kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;
+  } catch {
+    // Unreadable: as if nothing had been open.
+  }
+  const tabs = (kept.tabs ?? []).filter(exists);
+  for (const tab of tabs) openTab(tab);
+  const front = kept.front && exists(kept.front) ? kept.front : null;
+  if (front) openTab(front);
+  else if (tabs.length === 0) openTab({ kind: 'tree', id: mainTree });
+}

@@ -1,0 +1,34 @@
+import { useEffect, useState } from 'react';
+import { api } from '@/api/client';
+import { useProjectStore } from '@/store/project';
+import { startAutosave, stopAutosave } from '@/store/saving/autosave';
+import { restoreDraft } from '@/store/saving/conflicts';
+import { disconnect, reattach } from '@/store/session/connection';
+
+type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
+
+/** Opens a project: loads it, brings unsaved edits back, watches edits, joins its running session. */
+export function useProject(projectId: string): Opening {
+  const [opening, setOpening] = useState<Opening>({ kind: 'loading' });
+  useEffect(() => {
+    const loading = new AbortController();
+    api.getProject(projectId, loading.signal).then(
+      (detail) => {
+        useProjectStore.getState().load(detail);
+        startAutosave();
+        restoreDraft(detail);
+        setOpening({ kind: 'open' });
+        void reattach(projectId);
+      },
+      (error: Error) => {
+        if (error.name !== 'AbortError') setOpening({ kind: 'failed', error });
+      },
+    );
+    return () => {
+      loading.abort();
+      stopAutosave();
+      disconnect();
+    };
+  }, [projectId]);
+  return opening;
+}

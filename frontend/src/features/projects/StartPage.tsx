@@ -1,0 +1,84 @@
+import { Button, FileButton, Group, Loader, Overlay, Text, Title } from '@mantine/core';
+import { IconUpload } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { useEffect } from 'react';
+import { ThemeToggle } from '@/ui/ThemeToggle';
+import { Logo } from '@/ui/Logo';
+import { LanguageMenu } from './LanguageMenu';
+import { ProjectList } from './ProjectList';
+import classes from './projects.module.css';
+import { TemplateCards } from './TemplateCards';
+import { useFileDrop } from './useFileDrop';
+import { useProjectActions } from './useProjects';
+
+/** Where the user chooses or makes a project. */
+export function StartPage() {
+  const { t } = useTranslation('projects');
+  const actions = useProjectActions();
+  const { mutate: importZip, isPending: isImporting } = actions.importZip;
+  const isDropping = useFileDrop(importZip);
+  const pending = actions.create.isPending ? actions.create.variables : null;
+
+  useEffect(() => {
+    document.title = 'BT Studio';
+  }, []);
+
+  return (
+    <div className={classes['page']}>
+      {isDropping ? (
+        <Overlay fixed zIndex={300} backgroundOpacity={0.5} blur={2} className={classes['dropOverlay']}>
+          <IconUpload size={40} />
+          <Text size="lg" fw={600}>
+            {t('dropHere')}
+          </Text>
+        </Overlay>
+      ) : null}
+      <header className={classes['header']}>
+        <Group gap={10}>
+          <Logo size={28} />
+          <Text fw={700} size="lg">
+            BT Studio
+          </Text>
+        </Group>
+        <Group gap={4}>
+          <LanguageMenu />
+          <ThemeToggle />
+        </Group>
+      </header>
+      <main className={classes['main']}>
+        <section aria-labelledby="new-heading">
+          <Group justify="space-between" align="end" mb="md">
+            <div>
+              <Title order={1} size={26} id="new-heading">
+                {t('heading')}
+              </Title>
+              <Text c="dimmed" mt={4}>
+                {t('intro')}
+              </Text>
+            </div>
+            <FileButton accept=".zip,application/zip" onChange={(file) => file && importZip(file)}>
+              {(props) => (
+                <Button
+                  {...props}
+                  variant="default"
+                  loading={isImporting}
+                  leftSection={<IconUpload size={16} />}
+                >
+                  {t('import')}
+                </Button>
+              )}
+            </FileButton>
+          </Group>
+          <TemplateCards onCreate={(template) => actions.create.mutate(template)} pending={pending} />
+        </section>
+        <ProjectList actions={actions} />
+        {isImporting ? (
+          <Group gap="sm" role="status">
+            <Loader size="xs" />
+            <Text size="sm">{t('importing')}</Text>
+          </Group>
+        ) : null}
+      </main>
+    </div>
+  );
+}

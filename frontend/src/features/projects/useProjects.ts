@@ -1,0 +1,63 @@
+import { notifications } from '@mantine/notifications';
+import { useMutation, useQuery, useQueryClient, keepPreviousData } from '@tanstack/react-query';
+import { useTranslation } from 'react-i18next';
+import { api, type ProjectSort } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { ProjectDetail, ProjectSummary } from '@/api/types';
+import { navigate, projectPath } from '@/store/route';
+import { undoNotification } from './undoNotification';
+
+export function useProjects(search: string, sort: ProjectSort) {
+  return useQuery({
+    queryKey: ['projects', search, sort],
+    queryFn: ({ signal }) => api.listProjects(search, sort, signal),
+    placeholderData: keepPreviousData,
+  });
+}
+
+export function useTemplates() {
+  return useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
+}
+
+/** What can be done with projects from the start page; failures are told in a notification. */
+export function useProjectActions() {
+  const { t } = useTranslation('projects');
+  const queries = useQueryClient();
+  const refresh = () => queries.invalidateQueries({ queryKey: ['projects'] });
+  const open = (project: ProjectDetail) => navigate(projectPath(project.id));
+  const onError = (error: Error) => {
+    const hint = error instanceof ApiError ? error.hint : '';
+    notifications.show({ color: 'red', title: t('failed'), message: [error.message, hint].join(' ') });
+  };
+
+  const create = useMutation({
+    mutationFn: (template: string) => api.createProject({ template }),
+    onSuccess: open,
+    onError,
+  });
+  const importZip = useMutation({ mutationFn: api.importProject, onSuccess: open, onError });
+  const duplicate = useMutation({
+    mutationFn: (project: ProjectSummary) => api.duplicateProject(project.id),
+    onSuccess: refresh,
+    onError,
+  });
+  const rename = useMutation({
+    mutationFn: ({ project, name }: { project: ProjectSummary; name: string }) =>
+      api.patchProject(project.id, { name, base_revision: project.revision }),
+    onSuccess: refresh,
+    onError,
+  });
+  const remove = useMutation({
+    mutationFn: (project: ProjectSummary) => api.deleteProject(project.id),
+    onSuccess: async (_, project) => {
+      await refresh();
+      undoNotification({
+        message: t('deleted', { name: project.name }),
+        undoLabel: t('undo'),
+        undo: () => void api.restoreProject(project.id).then(refresh, onError),
+      });
+    },
+    onError,
+  });
+  return { create, importZip, duplicate, rename, remove };
+}

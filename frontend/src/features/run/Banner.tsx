@@ -1,0 +1,71 @@
+import { Button, CloseButton } from '@mantine/core';
+import { IconAlertTriangle, IconPlugConnectedX } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { useShallow } from 'zustand/react/shallow';
+import { perform } from '@/actions/registry';
+import { useProjectStore } from '@/store/project';
+import { openFile, openTree } from '@/store/project/navigation';
+import { useRunStore } from '@/store/run/store';
+import { useSessionStore } from '@/store/session/store';
+import { bannerFor, type BannerContent } from './banner';
+import classes from './run.module.css';
+
+/** What is wrong, where, and what to do next; across the whole width, since it concerns everything. */
+export function Banner() {
+  const { t, i18n } = useTranslation('run');
+  const session = useSessionStore(
+    useShallow(({ connection, connectionMessage, faults }) => ({ connection, connectionMessage, faults })),
+  );
+  const failure = useRunStore((state) => state.failure);
+  const banner = bannerFor({ ...session, failure });
+  if (!banner) return null;
+  const title = i18n.exists(`run:${banner.titleKey}`)
+    ? t(banner.titleKey, banner.values)
+    : t('banner.refused');
+
+  return (
+    <div
+      className={classes['banner']}
+      data-tone={banner.tone}
+      data-kind={banner.kind}
+      data-testid="banner"
+      role="alert"
+    >
+      {banner.kind === 'connection' ? <IconPlugConnectedX size={18} /> : <IconAlertTriangle size={18} />}
+      <div className={classes['bannerText']}>
+        <strong>{title}</strong>
+        {banner.text ? <span>{banner.text}</span> : null}
+        {banner.hint ? <span className={classes['hint']}>{banner.hint}</span> : null}
+      </div>
+      {banner.link ? <GoButton link={banner.link} /> : null}
+      {banner.kind === 'connection' && banner.tone === 'error' ? (
+        <Button size="compact-sm" variant="white" onClick={() => perform('run.run')}>
+          {t('action.run')}
+        </Button>
+      ) : null}
+      {banner.tone === 'error' ? <CloseButton size="sm" aria-label={t('dismiss')} onClick={dismiss} /> : null}
+    </div>
+  );
+}
+
+function GoButton({ link }: { readonly link: NonNullable<BannerContent['link']> }) {
+  const { t } = useTranslation('run');
+  const go = () => {
+    if ('file' in link) return openFile(link.file, link.line);
+    openTree(link.tree);
+    useProjectStore.getState().reveal(link.tree, link.node);
+  };
+  return (
+    <Button size="compact-sm" variant="light" color="red" onClick={go}>
+      {'file' in link
+        ? t('openLine', { file: link.file.split('/').at(-1), line: link.line })
+        : t('showBlock')}
+    </Button>
+  );
+}
+
+function dismiss(): void {
+  useRunStore.setState({ failure: null });
+  const { connection } = useSessionStore.getState();
+  useSessionStore.setState({ faults: [], ...(connection === 'lost' ? { connection: 'off' as const } : {}) });
+}

@@ -1,0 +1,30 @@
+import { Tooltip } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import { useSessionStore } from '@/store/session/store';
+import classes from './run.module.css';
+
+/** What the executor is doing, in one word; the rung of its ladder as tooltip. */
+export function ExecutorState() {
+  const { t } = useTranslation('run');
+  const executor = useSessionStore((state) => state.executor);
+  const connection = useSessionStore((state) => state.connection);
+  const finished = useSessionStore((state) => state.finished);
+  const isLaunching = useSessionStore((state) => state.isLaunching);
+  const isLost = connection === 'reconnecting' || connection === 'lost';
+  const shown = isLost ? 'lost' : isLaunching ? 'launching' : executor;
+  return (
+    <Tooltip label={t(`stateHelp.${shown}`)}>
+      <span
+        className={classes['state']}
+        data-testid="executor-state"
+        data-state={executor}
+        data-shown={shown}
+        aria-live="polite"
+      >
+        <span className={classes['dot']} aria-hidden="true" />
+        {t(`state.${shown}`)}
+        {finished && executor === 'visualization_ready' ? ` · ${t(`status.${finished.status}`)}` : null}
+      </span>
+    </Tooltip>
+  );
+}

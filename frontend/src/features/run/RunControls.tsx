@@ -1,0 +1,58 @@
+import { Button, Divider, Group, Tooltip } from '@mantine/core';
+import { IconPlayerPlayFilled } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { perform } from '@/actions/registry';
+import { shortcutLabel } from '@/actions/shortcuts';
+import { ActionButton } from '@/ui/ActionButton';
+import { useRunStore } from '@/store/run/store';
+import { useSessionStore } from '@/store/session/store';
+import { ExecutorState } from './ExecutorState';
+import { SpeedSelect, TickRateSelect } from './RateSelects';
+import classes from './run.module.css';
+
+/** Run, and what can be done with what runs. */
+export function RunControls() {
+  const { t } = useTranslation('run');
+  const stage = useRunStore((state) => state.stage);
+  const executor = useSessionStore((state) => state.executor);
+  const connection = useSessionStore((state) => state.connection);
+  const isRunning = executor === 'application_running';
+  const isPaused = executor === 'paused';
+  const hasApplication = isRunning || isPaused;
+  const isViewer = useSessionStore((state) => state.introspection?.role === 'viewer');
+  const runLabel = t(hasApplication ? 'runAgain' : 'action.run');
+
+  return (
+    <Group gap={4} wrap="nowrap">
+      <Tooltip label={`${t(hasApplication ? 'runAgainHelp' : 'runHelp')} (${shortcutLabel('F5')})`}>
+        <Button
+          className={classes['runButton']}
+          size="xs"
+          h={32}
+          px={14}
+          leftSection={<IconPlayerPlayFilled size={15} />}
+          loading={stage !== null}
+          disabled={isViewer}
+          data-testid="run"
+          onClick={() => perform('run.run')}
+        >
+          {runLabel}
+        </Button>
+      </Tooltip>
+      {isPaused ? (
+        <ActionButton action="run.resume" testId="resume" isDisabled={isViewer} />
+      ) : (
+        <ActionButton action="run.pause" testId="pause" isDisabled={!isRunning || isViewer} />
+      )}
+      <ActionButton action="run.step" testId="step" isDisabled={!hasApplication || isViewer} />
+      <ActionButton action="run.stop" testId="stop" isDisabled={!hasApplication || isViewer} />
+      <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isViewer} />
+      <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
+      <div className={classes['rates']}>
+        <TickRateSelect />
+        <SpeedSelect />
+      </div>
+      <ExecutorState />
+    </Group>
+  );
+}

@@ -1,0 +1,83 @@
+import type { Fault } from '@/generated/messages';
+import type { Connection } from '@/store/session/types';
+import type { LaunchFailure } from '@/store/run/store';
+
+/** What the banner says: the most urgent of what is wrong. */
+export interface BannerContent {
+  kind: 'connection' | 'fault' | 'failure';
+  tone: 'error' | 'warning';
+  /** i18n key of `run:banner`, with what it needs. */
+  titleKey: string;
+  values: Record<string, string>;
+  text: string;
+  hint: string;
+  link: { file: string; line: number } | { tree: string; node: string } | null;
+}
+
+interface Situation {
+  connection: Connection;
+  connectionMessage: string;
+  faults: readonly Fault[];
+  failure: LaunchFailure | null;
+}
+
+/** The lost connection first, then the last fault, then why a command was refused. */
+export function bannerFor({
+  connection,
+  connectionMessage,
+  faults,
+  failure,
+}: Situation): BannerContent | null {
+  if (connection === 'reconnecting' || connection === 'lost')
+    return connectionBanner(connection, connectionMessage);
+  if (failure) return failureBanner(failure);
+  const fault = faults.at(-1);
+  return fault ? faultBanner(fault) : null;
+}
+
+function connectionBanner(connection: 'reconnecting' | 'lost', message: string): BannerContent {
+  return {
+    kind: 'connection',
+    tone: connection === 'lost' ? 'error' : 'warning',
+    titleKey: `banner.${connection}`,
+    values: {},
+    text: message,
+    hint: '',
+    link: null,
+  };
+}
+
+function faultBanner(fault: Fault): BannerContent {
+  const where = fault.file && fault.line > 0;
+  return {
+    kind: 'fault',
+    tone: 'error',
+    titleKey: where ? 'banner.faultAt' : `banner.fault.${fault.kind}`,
+    values: { file: fault.file, line: String(fault.line), node: fault.node_path },
+    text: fault.message,
+    hint: fault.hint,
+    link: where
+      ? { file: fault.file, line: fault.line }
+      : fault.node_id
+        ? { tree: fault.tree_id, node: fault.node_id }
+        : null,
+  };
+}
+
+function failureBanner(failure: LaunchFailure): BannerContent {
+  const errors = failure.diagnostics.filter((item) => item.severity === 'error');
+  const first = errors[0];
+  return {
+    kind: 'failure',
+    tone: 'error',
+    titleKey: failure.code === 'command_refused' ? 'banner.refused' : `banner.failed.${failure.stage}`,
+    values: { count: String(errors.length) },
+    text: first ? first.message : failure.message,
+    hint: (first ? first.hint : failure.hint) ?? '',
+    link: first?.file && first.line ? { file: first.file, line: first.line } : linkToNode(first),
+  };
+}
+
+function linkToNode(item: { tree?: string | null; node?: string | null } | undefined): BannerContent['link'] {
+  return item?.tree && item.node ? { tree: item.tree, node: item.node } : null;
+}

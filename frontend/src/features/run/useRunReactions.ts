@@ -1,0 +1,30 @@
+import { useEffect } from 'react';
+import { useProjectStore } from '@/store/project';
+import { useRunStore } from '@/store/run/store';
+import { useSessionStore } from '@/store/session/store';
+
+interface Frame {
+  showPanel: (panel: 'problems' | 'console') => void;
+  openFile: (path: string, line?: number) => void;
+}
+
+/** Takes the user to what went wrong: the list of problems, or the line that raised. */
+export function useRunReactions({ showPanel, openFile }: Frame): void {
+  const failure = useRunStore((state) => state.failure);
+  const fault = useSessionStore((state) => state.faults.at(-1));
+
+  useEffect(() => {
+    if (!failure || failure.diagnostics.length === 0) return;
+    const { actions, setChecked } = useProjectStore.getState();
+    setChecked({ diagnostics: failure.diagnostics, actions });
+    showPanel('problems');
+    // The frame's functions never change what they do.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [failure]);
+
+  useEffect(() => {
+    if (!fault?.file || fault.line <= 0) return;
+    if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [fault]);
+}

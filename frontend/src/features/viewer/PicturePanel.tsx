@@ -1,0 +1,52 @@
+import { Text } from '@mantine/core';
+import { useEffect, useState, type ReactNode, type RefObject } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useSessionStore } from '@/store/session/store';
+import { drawPictures } from './pictures';
+import classes from './viewer.module.css';
+
+interface PicturePanelProps {
+  readonly stream: 'camera' | 'view';
+  readonly canvas: RefObject<HTMLCanvasElement | null>;
+  readonly label: string;
+  readonly emptyText: string;
+  readonly children?: ReactNode;
+}
+
+/** Pictures from the server, with their size and rate. */
+export function PicturePanel({ stream, canvas, label, emptyText, children }: PicturePanelProps) {
+  const { t } = useTranslation('viewer');
+  const [shown, setShown] = useState<{ width: number; height: number; hz: number } | null>(null);
+  const hasWorld = useSessionStore(
+    ({ executor }) => executor !== 'idle' && executor !== 'connected' && executor !== 'universe_ready',
+  );
+  useEffect(() => {
+    if (!canvas.current) return;
+    return drawPictures(stream, canvas.current, setShown);
+  }, [stream, canvas]);
+  const isEmpty = !hasWorld || !shown;
+  return (
+    <>
+      <canvas
+        ref={canvas}
+        className={classes['image']}
+        role="img"
+        aria-label={label}
+        hidden={isEmpty}
+        width={640}
+        height={480}
+      />
+      {isEmpty ? (
+        <Text size="sm" c="dimmed" className={classes['empty']}>
+          {emptyText}
+        </Text>
+      ) : (
+        <span className={classes['info']}>
+          {t('size', shown)}
+          {shown.hz > 0 ? ` · ${t('rate', { hz: shown.hz.toFixed(1) })}` : ''}
+        </span>
+      )}
+      {children}
+    </>
+  );
+}

@@ -1,0 +1,93 @@
+import { useEffect, useRef, type KeyboardEvent, type PointerEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
+import { PicturePanel } from './PicturePanel';
+import { useStream } from './useStream';
+import { useVisible } from './useVisible';
+import classes from './viewer.module.css';
+import { hasWebGl } from './webgl';
+
+const VIDEO_HZ = 15;
+const SEND_EVERY_MS = 60;
+const KEY_PX = 24;
+
+/** The world drawn by the server: the same to see where the browser cannot draw it. */
+export function VideoPanel() {
+  const { t } = useTranslation('viewer');
+  const panel = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const orbit = useRef<Orbit>(START);
+  const sending = useRef<ReturnType<typeof setTimeout>>(undefined);
+  const isVisible = useVisible(panel);
+  const stream = useStream('view', isVisible, { max_hz: VIDEO_HZ, width: 640, camera_pose: poseOf(START) });
+
+  const look = (next: Orbit) => {
+    orbit.current = next;
+    sending.current ??= setTimeout(() => {
+      sending.current = undefined;
+      stream.current?.update({ max_hz: VIDEO_HZ, width: 640, camera_pose: poseOf(orbit.current) });
+    }, SEND_EVERY_MS);
+  };
+
+  useEffect(() => {
+    const element = panel.current;
+    if (!element) return;
+    const onWheel = (event: WheelEvent) => {
+      event.preventDefault();
+      look(zoomed(orbit.current, Math.exp(event.deltaY * 0.001)));
+    };
+    element.addEventListener('wheel', onWheel, { passive: false });
+    return () => {
+      element.removeEventListener('wheel', onWheel);
+      clearTimeout(sending.current);
+      sending.current = undefined;
+    };
+    // `look` only uses references.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, []);
+
+  const onDrag = (event: PointerEvent) => {
+    if (event.buttons === 0) return;
+    const move = event.buttons === 1 && !event.shiftKey ? turned : panned;
+    look(move(orbit.current, event.movementX, event.movementY));
+  };
+  const onKey = (event: KeyboardEvent) => {
+    const moves: Record<string, () => Orbit> = {
+      ArrowLeft: () => turned(orbit.current, -KEY_PX, 0),
+      ArrowRight: () => turned(orbit.current, KEY_PX, 0),
+      ArrowUp: () => turned(orbit.current, 0, KEY_PX),
+      ArrowDown: () => turned(orbit.current, 0, -KEY_PX),
+      '+': () => zoomed(orbit.current, 0.85),
+      '-': () => zoomed(orbit.current, 1.18),
+    };
+    const next = moves[event.key]?.();
+    if (!next) return;
+    event.preventDefault();
+    look(next);
+  };
+
+  return (
+    <div
+      ref={panel}
+      className={classes['panel']}
+      data-testid="viewer-video"
+      data-draggable
+      // The picture is turned with the arrow keys too, so it takes the focus.
+      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+      tabIndex={0}
+      role="application"
+      aria-label={t('videoLabel')}
+      onKeyDown={onKey}
+      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerMove={onDrag}
+      onContextMenu={(event) => event.preventDefault()}
+    >
+      <PicturePanel
+        stream="view"
+        canvas={canvas}
+        label={t('videoLabel')}
+        emptyText={hasWebGl() ? t('videoNone') : `${t('noWebGl')} ${t('press')}`}
+      />
+    </div>
+  );
+}

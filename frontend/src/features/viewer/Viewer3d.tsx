@@ -1,0 +1,102 @@
+import { Button, Text, useComputedColorScheme } from '@mantine/core';
+import { IconPlayerPlayFilled } from '@tabler/icons-react';
+import { Canvas } from '@react-three/fiber';
+import { useEffect, useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import * as THREE from 'three';
+import { perform } from '@/actions/registry';
+import type { Scene } from '@/generated/messages';
+import { frames } from '@/store/session/frames';
+import { useSessionStore } from '@/store/session/store';
+import { Stage } from './Stage';
+import { useStream } from './useStream';
+import { useVisible } from './useVisible';
+import { ViewerToolbar } from './ViewerToolbar';
+import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
+import classes from './viewer.module.css';
+import { hasWebGl, isSoftwareWebGl } from './webgl';
+
+THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
+
+const POSES_HZ = 30;
+const SCAN_HZ = 10;
+
+/** The world in 3D, drawn by the browser from the poses that the session sends. */
+export function Viewer3d() {
+  const { t } = useTranslation('viewer');
+  const panel = useRef<HTMLDivElement>(null);
+  const isVisible = useVisible(panel);
+  const scene = useScene();
+  const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
+  const [options, setOptions] = useState<ViewOptions>(loadViewOptions);
+  const isSimple = isSoftwareWebGl();
+  useStream('poses', isVisible && hasWebGl(), { max_hz: POSES_HZ });
+  useStream('scan', isVisible && hasWebGl() && options.rays, { max_hz: SCAN_HZ });
+
+  const change = (part: Partial<ViewOptions>) => {
+    const next = { ...options, ...part };
+    setOptions(next);
+    keepViewOptions(next);
+  };
+
+  return (
+    <div
+      ref={panel}
+      className={classes['panel']}
+      data-testid="viewer-3d"
+      data-objects={scene?.objects.length ?? 0}
+    >
+      {!hasWebGl() ? <Text className={classes['empty']}>{t('noWebGl')}</Text> : null}
+      {hasWebGl() && !scene ? <NoWorld /> : null}
+      {hasWebGl() && scene ? (
+        <>
+          <Canvas
+            frameloop={isVisible ? 'demand' : 'never'}
+            shadows={isSimple ? false : 'soft'}
+            dpr={isSimple ? 0.75 : [1, 2]}
+            gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
+            camera={{ fov: 45, near: 0.05, far: 200, up: [0, 0, 1], position: [-4, -4, 4] }}
+            aria-label={t('label3d')}
+            role="img"
+          >
+            <Stage scene={scene} options={options} isDark={isDark} />
+          </Canvas>
+          <ViewerToolbar options={options} onChange={change} />
+        </>
+      ) : null}
+    </div>
+  );
+}
+
+/** The scene that was sent last, until the world is taken down. */
+function useScene(): Scene | null {
+  const [scene, setScene] = useState<Scene | null>(() => frames.scene());
+  const hasWorld = useSessionStore(({ executor }) => executor !== 'idle' && executor !== 'connected');
+  useEffect(() => frames.listen('scene', setScene), []);
+  return hasWorld ? scene : null;
+}
+
+function NoWorld() {
+  const { t } = useTranslation('viewer');
+  const isLaunching = useSessionStore((state) => state.isLaunching);
+  const executor = useSessionStore((state) => state.executor);
+  const isWaiting = isLaunching || (executor !== 'idle' && executor !== 'connected');
+  return (
+    <div className={classes['empty']}>
+      <Text size="sm" c="dimmed">
+        {t(isWaiting ? 'waiting' : 'press')}
+      </Text>
+      {isWaiting ? null : (
+        <Button
+          size="xs"
+          mt="sm"
+          variant="light"
+          leftSection={<IconPlayerPlayFilled size={14} />}
+          onClick={() => perform('run.run')}
+        >
+          {t('run')}
+        </Button>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,129 @@
+import * as THREE from 'three';
+import type { Scene, SceneObject, Shape } from '@/generated/messages';
+import { currentPoses, type Pose } from '@/store/session/poses';
+import { GeometryCache } from './geometry';
+
+interface Moving {
+  object: THREE.Object3D;
+  from: { position: THREE.Vector3; rotation: THREE.Quaternion };
+  to: { position: THREE.Vector3; rotation: THREE.Quaternion };
+  start: number;
+}
+
+/** A jump this far is a reset or a drag, not motion: it is shown at once. */
+const JUMP_M = 1;
+
+function setPose(position: THREE.Vector3, rotation: THREE.Quaternion, pose: Pose): void {
+  position.set(pose[0] ?? 0, pose[1] ?? 0, pose[2] ?? 0);
+  rotation.set(pose[3] ?? 0, pose[4] ?? 0, pose[5] ?? 0, pose[6] ?? 1);
+}
+
+/** The scene's objects as three.js draws them. Poses are applied here, outside React. */
+export class World {
+  readonly group = new THREE.Group();
+  readonly bounds = new THREE.Box3();
+  readonly robot: THREE.Object3D | null = null;
+  private readonly moving = new Map<number, Moving>();
+  private readonly geometries: GeometryCache;
+  private readonly materials = new Map<string, THREE.Material>();
+  private interval = 50;
+  private lastFrameAt = 0;
+
+  constructor(
+    scene: Scene,
+    private readonly isSimple: boolean,
+  ) {
+    this.geometries = new GeometryCache(scene.meshes);
+    for (const object of scene.objects) {
+      const made = this.add(object);
+      if (object.kind === 'robot') this.robot ??= made;
+    }
+    this.group.updateMatrixWorld(true);
+    this.bounds.setFromObject(this.group);
+  }
+
+  /** Sets where objects are to be; they get there within one interval between frames. */
+  receive(changed: Iterable<[number, Pose]>, now: number): void {
+    if (this.lastFrameAt > 0) {
+      const passed = Math.min(Math.max(now - this.lastFrameAt, 10), 200);
+      this.interval += (passed - this.interval) * 0.1;
+    }
+    this.lastFrameAt = now;
+    for (const [id, pose] of changed) {
+      const item = this.moving.get(id);
+      if (!item) continue;
+      item.from.position.copy(item.object.position);
+      item.from.rotation.copy(item.object.quaternion);
+      setPose(item.to.position, item.to.rotation, pose);
+      item.start = now;
+      if (item.from.position.distanceTo(item.to.position) > JUMP_M) this.settle(item);
+    }
+  }
+
+  /** Moves objects on; tells whether some have not arrived. */
+  advance(now: number): boolean {
+    let isMoving = false;
+    for (const item of this.moving.values()) {
+      if (item.start === 0) continue;
+      const share = (now - item.start) / this.interval;
+      if (share >= 1) {
+        this.settle(item);
+        continue;
+      }
+      isMoving = true;
+      item.object.position.lerpVectors(item.from.position, item.to.position, share);
+      item.object.quaternion.slerpQuaternions(item.from.rotation, item.to.rotation, share);
+    }
+    return isMoving;
+  }
+
+  dispose(): void {
+    this.geometries.dispose();
+    for (const material of this.materials.values()) material.dispose();
+  }
+
+  private settle(item: Moving): void {
+    item.object.position.copy(item.to.position);
+    item.object.quaternion.copy(item.to.rotation);
+    item.start = 0;
+  }
+
+  private add(object: SceneObject): THREE.Object3D {
+    const node = new THREE.Group();
+    node.name = object.link ? `${object.body}/${object.link}` : object.body;
+    for (const shape of object.shapes) node.add(this.meshOf(shape, object.kind));
+    const pose = currentPoses.get(object.id) ?? object.pose;
+    setPose(node.position, node.quaternion, pose);
+    this.moving.set(object.id, {
+      object: node,
+      from: { position: node.position.clone(), rotation: node.quaternion.clone() },
+      to: { position: node.position.clone(), rotation: node.quaternion.clone() },
+      start: 0,
+    });
+    this.group.add(node);
+    return node;
+  }
+
+  private meshOf(shape: Shape, kind: SceneObject['kind']): THREE.Mesh {
+    const mesh = new THREE.Mesh(this.geometries.get(shape), this.materialOf(shape.color));
+    setPose(mesh.position, mesh.quaternion, shape.pose);
+    if (shape.shape === 'mesh') mesh.scale.set(shape.size[0] ?? 1, shape.size[1] ?? 1, shape.size[2] ?? 1);
+    mesh.castShadow = shape.shape !== 'plane';
+    mesh.receiveShadow = kind === 'static' || shape.shape === 'plane';
+    return mesh;
+  }
+
+  private materialOf([r = 0.7, g = 0.7, b = 0.7, a = 1]: number[]): THREE.Material {
+    const key = [r, g, b, a].join();
+    let material = this.materials.get(key);
+    if (!material) {
+      const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
+      const look = { color, transparent: a < 1, opacity: a };
+      material = this.isSimple
+        ? new THREE.MeshLambertMaterial(look)
+        : new THREE.MeshStandardMaterial({ ...look, roughness: 0.72, metalness: 0.04 });
+      this.materials.set(key, material);
+    }
+    return material;
+  }
+}

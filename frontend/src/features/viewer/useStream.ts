@@ -1,0 +1,27 @@
+import { useEffect, useRef } from 'react';
+import type { StreamName } from '@/generated/messages';
+import { streams, type StreamHandle, type StreamOptions } from '@/store/session/streams';
+
+/** Wants a stream while `isWanted`; the returned reference changes its options. */
+export function useStream(
+  stream: StreamName,
+  isWanted: boolean,
+  options: StreamOptions,
+): { readonly current: StreamHandle | null } {
+  const handle = useRef<StreamHandle | null>(null);
+  const { max_hz, width } = options;
+  const first = useRef(options);
+  useEffect(() => {
+    if (!isWanted) return;
+    const wanted: StreamOptions = { ...first.current };
+    if (max_hz !== undefined) wanted.max_hz = max_hz;
+    if (width !== undefined) wanted.width = width;
+    const made = streams.want(stream, wanted);
+    handle.current = made;
+    return () => {
+      handle.current = null;
+      made.release();
+    };
+  }, [stream, isWanted, max_hz, width]);
+  return handle;
+}

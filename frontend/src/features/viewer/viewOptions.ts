@@ -1,0 +1,27 @@
+export interface ViewOptions {
+  rays: boolean;
+  trail: boolean;
+  grid: boolean;
+  follow: boolean;
+  /** A new object moves the camera, also to where it already was asked to go. */
+  viewpoint: { kind: 'default' | 'top' };
+}
+
+type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'follow'>;
+
+const KEY = 'bts.viewer';
+const DEFAULTS: Kept = { rays: true, trail: true, grid: true, follow: false };
+
+export function loadViewOptions(): ViewOptions {
+  let kept: Partial<Kept> = {};
+  try {
+    kept = JSON.parse(localStorage.getItem(KEY) ?? '{}') as Partial<Kept>;
+  } catch {
+    // Unreadable: the defaults.
+  }
+  return { ...DEFAULTS, ...kept, viewpoint: { kind: 'default' } };
+}
+
+export function keepViewOptions({ rays, trail, grid, follow }: ViewOptions): void {
+  localStorage.setItem(KEY, JSON.stringify({ rays, trail, grid, follow }));
+}

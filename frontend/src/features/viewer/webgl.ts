@@ -1,0 +1,24 @@
+let known: { isAvailable: boolean; isSoftware: boolean } | null = null;
+
+function probe(): { isAvailable: boolean; isSoftware: boolean } {
+  const canvas = document.createElement('canvas');
+  const gl = canvas.getContext('webgl2');
+  if (!gl) return { isAvailable: false, isSoftware: false };
+  const info = gl.getExtension('WEBGL_debug_renderer_info');
+  const renderer = String(
+    info ? gl.getParameter(info.UNMASKED_RENDERER_WEBGL) : gl.getParameter(gl.RENDERER),
+  );
+  gl.getExtension('WEBGL_lose_context')?.loseContext();
+  return { isAvailable: true, isSoftware: /swiftshader|llvmpipe|software|basic render/i.test(renderer) };
+}
+
+export function hasWebGl(): boolean {
+  known ??= probe();
+  return known.isAvailable;
+}
+
+/** Drawn by the processor: fewer frames and no shadows, so that the simulation keeps its cores. */
+export function isSoftwareWebGl(): boolean {
+  known ??= probe();
+  return known.isSoftware;
+}

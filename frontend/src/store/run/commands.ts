@@ -1,0 +1,48 @@
+import { useProjectStore } from '@/store/project';
+import { endSession, send } from '@/store/session/connection';
+import { useSessionStore } from '@/store/session/store';
+import { useRunStore } from './store';
+
+/** Reports a refused command where the user looks for it: the banner. */
+async function reported(doing: Promise<unknown>): Promise<void> {
+  try {
+    await doing;
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
+    useRunStore.setState({
+      failure: { stage: 'launching', code: 'command_refused', message, hint, diagnostics: [] },
+    });
+  }
+}
+
+export const isRunning = () => useSessionStore.getState().executor === 'application_running';
+export const isPaused = () => useSessionStore.getState().executor === 'paused';
+export const hasApplication = () => isRunning() || isPaused();
+export const hasSession = () => useSessionStore.getState().connection !== 'off';
+
+export const pause = () => reported(send('pause', {}));
+export const resume = () => reported(send('resume', {}));
+export const stop = () => reported(send('terminate_application', {}));
+export const resetWorld = () => reported(send('reset_world', {}));
+export const restartApplication = () => reported(send('restart_application', {}));
+export const end = () => reported(endSession());
+
+/** One tick; a run that is going on is paused first. */
+export async function step(): Promise<void> {
+  await reported(isRunning() ? send('pause', {}).then(() => send('step', {})) : send('step', {}));
+}
+
+/** The rate belongs to the project, and takes effect at once in what runs. */
+export function setTickRate(tickHz: number): void {
+  useProjectStore.getState().setSettings({ tick_hz: tickHz });
+  useSessionStore.setState({ tickHz });
+  if (hasApplication()) void reported(send('set_tick_rate', { tick_hz: tickHz }));
+}
+
+export function setSpeed(speed: number): void {
+  useSessionStore.setState({ speed });
+  if (useSessionStore.getState().connection === 'open' && useSessionStore.getState().executor !== 'idle') {
+    void reported(send('set_speed', { speed }));
+  }
+}

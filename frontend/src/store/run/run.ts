@@ -1,0 +1,69 @@
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { AppBundle } from '@/api/types';
+import type { Commands } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { saveNow } from '@/store/saving/autosave';
+import { ensureConnected, send } from '@/store/session/connection';
+import { CommandError } from '@/store/session/control';
+import { useSessionStore } from '@/store/session/store';
+import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
+
+/** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
+export async function runProject(): Promise<boolean> {
+  const { projectId } = useProjectStore.getState();
+  if (!projectId || useRunStore.getState().stage) return false;
+  useRunStore.setState({ stage: 'saving', failure: null });
+  useSessionStore.setState({ isLaunching: true, progress: null });
+  try {
+    await saveNow();
+    enter('checking');
+    const app = await api.app(projectId);
+    enter('starting');
+    await ensureConnected(projectId);
+    enter('launching');
+    await send('run', runCommand(app));
+    return true;
+  } catch (error) {
+    useRunStore.setState({ failure: failureOf(error) });
+    return false;
+  } finally {
+    useRunStore.setState({ stage: null });
+    useSessionStore.setState({ isLaunching: false, progress: null });
+  }
+}
+
+export function cancelRun(): void {
+  void send('cancel', {}).catch(() => undefined);
+}
+
+function enter(stage: LaunchStage): void {
+  useRunStore.setState({ stage });
+}
+
+function runCommand(app: AppBundle): Commands['run'] {
+  const { speed } = useSessionStore.getState();
+  useSessionStore.setState({ tickHz: app.tick_hz });
+  return {
+    universe: { universe: app.universe, robot: app.robot, speed },
+    application: {
+      app_zip_base64: app.app_zip_base64,
+      tick_hz: app.tick_hz,
+      on_finish: app.on_finish,
+      on_error: app.on_error,
+    },
+  };
+}
+
+function failureOf(error: unknown): LaunchFailure {
+  const stage = useRunStore.getState().stage ?? 'saving';
+  if (error instanceof ApiError) {
+    const { code, message, hint, diagnostics } = error;
+    return { stage, code, message, hint, diagnostics };
+  }
+  if (error instanceof CommandError) {
+    return { stage, code: error.code, message: error.message, hint: error.hint, diagnostics: [] };
+  }
+  const message = error instanceof Error ? error.message : String(error);
+  return { stage, code: 'unknown', message, hint: '', diagnostics: [] };
+}

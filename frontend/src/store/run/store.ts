@@ -1,0 +1,21 @@
+import { create } from 'zustand';
+import type { Diagnostic } from '@/api/types';
+
+/** What Run is doing before the executor takes over. */
+export type LaunchStage = 'saving' | 'checking' | 'starting' | 'launching';
+
+export interface LaunchFailure {
+  stage: LaunchStage;
+  code: string;
+  message: string;
+  hint: string;
+  /** Errors of the project, when they are what stopped the run. */
+  diagnostics: Diagnostic[];
+}
+
+interface RunData {
+  stage: LaunchStage | null;
+  failure: LaunchFailure | null;
+}
+
+export const useRunStore = create<RunData>(() => ({ stage: null, failure: null }));

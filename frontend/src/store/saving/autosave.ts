@@ -1,0 +1,118 @@
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { FileChange } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { clearDraft, writeDraft } from './drafts';
+import { useSavingStore, type SaveState } from './store';
+
+const SAVE_AFTER_MS = 600;
+const RETRY_AFTER_MS = 4000;
+
+let timer: ReturnType<typeof setTimeout> | undefined;
+let inFlight: Promise<void> | null = null;
+let stopWatching: (() => void) | null = null;
+
+const setState = (state: SaveState) => useSavingStore.setState({ state });
+
+/** Saves the open project a moment after each edit, until stopped. */
+export function startAutosave(): void {
+  stopAutosave();
+  let counter = useProjectStore.getState().changeCounter;
+  stopWatching = useProjectStore.subscribe((project) => {
+    if (project.changeCounter === counter) return;
+    counter = project.changeCounter;
+    onEdited();
+  });
+  window.addEventListener('beforeunload', keepDraft);
+  document.addEventListener('visibilitychange', saveWhenHidden);
+  window.addEventListener('online', saveSoon);
+}
+
+export function stopAutosave(): void {
+  clearTimeout(timer);
+  stopWatching?.();
+  stopWatching = null;
+  window.removeEventListener('beforeunload', keepDraft);
+  document.removeEventListener('visibilitychange', saveWhenHidden);
+  window.removeEventListener('online', saveSoon);
+  setState({ kind: 'saved' });
+}
+
+/** Saves all edits now; resolves when the server has them, rejects when it does not. */
+export async function saveNow(): Promise<void> {
+  clearTimeout(timer);
+  // One request at a time: the next one needs the revisions that the last one made.
+  while (inFlight) await inFlight.catch(() => undefined);
+  inFlight = save().finally(() => {
+    inFlight = null;
+  });
+  return inFlight;
+}
+
+function onEdited(): void {
+  const { state } = useSavingStore.getState();
+  if (state.kind !== 'conflict') setState(inFlight ? { kind: 'saving' } : { kind: 'dirty' });
+  keepDraft();
+  saveSoon();
+}
+
+function saveSoon(delay: number | Event = SAVE_AFTER_MS): void {
+  clearTimeout(timer);
+  // While two versions wait for the user's choice, saving again would only ask the same question.
+  if (useSavingStore.getState().state.kind === 'conflict') return;
+  timer = setTimeout(
+    () => void saveNow().catch(() => undefined),
+    typeof delay === 'number' ? delay : SAVE_AFTER_MS,
+  );
+}
+
+function saveWhenHidden(): void {
+  if (document.hidden && useSavingStore.getState().state.kind === 'dirty') saveSoon(0);
+}
+
+function keepDraft(): void {
+  const { projectId, pendingChanges } = useProjectStore.getState();
+  if (projectId) writeDraft(projectId, pendingChanges());
+}
+
+async function save(): Promise<void> {
+  const { projectId, pendingChanges, applySaved } = useProjectStore.getState();
+  if (!projectId) return;
+  const files = pendingChanges();
+  if (files.length === 0) {
+    clearDraft(projectId);
+    return setState({ kind: 'saved' });
+  }
+  setState({ kind: 'saving' });
+  try {
+    const result = await api.saveChanges(projectId, { message: messageFor(files), files });
+    if (useProjectStore.getState().projectId !== projectId) return;
+    applySaved(files, result);
+    onSaved();
+  } catch (error) {
+    onRefused(error);
+    throw error;
+  }
+}
+
+function onSaved(): void {
+  keepDraft();
+  const isDone = useProjectStore.getState().pendingChanges().length === 0;
+  setState(isDone ? { kind: 'saved' } : { kind: 'dirty' });
+  if (!isDone) saveSoon();
+}
+
+function onRefused(error: unknown): void {
+  if (error instanceof ApiError && error.code === 'revision_conflict') {
+    return setState({ kind: 'conflict', conflicts: error.conflicts });
+  }
+  const reason = error instanceof Error ? error.message : String(error);
+  setState({ kind: 'failed', code: error instanceof ApiError ? error.code : 'unknown', reason });
+  if (error instanceof ApiError && (error.isOffline || error.status >= 500)) saveSoon(RETRY_AFTER_MS);
+}
+
+/** What the history of revisions calls this save. */
+function messageFor(files: readonly FileChange[]): string {
+  const names = files.map((file) => file.path.split('/').at(-1) ?? file.path);
+  return names.length <= 3 ? `Edit ${names.join(', ')}` : `Edit ${names.length} files`;
+}

@@ -1,0 +1,55 @@
+import type { Conflict, ProjectDetail } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { saveNow } from './autosave';
+import { clearDraft, readDraft } from './drafts';
+import { useSavingStore } from './store';
+
+/**
+ * Ends a conflict with the text that the user chose (theirs, mine, or a merge of both): it becomes an
+ * edit on top of the server's version, so that neither version is lost from the history.
+ */
+export async function resolveConflict(conflict: Conflict, text: string | null): Promise<void> {
+  const { rebase, setFileText, addFile, deleteFile } = useProjectStore.getState();
+  const { path, theirs } = conflict;
+  if (theirs.content !== null) rebase(path, theirs.revision, theirs.content);
+  if (text === null) deleteFile(path);
+  else if (theirs.content === null && theirs.revision === 0) addFile(path, text);
+  else setFileText(path, text);
+
+  const { state } = useSavingStore.getState();
+  const left = state.kind === 'conflict' ? state.conflicts.filter((other) => other.path !== path) : [];
+  if (left.length > 0) return useSavingStore.setState({ state: { kind: 'conflict', conflicts: left } });
+  useSavingStore.setState({ state: { kind: 'dirty' } });
+  await saveNow();
+}
+
+/**
+ * Brings back edits that a crash or a reload cut off. Those whose file has moved on meanwhile become
+ * conflicts, the others are edits again.
+ */
+export function restoreDraft(detail: ProjectDetail): void {
+  const draft = readDraft(detail.id);
+  if (!draft) return;
+  const { setFileText, addFile } = useProjectStore.getState();
+  const conflicts: Conflict[] = [];
+  let restored = 0;
+  for (const change of draft.files) {
+    const file = detail.files.find(({ path }) => path === change.path);
+    if (change.content === undefined || file?.content === change.content) continue;
+    if (file && file.revision !== change.base_revision) {
+      conflicts.push({
+        path: change.path,
+        base_revision: change.base_revision,
+        theirs: { revision: file.revision, content: file.content },
+        mine: { content: change.content },
+      });
+      continue;
+    }
+    if (file) setFileText(change.path, change.content);
+    else addFile(change.path, change.content);
+    restored += 1;
+  }
+  if (restored === 0 && conflicts.length === 0) clearDraft(detail.id);
+  useSavingStore.setState({ restoredFiles: restored });
+  if (conflicts.length > 0) useSavingStore.setState({ state: { kind: 'conflict', conflicts } });
+}

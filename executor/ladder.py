@@ -106,7 +106,7 @@ TABLE: Final[dict[str, Row]] = {
     "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
     "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
     "reset_world": _act(WORLD_UP, "Puts everything where it was at the start."),
-    "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard."),
+    "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard.", is_step=True),
     "teleop": _act(WORLD_UP, "Drives the robot by hand."),
     "move_body": _act(WORLD_STANDS, "Puts a body somewhere."),
     "subscribe": _act(ANY, "Asks for a stream, or changes how it is sent.", for_viewers=True),

@@ -304,7 +304,8 @@ class Session:
     def _forward_topics(self, event: ChildSaid) -> None:
         kind = messages.EVENTS[event.message["type"]]
         try:
-            payload = msgspec.convert(event.message, kind, strict=False)
+            fields = {**event.message, "type": event.message.get("message_type", "")}
+            payload = msgspec.convert(fields, kind, strict=False)
         except msgspec.ValidationError as error:
             _log.warning("topics dropped: %s", error)
             return
@@ -324,32 +325,45 @@ class Session:
             self.tell("world", "stop_robot")
 
     def _on_exit(self, event: ChildExited) -> None:
+        self.leaving.discard((event.kind, event.number))
         child = self.children.get(event.kind)
         if child is None or child.number != event.number:
             return
         del self.children[event.kind]
         child.end(event.reason, event.last_lines)
-        if event.kind == "world" and self.state.reaches(State.UNIVERSE_READY):
-            self._fall(child, State.CONNECTED, "The simulated world")
-        elif event.kind == "application" and self.state in HAS_APPLICATION:
-            steps.stop_moving(self)
-            self._fall(child, State.VISUALIZATION_READY, "The application")
-        elif not child.is_started:
-            lines = "\n".join(event.last_lines)
-            self.emit(
-                messages.Log("manager", "warning", f"A spare {event.kind} {event.reason}. {lines}".strip())
-            )
-
-    def _fall(self, child: Child, state: State, what: str) -> None:
-        message = f"{what} {child.exit_reason}."
-        lines = "\n".join(child.last_lines)
+        if child.is_stopping:
+            self._stopped()
+            return
+        what = "The simulated world" if event.kind == "world" else "The application"
+        message = f"{what} {event.reason}."
+        lines = "\n".join(event.last_lines)
+        if not child.is_started:
+            text = f"{message} It was not in use yet. {lines}".strip()
+            self.emit(messages.Log("manager", "warning", text))
+            return
         self.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
+        self._fall(child, message)
+
+    def _stopped(self) -> None:
+        """The application ended because it was told to."""
         if self.state in HAS_APPLICATION:
-            status: messages.NodeStatus = "IDLE"
-            self.emit(messages.Finished(status, "process_died", message))
+            self.emit(messages.Finished("IDLE", "terminated"))
+            self.enter(State.VISUALIZATION_READY)
+            self.replenish()
+
+    def _fall(self, child: Child, message: str) -> None:
+        """Goes down to the rung that is still true without the child."""
+        rung = State.CONNECTED if child.kind == "world" else State.VISUALIZATION_READY
+        if self.state.height <= rung.height:
+            return
+        if self.state in HAS_APPLICATION:
+            self.emit(messages.Finished("IDLE", "process_died", message))
         if child.kind == "world":
+            self.run.universe = None
             self.drop("application")
-        self.enter(state, message)
+        else:
+            steps.stop_moving(self)
+        self.enter(rung, message)
         self.replenish()
 
     # --- commands ---------------------------------------------------------------------------------

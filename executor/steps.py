@@ -453,6 +453,13 @@ def _unsubscribe(session: Session, event: CommandCame) -> None:
     session.tell("world", "unsubscribe", client=event.client, stream=data.stream)
 
 
+def _publish_topic(session: Session, event: CommandCame) -> None:
+    data = cast("messages.PublishTopic", event.data)
+    session.tell(
+        "world", "publish_topic", topic=data.topic, message_type=data.type, message=data.message
+    )  # `type` is the channel's own field
+
+
 def _echo_topic(session: Session, event: CommandCame) -> None:
     data = cast("messages.EchoTopic", event.data)
     is_wanted = session.clients.echo(event.client, data.topic, wanted=data.max_hz > 0)
@@ -466,5 +473,6 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "subscribe": _subscribe,
     "unsubscribe": _unsubscribe,
     "echo_topic": _echo_topic,
-    **_forward("world", "teleop", "move_body", "list_topics", "publish_topic"),
+    "publish_topic": _publish_topic,
+    **_forward("world", "teleop", "move_body", "list_topics"),
 }

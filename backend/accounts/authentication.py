@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from rest_framework.authentication import BaseAuthentication
-from rest_framework.request import Request
 
 from backend.accounts.actions import local_user
-from backend.accounts.models import User
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
+
+    from backend.accounts.models import User
 
 
 class GuardAuthentication(BaseAuthentication):

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
-from rest_framework.request import Request
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend import __version__
 from backend.config.api import user_of
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
 
 
 class MeSerializer(serializers.Serializer[Any]):

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from functools import lru_cache
-from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
 from backend.config.environment import REPOSITORY
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 NODES: Final = REPOSITORY / "tree_gardener" / "catalog.json"
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"

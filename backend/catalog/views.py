@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 from drf_spectacular.utils import extend_schema
-from rest_framework.request import Request
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.catalog import queries
 from backend.catalog import serializers as s
 from backend.projects.templates import templates
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
 
 
 class Nodes(APIView):

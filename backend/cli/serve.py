@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import threading
-from pathlib import Path
+from pathlib import Path  # noqa: TC003 - read at run time
 from typing import Annotated
 
 import typer
@@ -13,7 +13,7 @@ import typer
 from backend.cli.errors import CliError
 
 
-def serve(  # noqa: PLR0913 - one parameter an option
+def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
     host: Annotated[str | None, typer.Option(help="Address to listen on; loopback only.")] = None,
     port: Annotated[
         int | None, typer.Option(help="Port to listen on; 0 takes a free one.", min=0, max=65535)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from rest_framework import serializers
-from rest_framework.request import Request
+from typing import TYPE_CHECKING, Any
 
 from backend.accounts.models import User
+
+if TYPE_CHECKING:
+    from rest_framework import serializers
+    from rest_framework.request import Request
 
 
 def parsed(serializer: type[serializers.Serializer[Any]], data: Any) -> dict[str, Any]:

@@ -42,7 +42,7 @@ class Environment(BaseSettings):
     )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
-        description="Further host names (JSON list) that a request may name; loopback names are always allowed.",
+        description="Further host names (a JSON list) that requests may name, besides those of loopback.",
     )
     token: SecretStr = Field(
         default=SecretStr(""),

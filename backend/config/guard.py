@@ -26,7 +26,10 @@ from backend.config.environment import environment
 LOOPBACK_HOSTS: Final = frozenset({"localhost", "127.0.0.1", "[::1]"})
 SAFE_METHODS: Final = frozenset({"GET", "HEAD", "OPTIONS"})
 COOKIE_PREFIX: Final = "bt_studio_session"
-LINK_HINT: Final = "Open the link that `bt-studio serve` printed in the terminal: it ends in /?token=… and is new at each start."
+LINK_HINT: Final = (
+    "Open the link that `bt-studio serve` printed in the terminal: "
+    "it ends in /?token=… and is new at each start."
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -52,12 +52,14 @@ class Middleware:
 
     def __init__(self, get_response: GetResponse) -> None:
         self.get_response = get_response
-        if iscoroutinefunction(get_response):
+        self._is_async = iscoroutinefunction(get_response)
+        if self._is_async:
             markcoroutinefunction(self)
 
     def __call__(self, request: HttpRequest) -> HttpResponseBase | Awaitable[HttpResponseBase]:
+        """Django's entry."""
         early = self.before(request)
-        if iscoroutinefunction(self):
+        if self._is_async:
             return self._async(request, early)
         answer = early or self.get_response(request)
         assert isinstance(answer, HttpResponseBase)  # noqa: S101 - the sync chain

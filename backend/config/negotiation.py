@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rest_framework.negotiation import BaseContentNegotiation
-from rest_framework.renderers import BaseRenderer
-from rest_framework.request import Request
+from rest_framework.utils.mediatypes import media_type_matches
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rest_framework.renderers import BaseRenderer
+    from rest_framework.request import Request
 
 
 class IgnoreClientNegotiation(BaseContentNegotiation):
     """Takes the first renderer and goes by the body's content type for the parser."""
 
-    def select_parser(self, request: Request, parsers: Sequence[Any]) -> Any:
+    def select_parser(self, request: Request, parsers: Iterable[Any]) -> Any:
         """The parser of this content type; none answers 415."""
-        from rest_framework.utils.mediatypes import media_type_matches
-
         return next((p for p in parsers if media_type_matches(p.media_type, request.content_type)), None)
 
     def select_renderer(
-        self, request: Request, renderers: Sequence[BaseRenderer], format_suffix: str | None = None
+        self, request: Request, renderers: Iterable[BaseRenderer], format_suffix: str | None = None
     ) -> tuple[BaseRenderer, str]:
         """The endpoint's own renderer."""
-        return renderers[0], str(renderers[0].media_type)
+        renderer = next(iter(renderers))
+        return renderer, str(renderer.media_type)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from drf_spectacular.openapi import AutoSchema
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse
@@ -31,7 +31,7 @@ def problem_of(serializer: type[serializers.Serializer[Any]], description: str) 
 class ProblemSchema(AutoSchema):
     """Adds the problem document to every operation, and takes names from the view's own."""
 
-    def _get_response_bodies(self, direction: str = "response") -> Any:
+    def _get_response_bodies(self, direction: Literal["request", "response"] = "response") -> Any:
         bodies = super()._get_response_bodies(direction)
         component = self.resolve_serializer(ProblemSerializer, "response")
         problem = {"content": {MEDIA_TYPE: {"schema": component.ref}}, "description": "A problem document."}

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from django.conf import settings
 from django.http import HttpRequest, HttpResponse
@@ -11,8 +10,11 @@ from django.shortcuts import render
 from django.views.decorators.http import require_safe
 from whitenoise.middleware import WhiteNoiseMiddleware
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-class FrontEndFiles(WhiteNoiseMiddleware):
+
+class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
     """WhiteNoise, answering from memory: its file iterator would block the event loop."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:

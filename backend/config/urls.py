@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from django.urls import include, path, re_path
+from django.urls import URLPattern, URLResolver, include, path, re_path
 
 from backend.config import static
 from backend.config.schema_view import OpenApi
 from backend.projects.views_legacy import urlpatterns as legacy
 
-api = [
+api: list[URLPattern | URLResolver] = [
     path("", include("backend.projects.urls")),
     path("", include("backend.catalog.urls")),
     path("", include("backend.sessions.urls")),

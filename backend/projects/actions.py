@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from datetime import datetime, timedelta
-from uuid import UUID
+from typing import TYPE_CHECKING
 
 from django.db import IntegrityError, transaction
 from django.db.models import Sum
 from django.utils import timezone
 
-from backend.accounts.models import User
 from backend.config.environment import environment
 from backend.config.problems import InvalidInputError, NotFoundError
 from backend.projects import names, queries
@@ -23,6 +21,12 @@ from backend.projects.errors import (
 )
 from backend.projects.manifest import MANIFEST, Manifest, read, write
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, IdempotencyKey, Project
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from uuid import UUID
+
+    from backend.accounts.models import User
 
 
 @transaction.atomic

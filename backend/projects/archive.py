@@ -6,14 +6,16 @@ import io
 import stat
 import zipfile
 import zlib
-from collections.abc import Iterator, Mapping
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.config.problems import InvalidInputError
 from backend.projects import names
 from backend.projects.errors import ArchiveError, QuotaExceededError
 from backend.projects.manifest import MANIFEST
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 _CHUNK: Final = 256 * 1024

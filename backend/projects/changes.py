@@ -8,11 +8,14 @@ changed since. 0 says that the file must not exist yet.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from backend.config.problems import InvalidInputError
 from backend.projects import names
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,6 +181,6 @@ def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
         for index, character in enumerate(key):
             if character == "/" and key[:index] in owners:
                 raise InvalidInputError(
-                    f"“{names.shown(owners[key[:index]])}” is a file, and “{names.shown(path)}” needs it as a folder.",
+                    f"“{names.shown(owners[key[:index]])}” is a file, and “{names.shown(path)}” needs a folder there.",
                     field="files",
                 )

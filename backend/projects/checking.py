@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 from collections import OrderedDict
-from collections.abc import Mapping
 from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Final, NoReturn
@@ -14,6 +13,8 @@ from backend.config.problems import InvalidInputError
 from backend.projects.errors import CheckFailedError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from translator import Project as LoadedProject
     from translator import TranslatorError
 

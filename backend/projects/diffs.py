@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
-from backend.projects.queries import StoredFile
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from backend.projects.queries import StoredFile
 
 # difflib takes quadratic time on long files: beyond this only the fact of a change is told.
 MAX_LINES: Final = 5000

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from django.db import transaction
 from django.utils import timezone
-from rest_framework.request import Request
 from rest_framework.response import Response
 
-from backend.accounts.models import User
 from backend.config.problems import InvalidInputError
 from backend.projects.errors import IdempotencyError
 from backend.projects.models import IdempotencyKey
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rest_framework.request import Request
+
+    from backend.accounts.models import User
 
 HEADER = "Idempotency-Key"
 MAX_KEY = 100

@@ -80,7 +80,7 @@ class FileRevision(models.Model):
 
 
 class CurrentFile(models.Model):
-    """The newest revision of a file that exists; `path_key` is equal for paths that some disk would confuse."""
+    """The newest revision of a file; `path_key` is equal for paths that some disk would confuse."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="files")
     path = models.CharField(max_length=MAX_PATH_LENGTH)

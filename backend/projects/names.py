@@ -77,7 +77,7 @@ def file_path(path: str, *, field: str = "path") -> str:
     return clean
 
 
-def _segment_complaint(segment: str) -> str:
+def _segment_complaint(segment: str) -> str:  # noqa: PLR0911 - one return a rule
     if segment in {"", ".", ".."}:
         return "a part of it is empty, “.” or “..”"
     if bad := _unprintable(segment):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from backend.projects import queries
 from backend.projects.checking import report
 from backend.projects.manifest import MANIFEST, read
-from backend.projects.models import ChangeSet, Draft, Project
-from backend.projects.queries import StoredFile
+
+if TYPE_CHECKING:
+    from backend.projects.models import ChangeSet, Draft, Project
+    from backend.projects.queries import StoredFile
 
 
 def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:

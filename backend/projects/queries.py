@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from datetime import datetime
-from typing import Any, Final, Literal
-from uuid import UUID
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from django.db.models import F, Max, Q, QuerySet, Value
 from django.db.models.functions import Concat, Lower
 
-from backend.accounts.models import User
 from backend.config.problems import NotFoundError
 from backend.projects import names
 from backend.projects.changes import Existing
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+    from datetime import datetime
+    from uuid import UUID
+
+    from backend.accounts.models import User
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]

@@ -94,7 +94,7 @@ class PortSerializer(serializers.Serializer[Any]):
     direction = serializers.ChoiceField(choices=["input", "output", "inout"])
     type = serializers.CharField()
     default = serializers.CharField(allow_null=True)
-    required = serializers.BooleanField()
+    required = serializers.BooleanField()  # type: ignore[assignment]
     description = serializers.CharField()
 
 
@@ -246,7 +246,7 @@ class ChangesSerializer(StrictSerializer):
     """One user action on several files, done as a whole or not at all."""
 
     message = TextField(required=False, default="", max_length=500)
-    files = FileChangeSerializer(many=True, allow_empty=False, max_length=5000)
+    files = FileChangeSerializer(many=True, allow_empty=False)
 
 
 def file_changes(data: dict[str, Any]) -> list[FileChange]:
@@ -299,13 +299,13 @@ class OverlayFileSerializer(StrictSerializer):
 class CheckSerializer(StrictSerializer):
     """Files that differ from what is stored, for a check before saving."""
 
-    files = OverlayFileSerializer(many=True, required=False, default=list, max_length=5000)
+    files = OverlayFileSerializer(many=True, required=False, default=list)
 
 
 class InspectActionSerializer(StrictSerializer):
     """The source of an action."""
 
-    source = TextField(max_length=2_000_000)
+    source = TextField(max_length=2_000_000)  # type: ignore[assignment]
     filename = TextField(max_length=MAX_PATH_LENGTH)
 
 
@@ -322,7 +322,7 @@ class RevisionSerializer(serializers.Serializer[Any]):
 
     number = serializers.IntegerField()
     message = serializers.CharField()
-    label = serializers.CharField()
+    label = serializers.CharField()  # type: ignore[assignment]
     author = serializers.CharField()
     created_at = serializers.DateTimeField()
     files = RevisionFileSerializer(many=True)
@@ -346,7 +346,7 @@ class RevisionListQuerySerializer(serializers.Serializer[Any]):
 class LabelSerializer(StrictSerializer):
     """A name for a revision; empty takes it away."""
 
-    label = TextField(max_length=100)
+    label = TextField(max_length=100)  # type: ignore[assignment]
 
 
 class RestoreRevisionSerializer(StrictSerializer):

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
 from backend.config.problems import InvalidInputError
 from backend.projects.manifest import MANIFEST, write
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 EMPTY: Final = "empty"
 _IGNORED: Final = frozenset({"__pycache__", ".git", ".ruff_cache", ".mypy_cache"})

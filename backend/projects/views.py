@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-from uuid import UUID
+from typing import TYPE_CHECKING, Any
 
 from drf_spectacular.utils import extend_schema
-from rest_framework.request import Request
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
@@ -15,8 +13,14 @@ from backend.config.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, pro
 from backend.projects import actions, checking, names, presentation, queries, templates
 from backend.projects import serializers as s
 from backend.projects.idempotency import once
-from backend.projects.models import Project
 from backend.projects.schema import ConflictProblemSerializer
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from rest_framework.request import Request
+
+    from backend.projects.models import Project
 
 
 def detail_response(project: Project, status: int = 200) -> Response:

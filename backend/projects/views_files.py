@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from urllib.parse import quote
-from uuid import UUID
 
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
 from rest_framework import serializers
 from rest_framework.parsers import MultiPartParser
-from rest_framework.request import Request
-from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import user_of
@@ -23,6 +21,12 @@ from backend.projects import serializers as s
 from backend.projects.errors import QuotaExceededError
 from backend.projects.idempotency import once
 from backend.projects.views import detail_response
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from rest_framework.request import Request
+    from rest_framework.response import Response
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:

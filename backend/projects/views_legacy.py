@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from django.http import HttpResponse
 from django.urls import re_path
 from drf_spectacular.utils import extend_schema
 from rest_framework.parsers import FormParser, MultiPartParser
-from rest_framework.request import Request
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
@@ -24,8 +23,12 @@ from backend.config.parsers import StrictJSONParser
 from backend.config.problems import InvalidInputError
 from backend.projects import actions, checking, names, queries, templates
 from backend.projects.changes import Content, FileChange
-from backend.projects.models import Project
 from backend.projects.views_files import download
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
+
+    from backend.projects.models import Project
 
 Parameters = dict[str, str]
 Handler = Callable[[User, Parameters], Response | HttpResponse]

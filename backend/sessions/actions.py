@@ -9,14 +9,12 @@ import os
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import lru_cache
 from threading import Lock
-from typing import Final
-from uuid import UUID
+from typing import TYPE_CHECKING, Final
 
 from django.conf import settings
 from django.db import IntegrityError, connection, transaction
 from django.utils import timezone
 
-from backend.accounts.models import User
 from backend.config.environment import environment
 from backend.projects import queries as projects
 from backend.sessions import queries
@@ -25,6 +23,11 @@ from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import Launcher, Spec
 from backend.sessions.launchers.process import ProcessLauncher
 from backend.sessions.models import LIVE_STATES, Session
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from backend.accounts.models import User
 
 log = logging.getLogger(__name__)
 
@@ -166,7 +169,7 @@ def _free_domain() -> int:
     # Where to begin differs among servers on one host, so that their first sessions do not meet.
     offset = os.getpid() % len(ROS_DOMAINS)
     candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
-    free = next((domain for domain in candidates if domain not in taken), None)
+    free: int | None = next((domain for domain in candidates if domain not in taken), None)
     if free is None:
         raise HostFullError("Every ROS domain of this host is in use.", hint="End a session and try again.")
     return free

@@ -26,10 +26,11 @@ from backend.config.middleware import cookies_of
 from backend.config.problems import NotFoundError
 from backend.sessions import actions, queries
 from backend.sessions.choices import SessionState
-from backend.sessions.models import Session
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
+
+    from backend.sessions.models import Session
 
 log = logging.getLogger(__name__)
 
@@ -122,7 +123,8 @@ async def _serve(
 async def _when_ready(session_id: UUID) -> Session:
     """The session, as soon as it is no longer starting."""
     find = sync_to_async(lambda: queries.session(session_id, user=local_user()))
-    while (session := await find()).state == SessionState.STARTING:
+    # Another web server may be starting it, so the database tells, and no event of this process.
+    while (session := await find()).state == SessionState.STARTING:  # noqa: ASYNC110
         await asyncio.sleep(POLL_S)
     return session
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from uuid import UUID
+from typing import TYPE_CHECKING
 
-from backend.accounts.models import User
 from backend.config.problems import NotFoundError
 from backend.sessions.models import LIVE_STATES, Session
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from backend.accounts.models import User
 
 
 def session(session_id: UUID, *, user: User) -> Session:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rest_framework import serializers
 
 from backend.sessions.choices import SessionState
-from backend.sessions.models import Session
+
+if TYPE_CHECKING:
+    from backend.sessions.models import Session
 
 
 class SessionSerializer(serializers.Serializer[Any]):

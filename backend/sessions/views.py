@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from uuid import UUID
+from typing import TYPE_CHECKING
 
 from drf_spectacular.utils import extend_schema
-from rest_framework.request import Request
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import user_of
 from backend.sessions import actions, queries
 from backend.sessions.serializers import SessionSerializer, presented
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from rest_framework.request import Request
 
 
 class ProjectSession(APIView):

@@ -15,15 +15,17 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 from threading import Lock
-from typing import IO, Final
+from typing import IO, TYPE_CHECKING, Final
 
 import psutil
 
 from backend.config.environment import REPOSITORY
 from backend.sessions.errors import LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not the token
 STDERR_LINES: Final = 20

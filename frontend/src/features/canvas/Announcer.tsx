@@ -1,0 +1,34 @@
+import { useTranslation } from 'react-i18next';
+import { displayName, parentOf } from '@/model/diagram';
+import { liveKey, useLiveStore } from '@/store/project/live';
+import { useProjectStore } from '@/store/project';
+import { ordinal } from './flow';
+import classes from './Canvas.module.css';
+
+/** Tells screen readers the selected block: name, type, place and status. */
+export function Announcer({ treeId }: { readonly treeId: string }) {
+  const { t } = useTranslation('canvas');
+  const diagram = useProjectStore((state) => state.diagrams[treeId]);
+  const id = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
+  const status = useLiveStore((state) => state.statuses.get(liveKey(treeId, id ?? '')) ?? 'IDLE');
+  const node = id === undefined ? undefined : diagram?.nodes[id];
+  if (!diagram || id === undefined || !node) {
+    return <div id="canvas-announcer" className={classes['announcer']} aria-live="polite" />;
+  }
+  const parent = parentOf(diagram, id);
+  const above = parent === null ? undefined : diagram.nodes[parent];
+  const words = [
+    displayName(node),
+    node.type,
+    above
+      ? t('announce.child', { ...ordinal(diagram, parent, id), parent: displayName(above) })
+      : t('announce.root'),
+    ...(status === 'IDLE' ? [] : [t(`status.${status}`)]),
+    ...(node.disabled ? [t('announce.disabled')] : []),
+  ];
+  return (
+    <div id="canvas-announcer" className={classes['announcer']} aria-live="polite">
+      {words.join(', ')}
+    </div>
+  );
+}

@@ -1,0 +1,83 @@
+import { IconChevronRight } from '@tabler/icons-react';
+import { Fragment, useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { displayName, parentOf, type Diagram, type NodeId } from '@/model/diagram';
+import { treesUsed } from '@/model/diagram';
+import { openTree } from '@/store/project/navigation';
+import { useProjectStore } from '@/store/project';
+import classes from './Canvas.module.css';
+
+function pathTo(diagram: Diagram | undefined, id: NodeId | undefined): NodeId[] {
+  const path: NodeId[] = [];
+  for (let at: NodeId | null = id ?? null; diagram && at !== null; at = parentOf(diagram, at))
+    path.unshift(at);
+  return path;
+}
+
+/** A tree that uses this one, up to the main tree: the way back. */
+function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, main: string): string[] {
+  const owners: string[] = [];
+  let tree = treeId;
+  while (tree !== main) {
+    const user = Object.values(diagrams).find((each) => treesUsed(each).has(tree));
+    if (!user || owners.includes(user.id) || user.id === treeId) break;
+    owners.unshift(user.id);
+    tree = user.id;
+  }
+  return owners;
+}
+
+/** Where one is: the trees that lead here, and the path from the root to the selected block. */
+export function Breadcrumbs({ treeId }: { readonly treeId: string }) {
+  const { t } = useTranslation('canvas');
+  const diagrams = useProjectStore((state) => state.diagrams);
+  const main = useProjectStore((state) => state.mainTree);
+  const select = useProjectStore((state) => state.select);
+  const first = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
+  const diagram = diagrams[treeId];
+  const owners = useMemo(() => ownersOf(diagrams, treeId, main), [diagrams, treeId, main]);
+  const path = useMemo(() => pathTo(diagram, first), [diagram, first]);
+  return (
+    <nav className={classes['breadcrumbs']} aria-label={t('breadcrumbs')}>
+      {owners.map((owner) => (
+        <Fragment key={owner}>
+          <button
+            type="button"
+            onClick={() => {
+              openTree(owner);
+            }}
+          >
+            {owner}
+          </button>
+          <IconChevronRight size={13} aria-hidden="true" />
+        </Fragment>
+      ))}
+      <button
+        type="button"
+        className={classes['crumbTree']}
+        onClick={() => {
+          select(treeId, []);
+        }}
+      >
+        {treeId}
+      </button>
+      {path.map((id) => {
+        const node = diagram?.nodes[id];
+        return (
+          <Fragment key={id}>
+            <IconChevronRight size={13} aria-hidden="true" />
+            <button
+              type="button"
+              aria-current={id === first ? 'true' : undefined}
+              onClick={() => {
+                select(treeId, [id]);
+              }}
+            >
+              {node ? displayName(node) : id}
+            </button>
+          </Fragment>
+        );
+      })}
+    </nav>
+  );
+}

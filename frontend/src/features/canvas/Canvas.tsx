@@ -1,0 +1,19 @@
+import { ReactFlowProvider } from '@xyflow/react';
+import '@xyflow/react/dist/style.css';
+import { useProjectStore } from '@/store/project';
+import { CanvasView } from './CanvasView';
+
+interface CanvasProps {
+  readonly treeId: string;
+}
+
+/** The drawing of one tree, editable. */
+export function Canvas({ treeId }: CanvasProps) {
+  const exists = useProjectStore((state) => treeId in state.diagrams);
+  if (!exists) return null;
+  return (
+    <ReactFlowProvider>
+      <CanvasView key={treeId} treeId={treeId} />
+    </ReactFlowProvider>
+  );
+}

@@ -1,0 +1,131 @@
+import { ActionIcon, Tooltip } from '@mantine/core';
+import {
+  IconArrowsVertical,
+  IconArrowsHorizontal,
+  IconFocusCentered,
+  IconLayoutDistributeHorizontal,
+  IconMap2,
+  IconMaximize,
+  IconMinus,
+  IconPlus,
+  IconSearch,
+  type Icon,
+} from '@tabler/icons-react';
+import { useReactFlow, useStore } from '@xyflow/react';
+import { useTranslation } from 'react-i18next';
+import { setLayout, tidy } from '@/model/edits';
+import { change } from '@/store/project/commands';
+import { setEditor, useEditorStore } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { FIT } from './useViewport';
+import classes from './Canvas.module.css';
+
+interface ToolProps {
+  readonly label: string;
+  readonly icon: Icon;
+  readonly onClick: () => void;
+  readonly testId?: string;
+  readonly isOn?: boolean;
+}
+
+function Tool({ label, icon: Symbol, onClick, testId, isOn }: ToolProps) {
+  return (
+    <Tooltip label={label} position="top">
+      <ActionIcon
+        aria-label={label}
+        onClick={onClick}
+        size={30}
+        {...(testId === undefined ? {} : { 'data-testid': testId })}
+        {...(isOn === undefined ? {} : { 'aria-pressed': isOn })}
+      >
+        <Symbol size={17} stroke={1.8} aria-hidden="true" />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+/** Zoom, layout and search, below the tree. */
+export function CanvasToolbar({ treeId }: { readonly treeId: string }) {
+  const { t } = useTranslation('canvas');
+  const flow = useReactFlow();
+  const zoom = useStore((state) => Math.round(state.transform[2] * 100));
+  const isHorizontal = useProjectStore((state) => state.diagrams[treeId]?.layout === 'horizontal');
+  const hasSelection = useProjectStore((state) => state.activeTree === treeId && state.selection.length > 0);
+  const minimap = useEditorStore((state) => state.minimap);
+
+  const fitSoon = (): void => {
+    // After React has drawn the new layout.
+    requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
+  };
+
+  return (
+    <div className={classes['toolbar']} role="toolbar" aria-label={t('toolbar.label')}>
+      <Tool
+        label={t('toolbar.zoomOut')}
+        icon={IconMinus}
+        onClick={() => void flow.zoomOut({ duration: 120 })}
+      />
+      <Tooltip label={t('toolbar.zoomReset')}>
+        <button
+          type="button"
+          className={classes['zoom']}
+          onClick={() => void flow.zoomTo(1, { duration: 150 })}
+          aria-label={t('toolbar.zoomReset')}
+        >
+          {zoom}%
+        </button>
+      </Tooltip>
+      <Tool label={t('toolbar.zoomIn')} icon={IconPlus} onClick={() => void flow.zoomIn({ duration: 120 })} />
+      <Tool
+        label={t('toolbar.fit')}
+        icon={IconMaximize}
+        onClick={() => void flow.fitView({ ...FIT, duration: 200 })}
+      />
+      {hasSelection && (
+        <Tool
+          label={t('toolbar.fitSelection')}
+          icon={IconFocusCentered}
+          onClick={() => {
+            const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
+            void flow.fitView({ ...FIT, nodes, duration: 200 });
+          }}
+        />
+      )}
+      <span className={classes['divider']} />
+      <Tool
+        label={t('toolbar.tidy')}
+        icon={IconLayoutDistributeHorizontal}
+        testId="tidy"
+        onClick={() => {
+          change('tidy', [tidy()]);
+          fitSoon();
+        }}
+      />
+      <Tool
+        label={t(isHorizontal ? 'toolbar.vertical' : 'toolbar.horizontal')}
+        icon={isHorizontal ? IconArrowsVertical : IconArrowsHorizontal}
+        testId="orientation"
+        onClick={() => {
+          change('orientation', [setLayout(isHorizontal ? 'vertical' : 'horizontal')]);
+          fitSoon();
+        }}
+      />
+      <span className={classes['divider']} />
+      <Tool
+        label={t('toolbar.find')}
+        icon={IconSearch}
+        onClick={() => {
+          setEditor({ find: true });
+        }}
+      />
+      <Tool
+        label={t('toolbar.minimap')}
+        icon={IconMap2}
+        isOn={minimap}
+        onClick={() => {
+          setEditor({ minimap: !minimap });
+        }}
+      />
+    </div>
+  );
+}

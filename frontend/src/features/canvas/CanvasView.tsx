@@ -1,0 +1,230 @@
+import {
+  Background,
+  BackgroundVariant,
+  MiniMap,
+  ReactFlow,
+  SelectionMode,
+  useReactFlow,
+  useStore,
+  type EdgeChange,
+  type NodeChange,
+} from '@xyflow/react';
+import { useCallback, useMemo, useRef, useState, type MouseEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import { setEditor, useEditorStore } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { Announcer } from './Announcer';
+import { Block } from './block/Block';
+import { Breadcrumbs } from './Breadcrumbs';
+import { CanvasToolbar } from './CanvasToolbar';
+import { BlockMenu, type MenuPoint } from './BlockMenu';
+import { EmptyTree } from './EmptyTree';
+import { FindBar } from './FindBar';
+import { FlowProjection, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { onCanvasKey, openBlock } from './keyboard';
+import { QuickAdd } from './quickAdd/QuickAdd';
+import { openQuickAdd } from './quickAdd/open';
+import { SlotMark } from './SlotMark';
+import { TreeEdge } from './TreeEdge';
+import { useConnecting } from './useConnecting';
+import { useDragging } from './useDragging';
+import { usePaletteDrop } from './usePaletteDrop';
+import { useReveal } from './useReveal';
+import { useTree } from './useTree';
+import { useViewport } from './useViewport';
+import classes from './Canvas.module.css';
+
+const nodeTypes = { block: Block };
+const edgeTypes = { tree: TreeEdge };
+const FAR = 0.42;
+const DELETE_KEYS: string[] = [];
+const minimapColor = (node: BlockNode): string =>
+  node.data.node.color ?? `var(--bts-${node.data.spec?.family ?? 'unknown'})`;
+
+export function CanvasView({ treeId }: { readonly treeId: string }) {
+  const { t } = useTranslation('canvas');
+  const root = useRef<HTMLDivElement>(null);
+  const tree = useTree(treeId);
+  const flow = useReactFlow<BlockNode, TreeEdgeType>();
+  const isFar = useStore((state) => state.transform[2] < FAR);
+  const quickAdd = useEditorStore((state) => (state.quickAdd?.tree === treeId ? state.quickAdd : null));
+  const find = useEditorStore((state) => state.find);
+  const minimap = useEditorStore((state) => state.minimap);
+  const [menu, setMenu] = useState<MenuPoint | null>(null);
+  const [chosenEdge, setChosenEdge] = useState<string | null>(null);
+  const { dragged, onDrag, onDrop } = useDragging(tree);
+  const connecting = useConnecting(tree);
+  const palette = usePaletteDrop(tree);
+  const viewport = useViewport(treeId, tree.layout);
+  useReveal(treeId, tree.layout);
+
+  const [projection] = useState(() => new FlowProjection());
+  const { diagram, layout, vocabulary, problems, selection } = tree;
+  const { nodes, edges } = useMemo(
+    () => projection.project({ diagram, layout, vocabulary, problems, selection, dragged }),
+    [projection, diagram, layout, vocabulary, problems, selection, dragged],
+  );
+  const shownEdges = useMemo(
+    () =>
+      chosenEdge === null
+        ? edges
+        : edges.map((each) => (each.id === chosenEdge ? { ...each, selected: true } : each)),
+    [edges, chosenEdge],
+  );
+
+  const focus = useCallback(() => root.current?.focus({ preventScroll: true }), []);
+
+  const onNodesChange = useCallback(
+    (changes: NodeChange<BlockNode>[]) => {
+      const { selection: before, select, activeTree } = useProjectStore.getState();
+      const next = new Set(activeTree === treeId ? before : []);
+      let changed = false;
+      for (const each of changes) {
+        if (each.type !== 'select') continue;
+        changed = true;
+        if (each.selected) next.add(each.id);
+        else next.delete(each.id);
+      }
+      if (changed) select(treeId, [...next]);
+    },
+    [treeId],
+  );
+
+  const onEdgesChange = useCallback((changes: EdgeChange<TreeEdgeType>[]) => {
+    for (const each of changes) {
+      if (each.type === 'select')
+        setChosenEdge((old) => (each.selected ? each.id : old === each.id ? null : old));
+    }
+  }, []);
+
+  const openMenu = useCallback(
+    (event: MouseEvent | globalThis.MouseEvent, node: BlockNode | null) => {
+      event.preventDefault();
+      const { selection: chosen, select } = useProjectStore.getState();
+      if (node && !chosen.includes(node.id)) select(treeId, [node.id]);
+      setMenu({ x: event.clientX, y: event.clientY, onBlock: node !== null });
+    },
+    [treeId],
+  );
+
+  return (
+    // The canvas is one stop of the Tab key: arrows walk inside, as in a tree widget.
+    // eslint-disable-next-line jsx-a11y/no-static-element-interactions
+    <div
+      ref={root}
+      className={classes['canvas']}
+      data-testid="canvas"
+      data-tree={treeId}
+      data-far={isFar || undefined}
+      role="application"
+      aria-label={t('label', { tree: treeId })}
+      aria-describedby="canvas-announcer"
+      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex
+      tabIndex={0}
+      onKeyDown={(event) => {
+        if (chosenEdge !== null && (event.key === 'Delete' || event.key === 'Backspace')) {
+          viewport.cut(chosenEdge.slice(chosenEdge.indexOf('-') + 1), layout);
+          setChosenEdge(null);
+          event.preventDefault();
+        } else onCanvasKey(event);
+      }}
+      onPointerDownCapture={(event) => {
+        useProjectStore.getState().setActiveTree(treeId);
+        if (!(event.target as HTMLElement).closest('input, button, [role="dialog"], [role="menu"]')) focus();
+      }}
+      onDragOver={palette.onDragOver}
+      onDragLeave={palette.onDragLeave}
+      onDrop={palette.onDrop}
+      onDoubleClick={(event) => {
+        if (!(event.target as HTMLElement).classList.contains('react-flow__pane')) return;
+        const { x, y } = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
+        const place =
+          diagram.root === null
+            ? ({ at: 'root' } as const)
+            : ({ at: 'draft', position: [Math.round(x), Math.round(y)] } as const);
+        openQuickAdd(treeId, { does: 'add', place }, event.clientX, event.clientY);
+      }}
+    >
+      <ReactFlow<BlockNode, TreeEdgeType>
+        nodes={nodes}
+        edges={shownEdges}
+        nodeTypes={nodeTypes}
+        edgeTypes={edgeTypes}
+        onNodesChange={onNodesChange}
+        onEdgesChange={onEdgesChange}
+        onNodeDrag={onDrag}
+        onNodeDragStop={onDrop}
+        onNodeDoubleClick={(_event, node) => {
+          openBlock(diagram, node.id);
+        }}
+        onNodeContextMenu={openMenu}
+        onPaneContextMenu={(event) => {
+          openMenu(event, null);
+        }}
+        isValidConnection={connecting.isValidConnection}
+        onConnect={connecting.onConnect}
+        onConnectEnd={connecting.onConnectEnd}
+        defaultViewport={viewport.initial}
+        onMoveEnd={viewport.onMoveEnd}
+        onInit={viewport.onInit}
+        minZoom={0.08}
+        maxZoom={2.2}
+        nodeDragThreshold={4}
+        nodesFocusable={false}
+        edgesFocusable={false}
+        disableKeyboardA11y
+        deleteKeyCode={DELETE_KEYS}
+        selectionKeyCode="Shift"
+        multiSelectionKeyCode={['Meta', 'Control', 'Shift']}
+        selectionMode={SelectionMode.Partial}
+        panOnScroll
+        zoomOnDoubleClick={false}
+        onlyRenderVisibleElements={nodes.length > 150}
+        elevateNodesOnSelect={false}
+        proOptions={{ hideAttribution: true }}
+      >
+        <Background
+          variant={BackgroundVariant.Dots}
+          gap={24}
+          size={1.6}
+          color="var(--bts-canvas-dot)"
+          bgColor="var(--bts-canvas)"
+        />
+        {minimap && nodes.length > 1 && (
+          <MiniMap<BlockNode>
+            pannable
+            zoomable
+            className={classes['minimap'] ?? ''}
+            ariaLabel={t('minimap')}
+            nodeColor={minimapColor}
+            nodeBorderRadius={8}
+            maskColor="color-mix(in srgb, var(--bts-canvas) 70%, transparent)"
+          />
+        )}
+        <SlotMark />
+      </ReactFlow>
+      {nodes.length === 0 && <EmptyTree treeId={treeId} />}
+      <Breadcrumbs treeId={treeId} />
+      <CanvasToolbar treeId={treeId} />
+      {find && <FindBar treeId={treeId} onClose={focus} />}
+      <BlockMenu
+        point={menu}
+        onClose={() => {
+          setMenu(null);
+          focus();
+        }}
+      />
+      {quickAdd && (
+        <QuickAdd
+          key={`${quickAdd.x},${quickAdd.y}`}
+          request={quickAdd}
+          onClose={() => {
+            setEditor({ quickAdd: null });
+            focus();
+          }}
+        />
+      )}
+      <Announcer treeId={treeId} />
+    </div>
+  );
+}

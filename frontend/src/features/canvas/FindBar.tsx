@@ -1,0 +1,79 @@
+import { ActionIcon } from '@mantine/core';
+import { IconChevronDown, IconChevronUp, IconX } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { findNodes } from '@/model/find';
+import { setEditor } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import classes from './Canvas.module.css';
+
+interface FindBarProps {
+  readonly treeId: string;
+  readonly onClose: () => void;
+}
+
+/** Search over names, types, ports and comments of the tree; Enter goes to the next. */
+export function FindBar({ treeId, onClose }: FindBarProps) {
+  const { t } = useTranslation('canvas');
+  const [text, setText] = useState('');
+  const [index, setIndex] = useState(0);
+  const diagram = useProjectStore((state) => state.diagrams[treeId]);
+  const reveal = useProjectStore((state) => state.reveal);
+  const found = useMemo(() => (diagram ? findNodes(diagram, text) : []), [diagram, text]);
+
+  const go = (to: number): void => {
+    const at = (to + found.length) % Math.max(1, found.length);
+    setIndex(at);
+    const id = found[at];
+    if (id !== undefined) reveal(treeId, id);
+  };
+  const close = (): void => {
+    setEditor({ find: false });
+    onClose();
+  };
+
+  return (
+    <div className={classes['find']} role="search">
+      <input
+        ref={(input) => input?.focus()}
+        aria-label={t('find.label')}
+        placeholder={t('find.label')}
+        value={text}
+        onChange={(event) => {
+          const next = event.currentTarget.value;
+          setText(next);
+          setIndex(0);
+          const [first] = diagram ? findNodes(diagram, next) : [];
+          if (first !== undefined) reveal(treeId, first);
+        }}
+        onKeyDown={(event) => {
+          event.stopPropagation();
+          if (event.key === 'Enter') go(index + (event.shiftKey ? -1 : 1));
+          if (event.key === 'Escape') close();
+        }}
+      />
+      <span className={classes['findCount']} aria-live="polite">
+        {text && t('find.count', { index: found.length === 0 ? 0 : index + 1, count: found.length })}
+      </span>
+      <ActionIcon
+        aria-label={t('find.previous')}
+        onClick={() => {
+          go(index - 1);
+        }}
+      >
+        <IconChevronUp size={16} aria-hidden="true" />
+      </ActionIcon>
+      <ActionIcon
+        aria-label={t('find.next')}
+        onClick={() => {
+          go(index + 1);
+        }}
+      >
+        <IconChevronDown size={16} aria-hidden="true" />
+      </ActionIcon>
+      <ActionIcon aria-label={t('find.close')} onClick={close}>
+        <IconX size={16} aria-hidden="true" />
+      </ActionIcon>
+    </div>
+  );
+}

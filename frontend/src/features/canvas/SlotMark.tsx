@@ -1,0 +1,19 @@
+import { ViewportPortal } from '@xyflow/react';
+import { useEditorStore } from '@/store/project/editor';
+import classes from './Canvas.module.css';
+
+/** The insertion mark: where a dragged block will go. */
+export function SlotMark() {
+  const slot = useEditorStore((state) => state.slot);
+  if (slot?.kind !== 'between') return null;
+  const { x, y, width, height } = slot.mark;
+  return (
+    <ViewportPortal>
+      <div
+        className={classes['slot']}
+        data-testid="insertion-mark"
+        style={{ transform: `translate(${x}px, ${y}px)`, width, height }}
+      />
+    </ViewportPortal>
+  );
+}

@@ -1,0 +1,225 @@
+import { registerActions, type UserAction } from '@/actions/registry';
+import {
+  IconArrowBackUp,
+  IconArrowForwardUp,
+  IconArrowsExchange,
+  IconBan,
+  IconBinaryTree,
+  IconBox,
+  IconBoxOff,
+  IconClipboard,
+  IconCopy,
+  IconCopyPlus,
+  IconCut,
+  IconLayoutDistributeHorizontal,
+  IconPlus,
+  IconSearch,
+} from '@tabler/icons-react';
+import { setLayout, tidy } from '@/model/edits';
+import { copySelection, cutSelection, paste } from '@/store/project/clipboard';
+import {
+  activeDiagram,
+  change,
+  duplicateSelection,
+  toggleDisabled,
+  unwrapSelection,
+} from '@/store/project/commands';
+import { setEditor } from '@/store/project/editor';
+import { extractSelection, inlineSelection } from '@/store/project/subtrees';
+import { useProjectStore } from '@/store/project';
+import { openQuickAddHere } from './quickAdd/open';
+
+const state = () => useProjectStore.getState();
+const history = () => state().histories[state().activeTree ?? ''];
+const hasTree = () => activeDiagram() !== null;
+const hasSelection = () => state().selection.length > 0;
+
+/** Keys for blocks count only while the canvas has the focus: elsewhere they belong to text. */
+const onCanvas = () => document.activeElement?.closest('[data-testid="canvas"]') !== null;
+const selectedOnCanvas = () => onCanvas() && hasSelection();
+
+const rows: readonly UserAction[] = [
+  {
+    id: 'edit.undo',
+    group: 'edit',
+    labelKey: 'canvas:action.undo',
+    icon: IconArrowBackUp,
+    shortcut: '$mod+KeyZ',
+    enabled: () => (history()?.past.length ?? 0) > 0,
+    run: () => {
+      state().undo();
+    },
+  },
+  {
+    id: 'edit.redo',
+    group: 'edit',
+    labelKey: 'canvas:action.redo',
+    icon: IconArrowForwardUp,
+    shortcut: '$mod+KeyY',
+    enabled: () => (history()?.future.length ?? 0) > 0,
+    run: () => {
+      state().redo();
+    },
+  },
+  {
+    id: 'edit.redoShift',
+    group: 'edit',
+    labelKey: 'canvas:action.redo',
+    shortcut: '$mod+Shift+KeyZ',
+    hidden: true,
+    enabled: () => (history()?.future.length ?? 0) > 0,
+    run: () => {
+      state().redo();
+    },
+  },
+  {
+    id: 'edit.copy',
+    group: 'edit',
+    labelKey: 'canvas:menu.copy',
+    icon: IconCopy,
+    shortcut: '$mod+KeyC',
+    enabled: selectedOnCanvas,
+    run: () => void copySelection(),
+  },
+  {
+    id: 'edit.cut',
+    group: 'edit',
+    labelKey: 'canvas:menu.cut',
+    icon: IconCut,
+    shortcut: '$mod+KeyX',
+    enabled: selectedOnCanvas,
+    run: () => void cutSelection(),
+  },
+  {
+    id: 'edit.paste',
+    group: 'edit',
+    labelKey: 'canvas:menu.paste',
+    icon: IconClipboard,
+    shortcut: '$mod+KeyV',
+    enabled: onCanvas,
+    run: () => void paste(),
+  },
+  {
+    id: 'edit.duplicate',
+    group: 'edit',
+    labelKey: 'canvas:menu.duplicate',
+    icon: IconCopyPlus,
+    shortcut: '$mod+KeyD',
+    enabled: selectedOnCanvas,
+    run: duplicateSelection,
+  },
+  {
+    id: 'edit.selectAll',
+    group: 'edit',
+    labelKey: 'canvas:action.selectAll',
+    shortcut: '$mod+KeyA',
+    enabled: onCanvas,
+    run: () => {
+      const diagram = activeDiagram();
+      if (diagram) state().select(diagram.id, Object.keys(diagram.nodes));
+    },
+  },
+  {
+    id: 'canvas.add',
+    group: 'canvas',
+    labelKey: 'canvas:menu.addBlock',
+    icon: IconPlus,
+    enabled: hasTree,
+    run: () => {
+      openQuickAddHere('child');
+    },
+  },
+  {
+    id: 'canvas.wrap',
+    group: 'canvas',
+    labelKey: 'canvas:menu.wrap',
+    icon: IconBox,
+    shortcut: '$mod+KeyG',
+    enabled: hasSelection,
+    run: () => {
+      openQuickAddHere('wrap');
+    },
+  },
+  {
+    id: 'canvas.unwrap',
+    group: 'canvas',
+    labelKey: 'canvas:menu.unwrap',
+    icon: IconBoxOff,
+    shortcut: '$mod+Shift+KeyG',
+    enabled: hasSelection,
+    run: unwrapSelection,
+  },
+  {
+    id: 'canvas.morph',
+    group: 'canvas',
+    labelKey: 'canvas:menu.morph',
+    icon: IconArrowsExchange,
+    shortcut: '$mod+KeyM',
+    enabled: hasSelection,
+    run: () => {
+      openQuickAddHere('morph');
+    },
+  },
+  {
+    id: 'canvas.disable',
+    group: 'canvas',
+    labelKey: 'canvas:menu.disable',
+    icon: IconBan,
+    shortcut: '$mod+KeyE',
+    enabled: hasSelection,
+    run: toggleDisabled,
+  },
+  {
+    id: 'canvas.extract',
+    group: 'canvas',
+    labelKey: 'canvas:menu.extract',
+    icon: IconBinaryTree,
+    enabled: hasSelection,
+    run: extractSelection,
+  },
+  {
+    id: 'canvas.inline',
+    group: 'canvas',
+    labelKey: 'canvas:menu.inline',
+    icon: IconBoxOff,
+    enabled: hasSelection,
+    run: inlineSelection,
+  },
+  {
+    id: 'canvas.find',
+    group: 'canvas',
+    labelKey: 'canvas:action.find',
+    icon: IconSearch,
+    shortcut: '$mod+KeyF',
+    enabled: onCanvas,
+    run: () => {
+      setEditor({ find: true });
+    },
+  },
+  {
+    id: 'canvas.tidy',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.tidy',
+    icon: IconLayoutDistributeHorizontal,
+    enabled: hasTree,
+    run: () => {
+      change('tidy', [tidy()]);
+    },
+  },
+  {
+    id: 'canvas.orientation',
+    group: 'canvas',
+    labelKey: 'canvas:action.orientation',
+    enabled: hasTree,
+    run: () => {
+      const diagram = activeDiagram();
+      if (diagram)
+        change('orientation', [setLayout(diagram.layout === 'vertical' ? 'horizontal' : 'vertical')]);
+    },
+  },
+];
+
+/** Adds the editor's commands to the table; the returned function takes them out again. */
+export function registerCanvasActions(): () => void {
+  return registerActions(rows);
+}

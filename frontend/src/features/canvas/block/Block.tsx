@@ -1,0 +1,93 @@
+import { Handle, Position, type NodeProps } from '@xyflow/react';
+import { IconPlus } from '@tabler/icons-react';
+import { memo, type CSSProperties } from 'react';
+import { useTranslation } from 'react-i18next';
+import { setCollapsed } from '@/model/edits';
+import { change } from '@/store/project/commands';
+import { useEditorStore } from '@/store/project/editor';
+import { liveKey, useLiveStore } from '@/store/project/live';
+import { NodeSymbol } from '@/ui/NodeSymbol';
+import type { BlockNode } from '../flow';
+import { openQuickAddBelow } from '../quickAdd/open';
+import { BlockPorts } from './BlockPorts';
+import { BlockShape } from './BlockShape';
+import { BlockTitle } from './BlockTitle';
+import { ProblemMark } from './ProblemMark';
+import { StatusMark } from './StatusMark';
+import classes from './Block.module.css';
+
+function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<BlockNode>) {
+  const { t } = useTranslation('canvas');
+  const { node, spec, problem, tree, isHorizontal } = data;
+  const key = liveKey(tree, id);
+  const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
+  const flash = useLiveStore((state) => state.flashes.get(key));
+  const fault = useLiveStore((state) => state.faults.get(key));
+  const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
+  const family = spec?.family ?? null;
+  const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
+  return (
+    <div
+      className={`${classes['block']} ${isHorizontal ? classes['horizontal'] : ''}`}
+      data-testid={`node-${id}`}
+      data-type={node.type}
+      data-family={family ?? 'unknown'}
+      data-status={status}
+      data-selected={selected || undefined}
+      data-disabled={node.disabled || undefined}
+      data-draft={data.isDraft || undefined}
+      data-target={isTarget || undefined}
+      data-fault={fault === undefined ? undefined : ''}
+      style={color}
+    >
+      <BlockShape family={family} width={width} height={height} flash={flash} />
+      <span className={classes['tile']}>
+        <NodeSymbol type={node.type} family={family} size={22} />
+      </span>
+      <BlockTitle id={id} node={node} />
+      <BlockPorts node={node} spec={spec} />
+      <StatusMark status={fault === undefined ? status : 'FAILURE'} />
+      {fault !== undefined && (
+        <ProblemMark
+          problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
+        />
+      )}
+      {fault === undefined && problem && <ProblemMark problem={problem} />}
+      {data.folded > 0 && (
+        <button
+          type="button"
+          className={`${classes['folded']} nodrag`}
+          onClick={() => {
+            change('unfold', [setCollapsed(id, false)]);
+          }}
+        >
+          {t('folded', { count: data.folded })}
+        </button>
+      )}
+      <Handle
+        type="target"
+        position={isHorizontal ? Position.Left : Position.Top}
+        className={classes['handle'] ?? ''}
+        isConnectableStart
+      />
+      <Handle
+        type="source"
+        position={isHorizontal ? Position.Right : Position.Bottom}
+        className={`${classes['handle']} ${data.canGrow ? classes['plus'] : ''}`}
+        isConnectable={data.canGrow}
+        {...(data.canGrow ? { title: t('addChild') } : { style: { visibility: 'hidden' } })}
+        onClick={(event) => {
+          openQuickAddBelow(tree, id, event.clientX, event.clientY);
+        }}
+      >
+        {data.canGrow && <IconPlus size={13} stroke={3} aria-hidden="true" />}
+      </Handle>
+    </div>
+  );
+}
+
+/** Position is the wrapper's business: a block renders for its content, its selection and its status. */
+export const Block = memo(
+  BlockView,
+  (a, b) => a.data === b.data && a.selected === b.selected && a.width === b.width && a.height === b.height,
+);

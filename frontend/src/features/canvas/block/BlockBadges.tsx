@@ -1,0 +1,23 @@
+import { IconMessage2, IconScript } from '@tabler/icons-react';
+import type { DiagramNode } from '@/model/diagram';
+import classes from './Block.module.css';
+
+/** Small signs for what a block carries besides its ports. */
+export function BlockBadges({ node }: { readonly node: DiagramNode }) {
+  const conditions = Object.entries(node.conditions ?? {});
+  if (conditions.length === 0 && !node.comment) return null;
+  return (
+    <span className={classes['badges']}>
+      {conditions.length > 0 && (
+        <span title={conditions.map(([key, text]) => `${key}: ${text}`).join('\n')}>
+          <IconScript size={14} stroke={1.8} aria-hidden="true" />
+        </span>
+      )}
+      {node.comment && (
+        <span title={node.comment}>
+          <IconMessage2 size={14} stroke={1.8} aria-hidden="true" />
+        </span>
+      )}
+    </span>
+  );
+}

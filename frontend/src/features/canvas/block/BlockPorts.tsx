@@ -1,0 +1,43 @@
+import { useTranslation } from 'react-i18next';
+import type { DiagramNode } from '@/model/diagram';
+import { BLOCK, portLines, type PortLine } from '@/model/measure';
+import { readPortText } from '@/model/ports';
+import type { NodeSpec } from '@/model/vocabulary';
+import classes from './Block.module.css';
+
+function valueClass(line: PortLine): string {
+  if (line.value === null) return line.required && line.default === null ? 'portMissing' : 'portDefault';
+  const kind = readPortText(line.value).kind;
+  if (kind === 'broken') return 'portMissing';
+  return kind === 'key' || kind === 'same-name' ? 'portKey' : 'portLiteral';
+}
+
+const ARROWS = { input: '', output: '→', inout: '⇄' } as const;
+
+interface BlockPortsProps {
+  readonly node: DiagramNode;
+  readonly spec: NodeSpec | undefined;
+}
+
+/** Ports with their values, as many as a block shows. */
+export function BlockPorts({ node, spec }: BlockPortsProps) {
+  const { t } = useTranslation('canvas');
+  const lines = portLines(node, spec);
+  if (lines.length === 0) return null;
+  const more = lines.length - BLOCK.maxPorts;
+  return (
+    <ul className={classes['ports']}>
+      {lines.slice(0, BLOCK.maxPorts).map((line) => (
+        <li key={line.name} className={classes['port']}>
+          <span className={classes['portName']}>
+            {ARROWS[line.direction]} {line.name}
+          </span>
+          <span className={classes[valueClass(line)]} title={line.value ?? undefined}>
+            {line.value ?? line.default ?? (line.required ? t('port.missing') : '—')}
+          </span>
+        </li>
+      ))}
+      {more > 0 && <li className={classes['portMore']}>{t('port.more', { count: more })}</li>}
+    </ul>
+  );
+}

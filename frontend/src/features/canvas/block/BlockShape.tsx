@@ -1,0 +1,44 @@
+import { useId } from 'react';
+import type { NodeStatus } from '@/generated/messages';
+import type { Family } from '@/model/vocabulary';
+import { outline } from '@/ui/shapes';
+import classes from './Block.module.css';
+
+interface BlockShapeProps {
+  readonly family: Family | null;
+  readonly width: number;
+  readonly height: number;
+  readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
+}
+
+const TILE = 44;
+
+/** The drawing of a block: outline of its family, coloured side, ring and halo. */
+export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
+  const clip = useId();
+  const path = outline(family, width, height);
+  return (
+    <svg className={classes['shape']} width={width} height={height} aria-hidden="true">
+      <clipPath id={clip}>
+        <path d={path} />
+      </clipPath>
+      {family === 'subtree' && <path className={classes['stack']} d={path} transform="translate(4 4)" />}
+      <path className={classes['halo']} d={path} />
+      <path className={classes['fill']} d={path} />
+      <rect className={classes['side']} width={TILE} height={height} clipPath={`url(#${clip})`} />
+      <path className={classes['ring']} d={path} />
+      {flash && (
+        <path
+          key={flash.count}
+          className={classes['flash']}
+          d={outline(family, width, height, -2)}
+          fill="none"
+          strokeWidth={5}
+          style={{
+            ['--flash' as string]: `var(--bts-${flash.status.toLowerCase()}-bright, var(--bts-idle))`,
+          }}
+        />
+      )}
+    </svg>
+  );
+}

@@ -1,0 +1,138 @@
+import type { Edge, Node } from '@xyflow/react';
+import {
+  childrenOf,
+  displayName,
+  subtreeOf,
+  type Diagram,
+  type DiagramNode,
+  type NodeId,
+} from '@/model/diagram';
+import { visibleChildren, type Box, type Layout } from '@/model/layout';
+import { acceptsChild } from '@/model/rules';
+import { specOf, type NodeSpec, type Vocabulary } from '@/model/vocabulary';
+import type { ShownProblem } from '@/store/project/problems';
+
+export interface BlockData extends Record<string, unknown> {
+  readonly tree: string;
+  readonly node: DiagramNode;
+  readonly spec: NodeSpec | undefined;
+  readonly problem: ShownProblem | null;
+  readonly isDraft: boolean;
+  readonly isHorizontal: boolean;
+  readonly canGrow: boolean;
+  /** How many blocks are hidden below this one; 0 unless it is folded. */
+  readonly folded: number;
+}
+
+export type BlockNode = Node<BlockData, 'block'>;
+export type TreeEdge = Edge<{ tree: string; isHorizontal: boolean }, 'tree'>;
+
+export interface FlowInput {
+  readonly diagram: Diagram;
+  readonly layout: Layout;
+  readonly vocabulary: Vocabulary;
+  readonly problems: ReadonlyMap<NodeId, ShownProblem>;
+  readonly selection: ReadonlySet<NodeId>;
+  /** Blocks that a hand is moving, by how far. */
+  readonly dragged: { readonly ids: ReadonlySet<NodeId>; readonly dx: number; readonly dy: number } | null;
+}
+
+function sameData(a: BlockData, b: BlockData): boolean {
+  return (Object.keys(a) as (keyof BlockData)[]).every((key) => a[key] === b[key]);
+}
+
+/**
+ * Projects a tree to React Flow's nodes. Nodes that did not change stay the same objects, so that
+ * React renders the changed ones alone.
+ */
+export class FlowProjection {
+  private nodes = new Map<NodeId, BlockNode>();
+  private edges = new Map<NodeId, TreeEdge>();
+
+  project(input: FlowInput): { nodes: BlockNode[]; edges: TreeEdge[] } {
+    const { diagram, layout } = input;
+    const drafts = new Set(diagram.drafts.flatMap((top) => subtreeOf(diagram, top)));
+    const nodes = new Map<NodeId, BlockNode>();
+    const edges = new Map<NodeId, TreeEdge>();
+    for (const [id, box] of Object.entries(layout.positions)) {
+      const node = diagram.nodes[id];
+      if (!node) continue;
+      nodes.set(id, this.nodeFor(id, node, box, drafts.has(id), input));
+      for (const child of visibleChildren(diagram, id)) edges.set(child, this.edgeFor(id, child, diagram));
+    }
+    this.nodes = nodes;
+    this.edges = edges;
+    return { nodes: [...nodes.values()], edges: [...edges.values()] };
+  }
+
+  private nodeFor(id: NodeId, node: DiagramNode, box: Box, isDraft: boolean, input: FlowInput): BlockNode {
+    const { diagram, vocabulary, problems, selection, dragged } = input;
+    const data: BlockData = {
+      tree: diagram.id,
+      node,
+      spec: specOf(vocabulary, node),
+      problem: problems.get(id) ?? null,
+      isDraft,
+      isHorizontal: diagram.layout === 'horizontal',
+      canGrow: acceptsChild(diagram, id, vocabulary),
+      folded: node.collapsed ? subtreeOf(diagram, id).length - 1 : 0,
+    };
+    const moves = dragged?.ids.has(id) ?? false;
+    const x = box.x + (moves ? (dragged?.dx ?? 0) : 0);
+    const y = box.y + (moves ? (dragged?.dy ?? 0) : 0);
+    const known = this.nodes.get(id);
+    const sameContent = known !== undefined && sameData(known.data, data);
+    if (
+      known &&
+      sameContent &&
+      known.position.x === x &&
+      known.position.y === y &&
+      known.width === box.width &&
+      known.height === box.height &&
+      known.selected === selection.has(id)
+    ) {
+      return known;
+    }
+    return {
+      id,
+      type: 'block',
+      position: { x, y },
+      width: box.width,
+      height: box.height,
+      measured: { width: box.width, height: box.height },
+      selected: selection.has(id),
+      data: sameContent ? known.data : data,
+      ariaLabel: displayName(node),
+    };
+  }
+
+  private edgeFor(parent: NodeId, child: NodeId, diagram: Diagram): TreeEdge {
+    const known = this.edges.get(child);
+    const isHorizontal = diagram.layout === 'horizontal';
+    if (
+      known?.source === parent &&
+      known.data?.isHorizontal === isHorizontal &&
+      known.data.tree === diagram.id
+    ) {
+      return known;
+    }
+    return {
+      id: `${parent}-${child}`,
+      type: 'tree',
+      source: parent,
+      target: child,
+      data: { tree: diagram.id, isHorizontal },
+      focusable: false,
+    };
+  }
+}
+
+/** The place of a node for a screen reader: "2 of 3". */
+export function ordinal(
+  diagram: Diagram,
+  parent: NodeId | null,
+  id: NodeId,
+): { index: number; count: number } {
+  const siblings = parent === null ? [id] : childrenOf(diagram, parent);
+  return { index: siblings.indexOf(id) + 1, count: siblings.length };
+}

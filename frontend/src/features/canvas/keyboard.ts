@@ -1,0 +1,127 @@
+import type { KeyboardEvent } from 'react';
+import { childrenOf, parentOf, topsOf, type Diagram, type NodeId } from '@/model/diagram';
+import { setCollapsed } from '@/model/edits';
+import { visibleChildren } from '@/model/layout';
+import {
+  activeDiagram,
+  change,
+  deleteSelection,
+  moveIn,
+  moveOut,
+  reorderSelection,
+  unwrapSelection,
+} from '@/store/project/commands';
+import { setEditor } from '@/store/project/editor';
+import { openAction, openTree } from '@/store/project/navigation';
+import { useProjectStore } from '@/store/project';
+import { openQuickAddHere } from './quickAdd/open';
+
+type Direction = 'up' | 'down' | 'before' | 'after';
+
+/** Arrow keys as the eye sees them: in a left-right layout a parent is to the left. */
+const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>> = {
+  vertical: { ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'before', ArrowRight: 'after' },
+  horizontal: { ArrowLeft: 'up', ArrowRight: 'down', ArrowUp: 'before', ArrowDown: 'after' },
+};
+
+/** The block beside, above or below; beyond the last sibling, the nearest cousin. */
+export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
+  if (direction === 'up') return parentOf(diagram, id);
+  if (direction === 'down') return visibleChildren(diagram, id)[0] ?? null;
+  const parent = parentOf(diagram, id);
+  const step = direction === 'after' ? 1 : -1;
+  const siblings = parent === null ? topsOf(diagram) : childrenOf(diagram, parent);
+  const beside = siblings[siblings.indexOf(id) + step];
+  if (beside !== undefined) return beside;
+  if (parent === null) return null;
+  const uncle = neighbour(diagram, parent, direction);
+  if (uncle === null) return null;
+  const cousins = visibleChildren(diagram, uncle);
+  return (direction === 'after' ? cousins[0] : cousins.at(-1)) ?? uncle;
+}
+
+function move(direction: Direction): void {
+  if (direction === 'before' || direction === 'after') reorderSelection(direction === 'after' ? 1 : -1);
+  else if (direction === 'up') moveOut();
+  else moveIn();
+}
+
+function walk(diagram: Diagram, id: NodeId | undefined, direction: Direction, extend: boolean): void {
+  const { select, selection } = useProjectStore.getState();
+  const next = id === undefined ? diagram.root : neighbour(diagram, id, direction);
+  if (next === null) return;
+  // The block that was walked to comes first: keys act on it.
+  select(diagram.id, extend ? [next, ...selection.filter((other) => other !== next)] : [next]);
+}
+
+/** Opens what a block stands for: the code of an action, the tree of a subtree, else its name. */
+export function openBlock(diagram: Diagram, id: NodeId): void {
+  const node = diagram.nodes[id];
+  if (!node) return;
+  const spec = useProjectStore.getState().vocabulary.specs.get(node.type);
+  if (node.type === 'SubTree' && node.tree) openTree(node.tree);
+  else if (spec?.source === 'action') openAction(node.type);
+  else setEditor({ editing: { node: id, field: 'name' } });
+}
+
+/** Keys on a selected block; true when the key was one of ours. */
+function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean {
+  switch (event.key) {
+    case 'Tab':
+      if (event.shiftKey) return false;
+      openQuickAddHere('child');
+      return true;
+    case 'Enter':
+      if (event.ctrlKey || event.metaKey) openQuickAddHere('after');
+      else openBlock(diagram, id);
+      return true;
+    case 'F2':
+      setEditor({ editing: { node: id, field: 'name' } });
+      return true;
+    case '/':
+      setEditor({ editing: { node: id, field: 'comment' } });
+      return true;
+    case 'Delete':
+    case 'Backspace':
+      if (event.shiftKey) unwrapSelection();
+      else deleteSelection();
+      return true;
+    case ' ':
+      if (childrenOf(diagram, id).length > 0) {
+        const folded = diagram.nodes[id]?.collapsed === true;
+        change(folded ? 'unfold' : 'fold', [setCollapsed(id, !folded)]);
+      }
+      return true;
+    default:
+      return false;
+  }
+}
+
+/** The canvas's own keys; those with Ctrl that the whole frame has are in the table of actions. */
+export function onCanvasKey(event: KeyboardEvent): void {
+  const target = event.target as HTMLElement;
+  if (target.matches('input, textarea, select, [contenteditable=true]')) return;
+  const diagram = activeDiagram();
+  if (!diagram) return;
+  const { selection, select } = useProjectStore.getState();
+  const [id] = selection;
+  const command = event.ctrlKey || event.metaKey;
+  const direction = DIRECTIONS[diagram.layout][event.key];
+  let done = true;
+  if (direction) {
+    if (command) move(direction);
+    else walk(diagram, id, direction, event.shiftKey);
+  } else if (event.key === 'Home' && diagram.root !== null) select(diagram.id, [diagram.root]);
+  else if (event.key === 'Escape') {
+    // With nothing to leave, the key is for the frame.
+    done = selection.length > 0;
+    select(diagram.id, []);
+  } else if (id !== undefined && onBlockKey(event, diagram, id)) done = true;
+  else if (event.key === 'Tab' && !event.shiftKey && diagram.root === null) openQuickAddHere('child');
+  else if (!command && !event.altKey && /^[a-z0-9_]$/i.test(event.key)) openQuickAddHere('child', event.key);
+  else done = false;
+  if (done) {
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

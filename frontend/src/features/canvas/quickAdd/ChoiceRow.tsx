@@ -1,0 +1,33 @@
+import type { Choice } from '@/model/choices';
+import { FamilyTile } from '@/ui/FamilyTile';
+import classes from './QuickAdd.module.css';
+
+interface ChoiceRowProps {
+  readonly id: string;
+  readonly choice: Choice;
+  readonly isActive: boolean;
+  readonly onChoose: () => void;
+}
+
+export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
+  return (
+    <li id={id} role="option" aria-selected={isActive} className={classes['row']}>
+      <button
+        type="button"
+        tabIndex={-1}
+        className={classes['choice']}
+        onPointerDown={(event) => {
+          // Before the search box loses the focus, which would close the list.
+          event.preventDefault();
+          onChoose();
+        }}
+      >
+        <FamilyTile type={choice.spec.type} family={choice.spec.family} size={26} />
+        <span className={classes['texts']}>
+          <span className={classes['label']}>{choice.label}</span>
+          <span className={classes['summary']}>{choice.spec.summary}</span>
+        </span>
+      </button>
+    </li>
+  );
+}

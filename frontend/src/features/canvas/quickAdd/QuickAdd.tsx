@@ -1,0 +1,163 @@
+import { IconPlus } from '@tabler/icons-react';
+import { useEffect, useMemo, useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { allChoices, searchChoices, suits, type Purpose } from '@/model/choices';
+import { createAction } from '@/store/project/actionTemplate';
+import { achieve } from '@/store/project/commands';
+import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { ChoiceRow } from './ChoiceRow';
+import classes from './QuickAdd.module.css';
+
+function purposeOf({ goal }: QuickAddState): Purpose {
+  switch (goal.does) {
+    case 'add':
+      return { for: 'add' };
+    case 'wrap':
+      return { for: 'wrap', count: goal.nodes.length };
+    case 'morph':
+      return { for: 'morph', node: goal.node };
+  }
+}
+
+interface QuickAddProps {
+  readonly request: QuickAddState;
+  /** Gives the keyboard back to the canvas. */
+  readonly onClose: () => void;
+}
+
+const WIDTH = 340;
+const HEIGHT = 380;
+
+/** A search box at the place of the future block, listing what is legal there. */
+export function QuickAdd({ request, onClose }: QuickAddProps) {
+  const { t } = useTranslation('canvas');
+  const diagram = useProjectStore((state) => state.diagrams[request.tree]);
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const [search, setSearch] = useState(request.text);
+  const [index, setIndex] = useState(0);
+  const list = useRef<HTMLUListElement>(null);
+  const found = useMemo(() => {
+    if (!diagram) return [];
+    const purpose = purposeOf(request);
+    return searchChoices(
+      allChoices(diagram, vocabulary).filter((choice) => suits(choice, diagram, purpose)),
+      search,
+    );
+  }, [diagram, vocabulary, request, search]);
+  const canCreate =
+    request.goal.does === 'add' && /^[A-Za-z_]\w*$/.test(search) && !vocabulary.specs.has(search);
+  const count = found.length + (canCreate ? 1 : 0);
+  const active = Math.min(index, count - 1);
+
+  useEffect(() => {
+    list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: 'nearest' });
+  }, [active]);
+
+  const close = (): void => {
+    setEditor({ quickAdd: null });
+    onClose();
+  };
+  const choose = (at: number): void => {
+    const choice = found[at];
+    if (choice) achieve(request.goal, choice.kind);
+    else if (canCreate) {
+      createAction(search);
+      achieve(request.goal, { type: search });
+    } else return;
+    close();
+  };
+
+  const left = Math.max(8, Math.min(request.x, window.innerWidth - WIDTH - 8));
+  const top = Math.max(8, Math.min(request.y, window.innerHeight - HEIGHT - 8));
+  return (
+    <div
+      className={classes['box']}
+      style={{ left, top, width: WIDTH, maxHeight: HEIGHT }}
+      role="dialog"
+      aria-label={t(`quickAdd.${request.goal.does}`)}
+      data-testid="quick-add"
+      onBlur={(event) => {
+        if (!event.currentTarget.contains(event.relatedTarget)) setEditor({ quickAdd: null });
+      }}
+    >
+      <input
+        className={classes['input']}
+        ref={(input) => {
+          input?.focus({ preventScroll: true });
+        }}
+        role="combobox"
+        aria-expanded="true"
+        aria-controls="quick-add-list"
+        aria-activedescendant={count > 0 ? `quick-add-${active}` : undefined}
+        aria-label={t(`quickAdd.${request.goal.does}`)}
+        placeholder={t(`quickAdd.${request.goal.does}`)}
+        value={search}
+        onChange={(event) => {
+          setSearch(event.currentTarget.value);
+          setIndex(0);
+        }}
+        onKeyDown={(event) => {
+          event.stopPropagation();
+          if (event.key === 'Escape') close();
+          else if (event.key === 'Enter' || event.key === 'Tab') {
+            event.preventDefault();
+            choose(active);
+          } else if (event.key === 'ArrowDown') {
+            event.preventDefault();
+            setIndex((active + 1) % Math.max(1, count));
+          } else if (event.key === 'ArrowUp') {
+            event.preventDefault();
+            setIndex((active + count - 1) % Math.max(1, count));
+          }
+        }}
+      />
+      <ul
+        className={classes['list']}
+        id="quick-add-list"
+        role="listbox"
+        ref={list}
+        aria-label={t('quickAdd.list')}
+      >
+        {found.map((choice, at) => (
+          <ChoiceRow
+            key={`${choice.kind.type}/${choice.kind.tree ?? ''}`}
+            id={`quick-add-${at}`}
+            choice={choice}
+            isActive={at === active}
+            onChoose={() => {
+              choose(at);
+            }}
+          />
+        ))}
+        {canCreate && (
+          <li
+            id={`quick-add-${found.length}`}
+            role="option"
+            aria-selected={active === found.length}
+            className={classes['row']}
+          >
+            <button
+              type="button"
+              tabIndex={-1}
+              className={classes['choice']}
+              onPointerDown={(event) => {
+                event.preventDefault();
+                choose(found.length);
+              }}
+            >
+              <span className={classes['create']}>
+                <IconPlus size={16} aria-hidden="true" />
+              </span>
+              <span className={classes['label']}>{t('quickAdd.create', { name: search })}</span>
+            </button>
+          </li>
+        )}
+        {count === 0 && <li className={classes['nothing']}>{t('quickAdd.nothing')}</li>}
+      </ul>
+      <div className={classes['keys']} aria-hidden="true">
+        {t('quickAdd.keys')}
+      </div>
+    </div>
+  );
+}

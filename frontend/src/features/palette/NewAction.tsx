@@ -1,0 +1,64 @@
+import { Button, Group, SegmentedControl, TextInput } from '@mantine/core';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { createAction, type ActionKind } from '@/store/project/actionTemplate';
+import { openAction } from '@/store/project/navigation';
+import { useProjectStore } from '@/store/project';
+import classes from './Palette.module.css';
+
+/** Names a new action; its file is made from a template and opened. */
+export function NewAction({ onDone }: { readonly onDone: () => void }) {
+  const { t } = useTranslation('palette');
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const [name, setName] = useState('');
+  const [kind, setKind] = useState<ActionKind>('Action');
+  const isTaken = vocabulary.specs.has(name);
+  const isValid = /^[A-Za-z_]\w*$/.test(name) && !isTaken;
+  return (
+    <form
+      className={classes['form']}
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (!isValid) return;
+        createAction(name, kind);
+        openAction(name);
+        onDone();
+      }}
+    >
+      <TextInput
+        size="xs"
+        label={t('name')}
+        description={t('nameHint')}
+        value={name}
+        error={isTaken ? t('taken') : undefined}
+        data-autofocus
+        ref={(input) => {
+          if (input && document.activeElement === document.body) input.focus();
+        }}
+        onChange={(event) => {
+          setName(event.currentTarget.value);
+        }}
+      />
+      <SegmentedControl
+        size="xs"
+        aria-label={t('kind')}
+        value={kind}
+        onChange={(value) => {
+          setKind(value as ActionKind);
+        }}
+        data={[
+          { value: 'Action', label: t('kindAction') },
+          { value: 'Condition', label: t('kindCondition') },
+        ]}
+      />
+      <Group gap="xs" justify="flex-end">
+        <Button size="compact-xs" variant="default" onClick={onDone}>
+          {t('cancel')}
+        </Button>
+        <Button size="compact-xs" type="submit" disabled={!isValid}>
+          {t('create')}
+        </Button>
+      </Group>
+    </form>
+  );
+}

@@ -1,0 +1,81 @@
+import { ActionIcon, TextInput, Tooltip } from '@mantine/core';
+import { IconPlus, IconSearch } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { allChoices, matchScore, type Choice } from '@/model/choices';
+import { useProjectStore } from '@/store/project';
+import { NewAction } from './NewAction';
+import { PaletteGroup } from './PaletteGroup';
+import classes from './Palette.module.css';
+
+const GROUPS = ['action', 'condition', 'control', 'decorator', 'subtree', 'builtin'] as const;
+type Group = (typeof GROUPS)[number];
+
+function groupOf({ spec }: Choice): Group {
+  const isLeaf = spec.family === 'action' || spec.family === 'condition';
+  return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
+}
+
+/** Every block there is, by family: the user's own first. */
+export function Palette() {
+  const { t } = useTranslation('palette');
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? ''] ?? null);
+  const [search, setSearch] = useState('');
+  const [isNaming, setIsNaming] = useState(false);
+  const choices = useMemo(() => allChoices(diagram, vocabulary), [diagram, vocabulary]);
+  const shown = choices.filter(
+    (choice) =>
+      matchScore(choice.label, search.trim()) > 0 ||
+      (search.length > 2 && choice.spec.summary.toLowerCase().includes(search.toLowerCase())),
+  );
+  return (
+    <section className={classes['palette']} aria-label={t('label')} data-testid="palette">
+      <div className={classes['head']}>
+        <TextInput
+          size="xs"
+          className={classes['search'] ?? ''}
+          leftSection={<IconSearch size={14} aria-hidden="true" />}
+          placeholder={t('search')}
+          aria-label={t('search')}
+          value={search}
+          onChange={(event) => {
+            setSearch(event.currentTarget.value);
+          }}
+        />
+        <Tooltip label={t('newAction')}>
+          <ActionIcon
+            aria-label={t('newAction')}
+            data-testid="new-action"
+            size={30}
+            onClick={() => {
+              setIsNaming(true);
+            }}
+          >
+            <IconPlus size={17} aria-hidden="true" />
+          </ActionIcon>
+        </Tooltip>
+      </div>
+      {isNaming && (
+        <NewAction
+          onDone={() => {
+            setIsNaming(false);
+          }}
+        />
+      )}
+      <div className={classes['groups']}>
+        {GROUPS.map((group) => (
+          <PaletteGroup
+            key={group}
+            title={t(`families.${group}`)}
+            choices={shown.filter((choice) => groupOf(choice) === group)}
+            isSearching={search !== ''}
+            {...(group === 'action' ? { empty: t('noActions') } : {})}
+          />
+        ))}
+        {shown.length === 0 && <p className={classes['nothing']}>{t('nothing')}</p>}
+      </div>
+      <p className={classes['hint']}>{t('hint')}</p>
+    </section>
+  );
+}

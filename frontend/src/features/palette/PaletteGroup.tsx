@@ -1,0 +1,44 @@
+import { IconChevronRight } from '@tabler/icons-react';
+import { useState } from 'react';
+import type { Choice } from '@/model/choices';
+import { PaletteItem } from './PaletteItem';
+import classes from './Palette.module.css';
+
+interface PaletteGroupProps {
+  readonly title: string;
+  readonly choices: readonly Choice[];
+  readonly isSearching: boolean;
+  /** Said in place of the blocks when there are none and nothing is searched. */
+  readonly empty?: string;
+}
+
+/** One family of the palette; it can be folded, but a search opens it. */
+export function PaletteGroup({ title, choices, isSearching, empty }: PaletteGroupProps) {
+  const [isOpen, setIsOpen] = useState(true);
+  if (choices.length === 0 && (empty === undefined || isSearching)) return null;
+  const open = isOpen || isSearching;
+  return (
+    <div className={classes['group']}>
+      <button
+        type="button"
+        className={classes['groupTitle']}
+        aria-expanded={open}
+        onClick={() => {
+          setIsOpen(!isOpen);
+        }}
+      >
+        <IconChevronRight size={13} aria-hidden="true" />
+        {title}
+        <span className={classes['count']}>{choices.length}</span>
+      </button>
+      {open && (
+        <div className={classes['items']}>
+          {choices.map((choice) => (
+            <PaletteItem key={`${choice.kind.type}/${choice.kind.tree ?? ''}`} choice={choice} />
+          ))}
+          {choices.length === 0 && <p className={classes['nothing']}>{empty}</p>}
+        </div>
+      )}
+    </div>
+  );
+}

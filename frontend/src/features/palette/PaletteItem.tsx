@@ -1,0 +1,45 @@
+import { Tooltip } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import type { Choice } from '@/model/choices';
+import { addHere } from '@/store/project/commands';
+import { setEditor } from '@/store/project/editor';
+import { FamilyTile } from '@/ui/FamilyTile';
+import classes from './Palette.module.css';
+
+/** A block to be: drag it onto the tree, or click to add it where it fits. */
+export function PaletteItem({ choice }: { readonly choice: Choice }) {
+  const { t } = useTranslation('palette');
+  const { kind, spec, label } = choice;
+  return (
+    <Tooltip
+      label={spec.summary}
+      disabled={spec.summary === ''}
+      position="right"
+      openDelay={500}
+      multiline
+      maw={280}
+    >
+      <button
+        type="button"
+        className={classes['item']}
+        draggable
+        data-testid={`palette-${kind.tree ?? kind.type}`}
+        aria-label={t('add', { name: label })}
+        onClick={() => {
+          addHere(kind);
+        }}
+        onDragStart={(event) => {
+          event.dataTransfer.effectAllowed = 'copy';
+          event.dataTransfer.setData('text/plain', label);
+          setEditor({ dragged: kind });
+        }}
+        onDragEnd={() => {
+          setEditor({ dragged: null, slot: null });
+        }}
+      >
+        <FamilyTile type={spec.type} family={spec.family} size={22} />
+        <span className={classes['itemName']}>{label}</span>
+      </button>
+    </Tooltip>
+  );
+}

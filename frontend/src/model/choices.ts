@@ -1,0 +1,80 @@
+import type { Diagram } from './diagram';
+import { canMorph, canWrapIn, isKindLegal, type Kind } from './rules';
+import type { NodeSpec, Vocabulary } from './vocabulary';
+
+/** A kind of block that can be chosen, with what is known about it. */
+export interface Choice {
+  readonly kind: Kind;
+  readonly spec: NodeSpec;
+  readonly label: string;
+}
+
+/** Every kind of block that this tree may contain: built-ins, actions, and subtrees by their names. */
+export function allChoices(diagram: Diagram | null, vocabulary: Vocabulary): Choice[] {
+  const choices: Choice[] = [];
+  for (const spec of vocabulary.specs.values()) {
+    if (spec.type === 'SubTree') continue;
+    choices.push({ kind: { type: spec.type }, spec, label: spec.type });
+  }
+  const subtree = vocabulary.specs.get('SubTree');
+  if (subtree && diagram) {
+    for (const tree of vocabulary.trees.keys()) {
+      const kind = { type: 'SubTree', tree };
+      if (isKindLegal(diagram, kind, vocabulary)) choices.push({ kind, spec: subtree, label: tree });
+    }
+  }
+  return choices;
+}
+
+export type Purpose =
+  | { readonly for: 'add' }
+  | { readonly for: 'wrap'; readonly count: number }
+  | { readonly for: 'morph'; readonly node: string };
+
+/** Whether a choice serves the purpose. */
+export function suits(choice: Choice, diagram: Diagram, purpose: Purpose): boolean {
+  switch (purpose.for) {
+    case 'add':
+      return true;
+    case 'wrap':
+      return canWrapIn(choice.spec) && purpose.count <= choice.spec.maxChildren;
+    case 'morph':
+      return canMorph(diagram, purpose.node, choice.spec);
+  }
+}
+
+/** How well a text matches a search, 0 for not at all: start, word start, capitals, inside, letters in order. */
+export function matchScore(text: string, search: string): number {
+  if (search === '') return 1;
+  const [hay, needle] = [text.toLowerCase(), search.toLowerCase()];
+  if (hay === needle) return 6;
+  if (hay.startsWith(needle)) return 5;
+  const capitals = text.replace(/[^A-Z0-9]/g, '').toLowerCase();
+  if (capitals.startsWith(needle)) return 4;
+  if (hay.includes(needle)) return 3;
+  let at = 0;
+  for (const letter of hay) if (letter === needle[at]) at += 1;
+  return at === needle.length ? 2 : 0;
+}
+
+const FAMILY_ORDER = ['action', 'condition', 'control', 'decorator', 'subtree'] as const;
+
+/** The user's own actions first, then by family, in the order of the catalogue. */
+export function searchChoices(choices: readonly Choice[], search: string): Choice[] {
+  return choices
+    .map((choice, index) => {
+      const named = matchScore(choice.label, search);
+      const told =
+        search.length > 2 && choice.spec.summary.toLowerCase().includes(search.toLowerCase()) ? 1 : 0;
+      return { choice, index, score: Math.max(named * 2, told) };
+    })
+    .filter(({ score }) => score > 0)
+    .sort(
+      (a, b) =>
+        b.score - a.score ||
+        Number(b.choice.spec.source === 'action') - Number(a.choice.spec.source === 'action') ||
+        FAMILY_ORDER.indexOf(a.choice.spec.family) - FAMILY_ORDER.indexOf(b.choice.spec.family) ||
+        a.index - b.index,
+    )
+    .map(({ choice }) => choice);
+}

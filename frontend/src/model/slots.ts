@@ -1,0 +1,153 @@
+import { childrenOf, subtreeOf, type Diagram, type NodeId } from './diagram';
+import { visibleChildren, type Box, type Layout } from './layout';
+import { acceptsChild } from './rules';
+import type { Vocabulary } from './vocabulary';
+
+/** A place under a parent where a dragged block may be dropped, and the mark that shows it. */
+export interface Slot {
+  readonly parent: NodeId;
+  /** Counts the children as they are before the drop. */
+  readonly index: number;
+  /** `between`: a bar between siblings; `onto`: the parent itself is marked. */
+  readonly kind: 'between' | 'onto';
+  readonly mark: Box;
+}
+
+const REACH = { along: 48, across: 30, below: 84 } as const;
+
+const transposed = (box: Box): Box => ({ x: box.y, y: box.x, width: box.height, height: box.width });
+
+interface Query {
+  readonly diagram: Diagram;
+  readonly layout: Layout;
+  readonly vocabulary: Vocabulary;
+  /** The block that is moved with all below it; absent for a new one. */
+  readonly moving?: NodeId | undefined;
+}
+
+/** The work is done for a top-down layout; left-right is the same with the axes exchanged. */
+interface Field {
+  readonly boxOf: (id: NodeId) => Box | undefined;
+  readonly accepts: (id: NodeId) => boolean;
+  readonly siblings: (id: NodeId) => readonly NodeId[];
+  readonly parents: readonly NodeId[];
+  readonly diagram: Diagram;
+}
+
+function indexAt(field: Field, siblings: readonly NodeId[], x: number): number {
+  const before = siblings.filter((id) => {
+    const box = field.boxOf(id);
+    return box !== undefined && box.x + box.width / 2 < x;
+  });
+  return before.length;
+}
+
+function slotBetween(field: Field, parent: NodeId, x: number): Slot | null {
+  const siblings = field.siblings(parent);
+  const index = indexAt(field, siblings, x);
+  const left = field.boxOf(siblings[index - 1] ?? '');
+  const right = field.boxOf(siblings[index] ?? '');
+  if (!left && !right) return null;
+  const at =
+    left && right
+      ? (left.x + left.width + right.x) / 2
+      : left
+        ? left.x + left.width + 12
+        : (right?.x ?? 0) - 12;
+  const tops = [left, right].filter((box) => box !== undefined);
+  const y = Math.min(...tops.map((box) => box.y)) - 4;
+  const bottom = Math.max(...tops.map((box) => box.y + box.height)) + 4;
+  // The index is among the shown siblings; the moved block itself is not shown.
+  const next = siblings[index];
+  const all = childrenOf(field.diagram, parent);
+  return {
+    parent,
+    index: next === undefined ? all.length : all.indexOf(next),
+    kind: 'between',
+    mark: { x: at - 2, y, width: 4, height: bottom - y },
+  };
+}
+
+function slotOnto(field: Field, parent: NodeId): Slot | null {
+  const box = field.boxOf(parent);
+  if (!box || !field.accepts(parent)) return null;
+  return { parent, index: childrenOf(field.diagram, parent).length, kind: 'onto', mark: box };
+}
+
+const inside = (box: Box, x: number, y: number): boolean =>
+  x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+
+/** On a block: its middle takes the block as a child, its sides put it beside. */
+function slotOnBlock(field: Field, id: NodeId, parent: NodeId | undefined, x: number): Slot | null {
+  const box = field.boxOf(id);
+  if (!box) return null;
+  const side = Math.abs(x - (box.x + box.width / 2)) > box.width / 4;
+  const beside = parent !== undefined && field.accepts(parent) ? slotBetween(field, parent, x) : null;
+  const onto = slotOnto(field, id);
+  return side ? (beside ?? onto) : (onto ?? beside);
+}
+
+function rowDistance(field: Field, parent: NodeId, x: number, y: number): number {
+  const boxes = field
+    .siblings(parent)
+    .map(field.boxOf)
+    .filter((box) => box !== undefined);
+  if (boxes.length === 0) return Infinity;
+  const left = Math.min(...boxes.map((box) => box.x)) - REACH.along;
+  const right = Math.max(...boxes.map((box) => box.x + box.width)) + REACH.along;
+  const top = Math.min(...boxes.map((box) => box.y)) - REACH.across;
+  const bottom = Math.max(...boxes.map((box) => box.y + Math.min(box.height, 60))) + REACH.across;
+  if (x < left || x > right || y < top || y > bottom) return Infinity;
+  return Math.abs(y - (top + bottom) / 2);
+}
+
+function findSlot(field: Field, ids: readonly NodeId[], x: number, y: number): Slot | null {
+  for (const id of ids) {
+    const box = field.boxOf(id);
+    if (box && inside(box, x, y)) {
+      const parent = field.parents.find((each) => field.siblings(each).includes(id));
+      return slotOnBlock(field, id, parent, x);
+    }
+  }
+  let best: NodeId | null = null;
+  let distance = Infinity;
+  for (const parent of field.parents) {
+    const found = field.accepts(parent) ? rowDistance(field, parent, x, y) : Infinity;
+    if (found < distance) [best, distance] = [parent, found];
+  }
+  if (best !== null) return slotBetween(field, best, x);
+  for (const id of ids) {
+    const box = field.boxOf(id);
+    if (!box || field.siblings(id).length > 0) continue;
+    if (inside({ ...box, height: box.height + REACH.below }, x, y)) return slotOnto(field, id);
+  }
+  return null;
+}
+
+/** Where a block that is dragged to this point would be put, or null for nowhere in the tree. */
+export function slotAt({ diagram, layout, vocabulary, moving }: Query, x: number, y: number): Slot | null {
+  const hidden = new Set(moving === undefined ? [] : subtreeOf(diagram, moving));
+  const ids = Object.keys(layout.positions).filter((id) => !hidden.has(id));
+  const vertical = diagram.layout === 'vertical';
+  const boxOf = (id: NodeId): Box | undefined => {
+    const box = layout.positions[id];
+    return box && (vertical ? box : transposed(box));
+  };
+  const siblings = (id: NodeId): readonly NodeId[] =>
+    visibleChildren(diagram, id).filter((child) => !hidden.has(child));
+  const field: Field = {
+    boxOf,
+    siblings,
+    diagram,
+    accepts: (id) => acceptsChild(diagram, id, vocabulary, moving),
+    parents: ids.filter((id) => siblings(id).length > 0),
+  };
+  const slot = vertical ? findSlot(field, ids, x, y) : findSlot(field, ids, y, x);
+  return slot && (vertical ? slot : { ...slot, mark: transposed(slot.mark) });
+}
+
+/** Whether dropping the block into the slot would leave it where it is. */
+export function isSamePlace(diagram: Diagram, moving: NodeId, slot: Slot): boolean {
+  const at = childrenOf(diagram, slot.parent).indexOf(moving);
+  return at >= 0 && (slot.index === at || slot.index === at + 1);
+}

@@ -1,0 +1,45 @@
+import { create } from 'zustand';
+import type { NodeId } from '@/model/diagram';
+import type { Kind, Placement } from '@/model/rules';
+import type { Slot } from '@/model/slots';
+
+/** What choosing a type in the quick-add box does. */
+export type QuickAddGoal =
+  | { readonly does: 'add'; readonly place: Placement }
+  | { readonly does: 'wrap'; readonly nodes: readonly NodeId[] }
+  | { readonly does: 'morph'; readonly node: NodeId };
+
+export interface QuickAdd {
+  readonly tree: string;
+  readonly goal: QuickAddGoal;
+  /** In pixels of the window: where the box opens. */
+  readonly x: number;
+  readonly y: number;
+  readonly text: string;
+}
+
+interface EditorState {
+  readonly quickAdd: QuickAdd | null;
+  /** The block whose name or comment is being typed on the canvas. */
+  readonly editing: { readonly node: NodeId; readonly field: 'name' | 'comment' } | null;
+  /** A new block on its way from the palette. */
+  readonly dragged: Kind | null;
+  readonly slot: Slot | null;
+  readonly find: boolean;
+  readonly minimap: boolean;
+  /** The view moves to the running leaf. */
+  readonly followRunning: boolean;
+}
+
+/** What the editor is busy with: nothing of it is saved or undone. */
+export const useEditorStore = create<EditorState>()(() => ({
+  quickAdd: null,
+  editing: null,
+  dragged: null,
+  slot: null,
+  find: false,
+  minimap: true,
+  followRunning: false,
+}));
+
+export const setEditor = useEditorStore.setState;

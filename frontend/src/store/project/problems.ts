@@ -1,0 +1,87 @@
+import type { Diagnostic } from '@/api/types';
+import type { Diagram, NodeId } from '@/model/diagram';
+import { findProblems, type Problem, type Severity } from '@/model/problems';
+import type { Vocabulary } from '@/model/vocabulary';
+
+/** A finding of the editor's own checks, told at once, or of the server's, told after a save. */
+export type ShownProblem =
+  | ({ readonly source: 'editor' } & Problem)
+  | {
+      readonly source: 'server';
+      readonly severity: Severity;
+      readonly node: NodeId | null;
+      readonly port?: string;
+      readonly code: string;
+      readonly message: string;
+      readonly hint: string;
+    };
+
+/** The server's codes for what `findProblems` finds too (translator/diagnostics.json). */
+export const CODES: Readonly<Record<Problem['kind'], readonly string[]>> = {
+  'empty-tree': ['BT0101', 'BT0115'],
+  'unknown-type': ['BT0102', 'BT0111', 'BT0112'],
+  'too-few-children': ['BT0104'],
+  'too-many-children': ['BT0104'],
+  'missing-tree': ['BT0501'],
+  'unknown-tree': ['BT0501'],
+  recursion: ['BT0502'],
+  'missing-port': ['BT0201'],
+  'unknown-port': ['BT0202'],
+  'unclosed-brace': ['BT0203'],
+  'empty-key': ['BT0207'],
+  'output-literal': ['BT0205'],
+  'wrong-type': ['BT0204'],
+  draft: ['BT0103'],
+};
+
+const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
+  `${code} ${node ?? ''} ${port ?? ''}`;
+
+const RANK: Record<Severity, number> = { error: 2, warning: 1, note: 0 };
+
+const found = new WeakMap<Diagram, { vocabulary: Vocabulary; problems: readonly Problem[] }>();
+
+function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem[] {
+  const known = found.get(diagram);
+  if (known?.vocabulary === vocabulary) return known.problems;
+  const problems = findProblems(diagram, vocabulary);
+  found.set(diagram, { vocabulary, problems });
+  return problems;
+}
+
+/** All findings about one tree, the editor's first; what both found is told once. */
+export function problemsOf(
+  diagram: Diagram,
+  vocabulary: Vocabulary,
+  diagnostics: readonly Diagnostic[],
+): ShownProblem[] {
+  const own = ownProblems(diagram, vocabulary).map((problem) => ({ source: 'editor', ...problem }) as const);
+  const told = new Set(
+    own.flatMap((problem) => CODES[problem.kind].map((code) => placeOf(code, problem.node, problem.port))),
+  );
+  const server = diagnostics
+    .filter((each) => each.tree === diagram.id)
+    .filter((each) => !told.has(placeOf(each.code, each.node || null, each.port || undefined)))
+    .filter((each) => !each.node || each.node in diagram.nodes)
+    .map((each) => ({
+      source: 'server' as const,
+      severity: each.severity,
+      node: each.node || null,
+      ...(each.port ? { port: each.port } : {}),
+      code: each.code,
+      message: each.message,
+      hint: each.hint ?? '',
+    }));
+  return [...own, ...server];
+}
+
+/** The worst finding of each node. */
+export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
+  const worst = new Map<NodeId, ShownProblem>();
+  for (const problem of problems) {
+    if (problem.node === null) continue;
+    const other = worst.get(problem.node);
+    if (!other || RANK[problem.severity] > RANK[other.severity]) worst.set(problem.node, problem);
+  }
+  return worst;
+}

@@ -1,0 +1,30 @@
+import type { Family } from '@/model/vocabulary';
+
+const n = (value: number) => Math.round(value * 10) / 10;
+
+function roundedRect(width: number, height: number, radius: number, inset: number): string {
+  const r = Math.min(radius, height / 2 - inset, width / 2 - inset);
+  const [l, t, right, b] = [inset, inset, n(width - inset), n(height - inset)];
+  return `M${l + r} ${t}H${right - r}A${r} ${r} 0 0 1 ${right} ${t + r}V${b - r}A${r} ${r} 0 0 1 ${right - r} ${b}H${l + r}A${r} ${r} 0 0 1 ${l} ${b - r}V${t + r}A${r} ${r} 0 0 1 ${l + r} ${t}Z`;
+}
+
+function chamfered(width: number, height: number, cut: number, inset: number): string {
+  const [l, t, r, b] = [inset, inset, n(width - inset), n(height - inset)];
+  return `M${l + cut} ${t}H${r - cut}L${r} ${t + cut}V${b - cut}L${r - cut} ${b}H${l + cut}L${l} ${b - cut}V${t + cut}Z`;
+}
+
+/** The outline that tells families apart without colour: of a block, a palette row, a legend. */
+export function outline(family: Family | null, width: number, height: number, inset = 1): string {
+  switch (family) {
+    case 'condition':
+      return roundedRect(width, height, 22, inset);
+    case 'decorator':
+      return chamfered(width, height, 11, inset);
+    case 'action':
+      return roundedRect(width, height, 5, inset);
+    case 'control':
+    case 'subtree':
+    case null:
+      return roundedRect(width, height, 11, inset);
+  }
+}

@@ -1,0 +1,38 @@
+"""Behaviour trees with the semantics of BehaviorTree.CPP 4, on py_trees behaviours.
+
+```python
+from tree_gardener import Status, Tree
+
+tree = Tree.from_xml(text, nodes={"Forward": Forward})
+tree.setup(node=ros_node)
+while tree.tick_once() is Status.RUNNING:
+    ...
+```
+"""
+
+from tree_gardener.clock import ManualClock, SystemClock
+from tree_gardener.errors import Diagnostic, LoadError, PortError, ScriptError, TickError
+from tree_gardener.observe import BlackboardChange, TickChanges
+from tree_gardener.ports import Port, get_input, set_output
+from tree_gardener.status import Status
+from tree_gardener.tree import Tree
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "BlackboardChange",
+    "Diagnostic",
+    "LoadError",
+    "ManualClock",
+    "Port",
+    "PortError",
+    "ScriptError",
+    "Status",
+    "SystemClock",
+    "TickChanges",
+    "TickError",
+    "Tree",
+    "__version__",
+    "get_input",
+    "set_output",
+]

@@ -1,0 +1,105 @@
+"""Makes classes of the sources of actions: from a folder, or from the ``<Code>`` of a self-contained document."""
+
+import linecache
+import pathlib
+import sys
+import types
+from collections.abc import Mapping
+from typing import Any, Final
+
+from tree_gardener import tree_tools
+from tree_gardener.errors import Diagnostic, LoadError, describe
+
+PACKAGE: Final = "actions"
+
+
+def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, type[Any]]:
+    """Runs the sources of actions and gives their classes by name.
+
+    Each source is compiled as ``actions/<Name>.py``, whatever it came from, so that tracebacks name the file that the
+    user knows. A source of a folder may import its neighbours as ``actions.<Name>`` or by their bare name.
+
+    Args:
+        sources: Python source by action, or a folder with one ``<Name>.py`` for each action.
+
+    Raises:
+        LoadError: a source does not compile, raises when it runs, or has no class of its name.
+    """
+    if not isinstance(sources, Mapping):
+        folder = pathlib.Path(sources)
+        sources = {
+            path.stem: path.read_text(encoding="utf-8")
+            for path in sorted(folder.glob("*.py"))
+            if path.stem != "__init__"
+        }
+    tree_tools.install()
+    loader = _Loader(sources)
+    classes = {}
+    problems = []
+    for name in sources:
+        try:
+            classes[name] = loader.load(name)
+        except LoadError as error:
+            problems += error.diagnostics
+    if problems:
+        raise LoadError(problems)
+    return classes
+
+
+class _Loader:
+    """Loads a set of actions that may import one another."""
+
+    def __init__(self, sources: Mapping[str, str]) -> None:
+        self.sources = sources
+        self.package = types.ModuleType(PACKAGE)
+        self.package.__path__ = []
+        sys.modules[PACKAGE] = self.package
+        for name in sources:
+            sys.modules.pop(f"{PACKAGE}.{name}", None)
+
+    def load(self, name: str) -> type[Any]:
+        """Runs one source, unless another one imported it already."""
+        module = sys.modules.get(f"{PACKAGE}.{name}") or self.execute(name)
+        cls = getattr(module, name, None)
+        if not isinstance(cls, type):
+            hint = f"write: class {name}(py_trees.behaviour.Behaviour)"
+            raise LoadError([_problem(name, "TG611", f"actions/{name}.py has no class {name}", hint)])
+        return cls
+
+    def execute(self, name: str) -> types.ModuleType:
+        """Compiles and runs one source."""
+        filename, source = f"{PACKAGE}/{name}.py", self.sources[name]
+        module = types.ModuleType(f"{PACKAGE}.{name}")
+        module.__file__ = filename
+        # The file need not exist: tracebacks and debuggers get the lines from here.
+        linecache.cache[filename] = (len(source), None, source.splitlines(keepends=True), filename)
+        try:
+            code = compile(source, filename, "exec")
+        except (SyntaxError, ValueError) as error:
+            line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
+            message = getattr(error, "msg", None) or str(error)
+            raise LoadError([_problem(name, "TG612", f"Python cannot read it: {message}", "", line, column)]) from None
+        sys.modules[module.__name__] = module
+        setattr(self.package, name, module)
+        try:
+            exec(code, module.__dict__)  # noqa: S102 - running the user's actions is what this is for
+        except Exception as error:
+            del sys.modules[module.__name__]
+            raise LoadError([_raised(name, filename, error)]) from error
+        return module
+
+
+def _problem(name: str, code: str, message: str, hint: str, line: int = 1, column: int = 1) -> Diagnostic:
+    return Diagnostic(code, message, hint, file=f"{PACKAGE}/{name}.py", line=line, column=column, node=name)
+
+
+def _raised(name: str, filename: str, error: Exception) -> Diagnostic:
+    line, trace = 0, error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == filename:
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    hint = ""
+    if isinstance(error, ModuleNotFoundError):
+        hint = f"install the package that provides '{error.name}', or correct the import"
+    return _problem(name, "TG613", describe(error), hint, line)

@@ -1,0 +1,228 @@
+"""The blackboard: typed entries in a hierarchy of scopes, one scope for each SubTree.
+
+A name is looked up in its own scope first; if it is not there, the SubTree's remapping (or ``_autoremap``) leads to
+another name in the caller's scope. This happens at every access, so that the outer entry may appear later.
+"""
+
+from collections.abc import Callable, Iterator, MutableMapping
+from typing import Any, Final
+
+from tree_gardener.errors import PortError
+from tree_gardener.values import ANY, STRING, ConversionError, ValueType, type_name_of
+
+
+class _Empty:
+    """The value of an entry that was declared and never written."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "EMPTY"
+
+    def __bool__(self) -> bool:
+        return False
+
+
+EMPTY: Final = _Empty()
+
+
+class Entry:
+    """One value on the blackboard.
+
+    Attributes:
+        board: the scope that stores it.
+        key: its name there.
+        type: None while anything may be written (made by a script); ``ANY`` is such a type, too.
+        value: EMPTY until it is written.
+        sequence: the number of writes.
+    """
+
+    __slots__ = ("board", "key", "sequence", "type", "value")
+
+    def __init__(self, board: "Blackboard", key: str, kind: ValueType | None) -> None:
+        self.board = board
+        self.key = key
+        self.type = kind
+        self.value: Any = EMPTY
+        self.sequence = 0
+
+    @property
+    def is_strong(self) -> bool:
+        """Whether the entry refuses values of other types."""
+        return self.type is not None and self.type.is_strong
+
+    @property
+    def type_name(self) -> str:
+        """The declared type, else that of the value, else ``empty``."""
+        if self.value is EMPTY:
+            return "empty"
+        return self.type.name if self.type is not None and self.type.is_strong else type_name_of(self.value)
+
+    def write(self, value: Any, writer: int = 0) -> None:
+        """Stores a value as it is; `writer` is the uid of the node that writes, 0 for none."""
+        self.value = value
+        self.sequence += 1
+        journal = self.board.journal
+        if journal is not None:
+            journal(self, writer)
+
+
+Journal = Callable[[Entry, int], None]
+
+
+class Blackboard(MutableMapping[str, Any]):
+    """The entries of one scope, and the way to those of the scopes round it.
+
+    As a mapping it reads and writes by name, through all remappings.
+    """
+
+    __slots__ = ("autoremap", "entries", "journal", "locate", "parent", "remapping", "root", "scopes")
+
+    def __init__(self, parent: "Blackboard | None" = None) -> None:
+        self.parent = parent
+        self.root: Blackboard = self if parent is None else parent.root
+        self.entries: dict[str, Entry] = {}
+        self.remapping: dict[str, str] = {}
+        self.autoremap = False
+        self.journal: Journal | None = None if parent is None else parent.journal
+        self.locate: Callable[[], str] = str
+        self.scopes: Callable[[str], Blackboard] | None = None
+
+    @property
+    def path(self) -> str:
+        """Path of the SubTree that the scope belongs to; "" for the root's."""
+        return self.locate()
+
+    def scope(self, path: str) -> "Blackboard":
+        """The scope of the SubTree with this path.
+
+        Raises:
+            KeyError: no SubTree has this path.
+        """
+        if not path:
+            return self.root
+        if self.root.scopes is None:
+            raise KeyError(path)
+        return self.root.scopes(path)
+
+    def find(self, key: str) -> Entry | None:
+        """The entry that a name in this scope stands for, or None."""
+        board = self
+        while True:
+            if key[:1] == "@":
+                board, key = board.root, key[1:]
+            entry = board.entries.get(key)
+            if entry is not None:
+                return entry
+            parent = board.parent
+            if parent is None:
+                return None
+            outer = board.remapping.get(key)
+            if outer is not None:
+                key = outer
+            elif not board.autoremap or key[:1] == "_":
+                return None
+            board = parent
+
+    def create(self, key: str, kind: ValueType | None) -> Entry:
+        """Declares an entry, where the remapping says; gives the existing one if there is one.
+
+        Raises:
+            PortError: it exists with another type.
+        """
+        board = self
+        if key.count("@") > 1 and key.startswith("@"):
+            raise PortError(f"'@' is used more than once in the name '{key}'")
+        while True:
+            if key[:1] == "@":
+                board, key = board.root, key[1:]
+            entry = board.entries.get(key)
+            if entry is not None:
+                if kind is not None and kind.is_strong and entry.is_strong and entry.type is not kind:
+                    assert entry.type is not None
+                    raise PortError(
+                        f"entry '{key}' was declared as {entry.type.name} and is used as {kind.name} now"
+                    )
+                return entry
+            outer = board.remapping.get(key)
+            if board.parent is None or (outer is None and (not board.autoremap or key[:1] == "_")):
+                entry = board.entries[key] = Entry(board, key, kind)
+                return entry
+            board, key = board.parent, key if outer is None else outer
+
+    def set(self, key: str, value: Any, kind: ValueType | None = None, writer: int = 0) -> None:
+        """Writes a value as a typed output port does; `kind` None or ANY is BT.CPP's ``set<Any>``.
+
+        Raises:
+            PortError: the entry has a type that the value does not convert to.
+        """
+        if key[:1] == "@":
+            if "@" in key[1:]:
+                raise PortError(f"'@' is used more than once in the name '{key}'")
+            self.root.set(key[1:], value, kind, writer)
+            return
+        entry = self.entries.get(key)
+        if entry is None:
+            # A string makes no typed entry, because constants of SubTrees come this way.
+            declared = None if kind is STRING or kind is ANY else kind
+            self.create(key, declared).write(value, writer)
+        else:
+            _assign(entry, value, kind, writer)
+
+    def unset(self, key: str, writer: int = 0) -> None:
+        """Removes an entry of this very scope, if there is one; names that lead elsewhere are not followed."""
+        entry = self.entries.pop(key, None)
+        if entry is not None and self.journal is not None:
+            self.journal(entry, writer)
+
+    def __getitem__(self, key: str) -> Any:
+        entry = self.find(key)
+        if entry is None or entry.value is EMPTY:
+            raise KeyError(key)
+        return entry.value
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        entry = self.find(key)
+        if entry is None:
+            entry = self.create(key, None)
+        elif entry.is_strong:
+            assert entry.type is not None
+            try:
+                value = entry.type.convert(value)
+            except ConversionError as error:
+                raise PortError(f"entry '{key}' is of type {entry.type.name}: {error}") from None
+        entry.write(value)
+
+    def __delitem__(self, key: str) -> None:
+        entry = self.find(key)
+        if entry is None:
+            raise KeyError(key)
+        entry.board.unset(entry.key)
+
+    def __contains__(self, key: object) -> bool:
+        entry = self.find(key) if isinstance(key, str) else None
+        return entry is not None and entry.value is not EMPTY
+
+    def __iter__(self) -> Iterator[str]:
+        return (key for key, entry in self.entries.items() if entry.value is not EMPTY)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+
+def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> None:
+    """Writes to an entry that exists in the very scope, as `kind`."""
+    declared = entry.type
+    if declared is None or not declared.is_strong:
+        entry.type = ANY if kind is None else kind
+    elif kind is not None and kind.is_strong and kind is not declared:
+        try:
+            # Numbers convert to numbers when nothing is lost, and a string is parsed; the rest is a mistake.
+            if kind is not STRING and isinstance(entry.value, str):
+                raise ConversionError(f"a value of type {kind.name} is not a string")
+            value = declared.parse(value) if kind is STRING else declared.convert(value)
+        except ConversionError as error:
+            raise PortError(
+                f"entry '{entry.key}' was declared as {declared.name} and is written as {kind.name}: {error}"
+            ) from None
+    entry.write(value, writer)

@@ -1,0 +1,73 @@
+"""The table of the built-in nodes, `catalog.json`, which engine, checks, documentation and front end share."""
+
+import dataclasses
+import functools
+import json
+import pathlib
+from typing import Any, Final
+
+from tree_gardener.ports import INOUT, NO_DEFAULT, OUTPUT, PortSpec
+from tree_gardener.values import value_type
+
+PATH: Final = pathlib.Path(__file__).with_name("catalog.json")
+
+
+@dataclasses.dataclass(frozen=True)
+class CatalogPort:
+    """A port of a built-in node; `default` is None if there is none."""
+
+    name: str
+    direction: str
+    type: str
+    default: str | None
+    required: bool
+    description: str
+    enum: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class CatalogNode:
+    """A built-in node; `max_children` is None if there may be any number."""
+
+    type: str
+    kind: str
+    symbol: str
+    min_children: int
+    max_children: int | None
+    ports: tuple[CatalogPort, ...]
+    summary: str
+    since: str
+
+    @functools.cached_property
+    def manifest(self) -> dict[str, PortSpec]:
+        """Its ports as the engine uses them."""
+        return {port.name: _spec(port) for port in self.ports}
+
+
+def _spec(port: CatalogPort) -> PortSpec:
+    default: Any = NO_DEFAULT if port.default is None else port.default
+    # Built-in nodes miss their ports when they are ticked, as in BT.CPP, never at load.
+    return PortSpec(port.name, port.direction, value_type(port.type), default, description=port.description)
+
+
+@functools.cache
+def load() -> dict[str, CatalogNode]:
+    """The built-in nodes by type, in the order of the catalogue."""
+    nodes = json.loads(PATH.read_text(encoding="utf-8"))["nodes"]
+    return {node["type"]: _node(node) for node in nodes}
+
+
+def _node(node: dict[str, Any]) -> CatalogNode:
+    ports = tuple(CatalogPort(**{**port, "enum": tuple(port.get("enum", ()))}) for port in node["ports"])
+    return CatalogNode(
+        type=node["type"],
+        kind=node["kind"],
+        symbol=node["symbol"],
+        min_children=node["children"]["min"],
+        max_children=node["children"]["max"],
+        ports=ports,
+        summary=node["summary"],
+        since=node["since"],
+    )
+
+

@@ -1,0 +1,95 @@
+"""Time, as an argument: clocks and the timers of a tree."""
+
+import heapq
+import itertools
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+
+class Clock(Protocol):
+    """Tells the time and waits."""
+
+    def now(self) -> float:
+        """Seconds since some fixed moment; never goes back."""
+
+    def sleep(self, duration_s: float) -> None:
+        """Waits."""
+
+
+class SystemClock:
+    """The computer's own time."""
+
+    def now(self) -> float:
+        """Seconds since some fixed moment."""
+        return time.monotonic()
+
+    def sleep(self, duration_s: float) -> None:
+        """Waits."""
+        time.sleep(duration_s)
+
+
+class ManualClock:
+    """Time that passes only when told, for tests and lock-step runs."""
+
+    def __init__(self, now_s: float = 0.0) -> None:
+        self._now_s = now_s
+
+    def now(self) -> float:
+        """Seconds since zero."""
+        return self._now_s
+
+    def sleep(self, duration_s: float) -> None:
+        """Lets the time pass at once."""
+        self._now_s += duration_s
+
+    advance = sleep
+
+
+class Timer:
+    """One call that is due at a time."""
+
+    __slots__ = ("callback", "deadline_s")
+
+    def __init__(self, deadline_s: float, callback: Callable[[], None]) -> None:
+        self.deadline_s = deadline_s
+        self.callback: Callable[[], None] | None = callback
+
+    def cancel(self) -> None:
+        """Makes the call not happen."""
+        self.callback = None
+
+
+class Timers:
+    """The timers of one tree. They fire when the tree looks at them: before each tick, and while it sleeps."""
+
+    __slots__ = ("_heap", "_order", "clock")
+
+    def __init__(self, clock: Clock) -> None:
+        self.clock = clock
+        self._heap: list[tuple[float, int, Timer]] = []
+        self._order = itertools.count()
+
+    def __bool__(self) -> bool:
+        return bool(self._heap)
+
+    def start(self, delay_s: float, callback: Callable[[], None]) -> Timer:
+        """Lets `callback` be called when `delay_s` is over."""
+        timer = Timer(self.clock.now() + delay_s, callback)
+        heapq.heappush(self._heap, (timer.deadline_s, next(self._order), timer))
+        return timer
+
+    def fire(self) -> None:
+        """Makes the calls that are due, in the order of their deadlines."""
+        # A tolerance, because seconds in floats do not add up: three ticks of 0.1 s are 0.30000000000000004 s.
+        now_s = self.clock.now() + 1e-9
+        while self._heap and self._heap[0][0] <= now_s:
+            callback = heapq.heappop(self._heap)[2].callback
+            if callback is not None:
+                callback()
+
+    def next_s(self) -> float | None:
+        """When the next call is due, or None."""
+        while self._heap and self._heap[0][2].callback is None:
+            heapq.heappop(self._heap)
+        return self._heap[0][0] if self._heap else None

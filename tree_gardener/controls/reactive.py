@@ -1,0 +1,74 @@
+"""ReactiveSequence and ReactiveFallback."""
+
+from tree_gardener.node import Control
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
+
+
+class _Reactive(Control):
+    """Ticks its children from the first at every tick."""
+
+    __slots__ = ()
+
+    def running_at(self, index: int) -> Status:
+        """A child is RUNNING: all others are halted, the earlier ones too, so that they start afresh."""
+        journal = self.journal
+        for position, child in enumerate(self.children):
+            if position != index and child.status is not IDLE:
+                if child.status is RUNNING:
+                    child.stop()
+                child.status = IDLE
+                if journal is not None and child.reported is not IDLE:
+                    journal(child)
+        return RUNNING
+
+
+class ReactiveSequence(_Reactive):
+    """A Sequence that ticks all its children from the first at every tick.
+
+    When one is RUNNING, all others are halted and it is RUNNING. When one fails, all are reset and it fails. A SKIPPED
+    child is halted at once; if all were skipped in this tick, it is SKIPPED, else SUCCESS.
+    """
+
+    __slots__ = ()
+
+    def execute(self) -> Status:
+        if self.status is not RUNNING:
+            self.start()
+        all_skipped = True
+        for index, tick in enumerate(self.ticks):
+            status = tick()
+            if status is SUCCESS:
+                all_skipped = False
+            elif status is RUNNING:
+                return self.running_at(index)
+            elif status is FAILURE:
+                return self.finish(FAILURE)
+            else:
+                self.reset_child(index)
+        return self.finish_skipped() if all_skipped else self.finish(SUCCESS)
+
+
+class ReactiveFallback(_Reactive):
+    """A Fallback that tries all its children from the first at every tick.
+
+    When one is RUNNING, all others are halted and it is RUNNING. When one succeeds, all are reset and it succeeds. A
+    SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else FAILURE.
+    """
+
+    __slots__ = ()
+
+    def execute(self) -> Status:
+        if self.status is not RUNNING:
+            self.start()
+        all_skipped = True
+        for index, tick in enumerate(self.ticks):
+            status = tick()
+            if status is FAILURE:
+                all_skipped = False
+            elif status is RUNNING:
+                return self.running_at(index)
+            elif status is SUCCESS:
+                return self.finish(SUCCESS)
+            else:
+                self.reset_child(index)
+        return self.finish_skipped() if all_skipped else self.finish(FAILURE)

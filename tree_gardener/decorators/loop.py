@@ -1,0 +1,80 @@
+"""LoopInt, LoopDouble, LoopString and LoopBool."""
+
+import collections
+from typing import Any
+
+from tree_gardener.blackboard import EMPTY
+from tree_gardener.errors import TickError
+from tree_gardener.node import Decorator
+from tree_gardener.ports import pointer_key
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
+from tree_gardener.values import ConversionError
+
+
+class Loop(Decorator):
+    """Ticks its child once for each element of a queue.
+
+    When the child is not RUNNING, one element is taken from `queue` and written to `value`; then the child is ticked.
+    FAILURE of the child ends the loop, all other results return RUNNING. When the queue is empty, `if_empty` is
+    returned, on the tick after the last element. A constant queue is copied when the loop starts, and so are lists and
+    texts on the blackboard; a ``collections.deque`` on the blackboard is consumed in place.
+    """
+
+    __slots__ = ("busy", "queue")
+
+    def prepare(self) -> None:
+        super().prepare()
+        self.busy = False
+        self.queue: collections.deque[Any] = collections.deque()
+
+    def execute(self) -> Status:
+        starts = self.status is IDLE
+        if starts:
+            self.busy = False
+        if not self.busy:
+            self.refill(starts)
+            if not self.queue:
+                return self.empty()
+            self.put("value", self.queue.popleft())
+        if self.status is not RUNNING:
+            self.start()
+        status = self.tick_child()
+        self.busy = status is RUNNING
+        if status is FAILURE:
+            return self.finish(FAILURE)
+        if status is SUCCESS:
+            self.reset()
+        return RUNNING
+
+    def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule
+        """Finds the queue to take the next element from."""
+        text = self.ports.get("queue", "")
+        key = pointer_key(text, "queue")
+        if key is None:
+            if starts:
+                self.queue = collections.deque(self.get("queue"))
+            return
+        entry = self.board.find(key)
+        if entry is None or entry.value is EMPTY:
+            raise TickError(self, f"port 'queue': the entry '{key}' has no value")
+        if isinstance(entry.value, collections.deque):
+            self.queue = entry.value
+            if self.queue and self.board.journal is not None:
+                self.board.journal(entry, self.uid)
+        elif starts:
+            assert self.manifest is not None
+            try:
+                self.queue = collections.deque(self.manifest["queue"].type.convert(entry.value))
+            except ConversionError as error:
+                raise TickError(self, f"port 'queue': the entry '{key}': {error}") from None
+
+    def empty(self) -> Status:
+        """No element is left."""
+        result: Status = self.get("if_empty")
+        if result is SUCCESS or result is FAILURE:
+            return self.finish(result)
+        if result is SKIPPED:
+            return self.skipped()
+        if self.status is not RUNNING:
+            self.start()
+        return RUNNING

@@ -1,0 +1,57 @@
+"""Precondition."""
+
+from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.node import Decorator
+from tree_gardener.script import Environment, compile_script
+from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
+
+
+class Precondition(Decorator):
+    """Ticks its child only if the script `if` is true, else returns `else`.
+
+    Once true, the script is not evaluated again until the child succeeded or failed; a skipped or halted child does
+    not change that.
+    """
+
+    __slots__ = ("environment", "open")
+    MARKS_RUNNING = False
+
+    def prepare(self) -> None:
+        super().prepare()
+        self.open = False
+        self.environment = Environment(self.board, self.tree.enums, self.uid)
+
+    def execute(self) -> Status:
+        otherwise = self.get("else")
+        if not self.open and not self.test():
+            return self.refuse(otherwise)
+        self.open = True
+        status = self.tick_child()
+        if status is RUNNING:
+            if self.status is not RUNNING:
+                self.start()
+            return RUNNING
+        if status is SKIPPED:
+            return self.skipped()
+        self.open = False
+        return self.finish(status)
+
+    def test(self) -> bool:
+        """Evaluates the script."""
+        text = self.get("if")
+        try:
+            return compile_script(text).test(self.environment)
+        except (ScriptError, PortError) as error:
+            raise TickError(self, f"in the script '{text}': {error}") from None
+
+    def refuse(self, otherwise: Status) -> Status:
+        """The script is false."""
+        if otherwise is SUCCESS or otherwise is FAILURE:
+            return self.complete(otherwise)
+        if otherwise is SKIPPED:
+            return self.skipped()
+        if otherwise is not RUNNING:
+            raise TickError(self, "'else' is IDLE, which is no result")
+        if self.status is not RUNNING:
+            self.start()
+        return RUNNING

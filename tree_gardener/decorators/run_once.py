@@ -1,0 +1,32 @@
+"""RunOnce."""
+
+from tree_gardener.node import Decorator
+from tree_gardener.status import FAILURE, RUNNING, SUCCESS, Status
+
+
+class RunOnce(Decorator):
+    """Ticks its child until it is done once, and never again.
+
+    Afterwards, also over halts and new activations, it is SKIPPED, or with `then_skip` false returns that first result
+    again. A child that was halted while RUNNING is not done.
+    """
+
+    __slots__ = ("result",)
+
+    def prepare(self) -> None:
+        super().prepare()
+        self.result: Status | None = None
+
+    def execute(self) -> Status:
+        then_skip = self.get("then_skip")
+        if self.result is not None:
+            return self.skipped() if then_skip else self.complete(self.result)
+        if self.status is not RUNNING:
+            self.start()
+        status = self.tick_child()
+        if status is RUNNING:
+            return RUNNING
+        if status is not SUCCESS and status is not FAILURE:
+            return self.skipped()
+        self.result = status
+        return self.finish(status)

@@ -1,0 +1,31 @@
+"""SubTree."""
+
+from tree_gardener.node import Decorator, Kind
+from tree_gardener.status import RUNNING, SKIPPED, Status
+
+
+class SubTree(Decorator):
+    """Ticks another tree, with a blackboard of its own.
+
+    Its attributes connect names: ``inner="{outer}"`` makes one entry of two names, in both directions; ``{=}`` the
+    same name; ``{@name}`` an entry of the root; any other text is a constant. With ``_autoremap`` all names that are
+    not found inside are those of the caller, except names that begin with ``_``. Its pre- and post-conditions are
+    evaluated in the caller's blackboard.
+    """
+
+    __slots__ = ()
+    KIND = Kind.SUBTREE
+
+    @property
+    def local_path(self) -> str:
+        attributes = self.element.attributes
+        name = attributes.get("name")
+        return name if name is not None else f"{attributes['ID']}::{self.uid}"
+
+    def execute(self) -> Status:
+        if self.status is not RUNNING:
+            self.start()
+        status = self.tick_child()
+        if status is RUNNING:
+            return RUNNING
+        return self.skipped() if status is SKIPPED else self.finish(status)

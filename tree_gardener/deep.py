@@ -1,0 +1,53 @@
+"""Ticks of trees that are deeper than Python's limit of recursion allows."""
+
+import sys
+import threading
+from collections.abc import Callable
+from typing import Any, Final, TypeVar
+
+DEEP: Final = 150
+"""Trees up to this depth are ticked directly: the limit that Python starts with leaves room enough."""
+
+_FRAMES_PER_LEVEL: Final = 6
+_STACK_BYTES_PER_LEVEL: Final = 16 * 1024
+
+T = TypeVar("T")
+
+
+def call_deep(function: Callable[[], T], depth: int) -> T:
+    """Calls a function that recurses once or more for each level of a tree.
+
+    From Python 3.11 on, calls between Python functions take no room on the machine's stack, so that a higher limit is
+    enough; before, the call is made on a thread with a large stack.
+    """
+    before = sys.getrecursionlimit()
+    needed = before + depth * _FRAMES_PER_LEVEL
+    sys.setrecursionlimit(needed)
+    try:
+        if sys.version_info >= (3, 11):
+            return function()
+        return _on_large_stack(function, depth)
+    finally:
+        sys.setrecursionlimit(before)
+
+
+def _on_large_stack(function: Callable[[], T], depth: int) -> T:
+    result: list[Any] = []
+    error: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            result.append(function())
+        except BaseException as raised:  # noqa: BLE001 - it is raised again where it belongs
+            error.append(raised)
+
+    size_before = threading.stack_size(16 * 1024 * 1024 + depth * _STACK_BYTES_PER_LEVEL)
+    try:
+        thread = threading.Thread(target=run, name="deep tree")
+        thread.start()
+    finally:
+        threading.stack_size(size_before)
+    thread.join()
+    if error:
+        raise error[0]
+    return result[0]  # type: ignore[no-any-return]

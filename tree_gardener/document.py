@@ -1,0 +1,203 @@
+"""XML documents with the position of every element.
+
+Reading is strict and safe: no DTD, no entities, bounded size, depth and number of elements.
+"""
+
+import dataclasses
+import re
+import textwrap
+from collections.abc import Iterator
+from typing import Any, Final, NoReturn
+from xml.parsers import expat
+
+from tree_gardener.errors import Diagnostic, LoadError
+
+MAX_BYTES: Final = 64 * 1024 * 1024
+MAX_ELEMENTS: Final = 1_000_000
+MAX_XML_DEPTH: Final = 1_000
+"""Of any elements; that of nodes is checked, as in BT.CPP, at 256 (`structure`)."""
+
+_HINTS: Final = {
+    "mismatched tag": "close every element that is opened, in reverse order",
+    "not well-formed (invalid token)": "attribute values need quotes; write '<' as &lt; and '&' as &amp;",
+    "duplicate attribute": "give each attribute once",
+    "junk after document element": "a document has one root element",
+    "no element found": "a document begins with <root BTCPP_format=\"4\">",
+    "undefined entity": "known are &lt; &gt; &amp; &quot; and &apos;",
+}
+
+
+class Element:
+    """An XML element.
+
+    Attributes:
+        tag: its name.
+        attributes: in the order of the document.
+        children: the elements in it.
+        text: the text in it; collected inside of ``<Code>`` only.
+        offset: of its first byte in the document.
+    """
+
+    __slots__ = ("attributes", "children", "offset", "tag", "text")
+
+    def __init__(self, tag: str, attributes: dict[str, str], offset: int) -> None:
+        self.tag = tag
+        self.attributes = attributes
+        self.children: list[Element] = []
+        self.text = ""
+        self.offset = offset
+
+    def walk(self) -> Iterator["Element"]:
+        """The element and all in it, in the order of the document."""
+        stack = [self]
+        while stack:
+            element = stack.pop()
+            yield element
+            stack.extend(reversed(element.children))
+
+
+@dataclasses.dataclass(frozen=True)
+class Document:
+    """A parsed document.
+
+    Attributes:
+        name: for messages.
+        data: the bytes.
+        root: the document element.
+    """
+
+    name: str
+    data: bytes
+    root: Element
+
+    def locate(self, offset: int) -> tuple[int, int]:
+        """Line and column, from 1, of a byte."""
+        line = self.data.count(b"\n", 0, offset) + 1
+        start = self.data.rfind(b"\n", 0, offset) + 1
+        return line, len(self.data[start:offset].decode("utf-8", "replace")) + 1
+
+    def locate_value(self, element: Element, attribute: str) -> int:
+        """Offset of the first character of an attribute's value, or that of the element."""
+        pattern = re.compile(rb"""\s""" + re.escape(attribute.encode()) + rb"""\s*=\s*["']""")
+        match = pattern.search(self.data, element.offset)
+        return element.offset if match is None else match.end()
+
+    def diagnostic(
+        self,
+        element: Element,
+        code: str,
+        message: str,
+        hint: str = "",
+        *,
+        attribute: str = "",
+        span_start: int = 0,
+        tree: str = "",
+    ) -> Diagnostic:
+        """A diagnostic at an element, at one of its attributes, or inside that attribute's value."""
+        offset = element.offset
+        if attribute in element.attributes:
+            offset = self.locate_value(element, attribute)
+            offset += len(element.attributes[attribute][:span_start].encode())
+        line, column = self.locate(offset)
+        return Diagnostic(
+            code=code,
+            message=message,
+            hint=hint,
+            file=self.name,
+            line=line,
+            column=column,
+            tree=tree,
+            node=element.tag,
+            node_id=element.attributes.get("_bts_id", ""),
+            port=attribute,
+        )
+
+
+def parse_document(text: str | bytes, name: str = "tree.xml") -> Document:
+    """Parses XML.
+
+    Raises:
+        LoadError: it is not well-formed, has a DTD, or is too large.
+    """
+    data = text.encode() if isinstance(text, str) else text
+    if len(data) > MAX_BYTES:
+        raise LoadError([Diagnostic("TG101", f"the document is larger than {MAX_BYTES} bytes", file=name)])
+    return _Reader(data, name, "utf-8" if isinstance(text, str) else None).read()
+
+
+class _Reader:
+    """Builds elements from expat's events."""
+
+    def __init__(self, data: bytes, name: str, encoding: str | None) -> None:
+        self.data = data
+        self.name = name
+        self.parser = expat.ParserCreate(encoding)
+        self.parser.buffer_text = True
+        self.parser.StartElementHandler = self.start
+        self.parser.EndElementHandler = self.end
+        self.parser.StartDoctypeDeclHandler = self.refuse_dtd
+        self.stack: list[Element] = []
+        self.root: Element | None = None
+        self.count = 0
+
+    def read(self) -> Document:
+        try:
+            self.parser.Parse(self.data, True)  # noqa: FBT003 - expat takes no keywords
+        except expat.ExpatError as error:
+            message = expat.ErrorString(error.code) or "it cannot be read"
+            hint = _HINTS.get(message, "")
+            if not self.data.strip():
+                message, hint = "it is empty", _HINTS["no element found"]
+            raise LoadError(
+                [
+                    Diagnostic(
+                        *("TG102", f"the document is not XML: {message}", hint),
+                        file=self.name,
+                        line=error.lineno,
+                        column=error.offset + 1,
+                    )
+                ]
+            ) from None
+        assert self.root is not None
+        return Document(self.name, self.data, self.root)
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, attributes, self.parser.CurrentByteIndex)
+        if self.stack:
+            self.stack[-1].children.append(element)
+        else:
+            self.root = element
+        self.stack.append(element)
+        self.count += 1
+        if self.count > MAX_ELEMENTS or len(self.stack) > MAX_XML_DEPTH:
+            self.fail("TG101", "the document has too many or too deeply nested elements", "use SubTrees")
+        if tag == "Code":
+            self.parser.CharacterDataHandler = self.characters
+
+    def end(self, tag: str) -> None:
+        self.stack.pop()
+        if tag == "Code":
+            self.parser.CharacterDataHandler = None
+
+    def characters(self, text: str) -> None:
+        self.stack[-1].text += text
+
+    def refuse_dtd(self, *_: Any) -> None:
+        self.fail("TG103", "the document has a DTD", "remove <!DOCTYPE …>; documents need none")
+
+    def fail(self, code: str, message: str, hint: str) -> NoReturn:
+        line, column = self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1
+        raise LoadError([Diagnostic(code, message, hint, file=self.name, line=line, column=column)])
+
+
+def embedded_sources(document: Document) -> dict[str, str]:
+    """The sources of the actions in ``<Code>``, by action; both forms of self-contained documents."""
+    sources = {}
+    for code in document.root.children:
+        if code.tag != "Code":
+            continue
+        for element in code.children:
+            is_action = element.tag == "Action" and "name" in element.attributes
+            name = element.attributes["name"] if is_action else element.tag
+            sources[name] = element.text if is_action else textwrap.dedent(element.text)
+    return sources

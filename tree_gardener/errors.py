@@ -1,0 +1,154 @@
+"""What can go wrong, located.
+
+```
+TreeGardenerError
+├── LoadError      a document that is refused; carries one Diagnostic for each thing that is wrong
+├── TickError      a node that failed to do its work; carries node, file, line and the cause
+├── ScriptError    a script that does not parse or cannot be evaluated; carries the span
+└── PortError      a port that cannot be read or written
+```
+"""
+
+import dataclasses
+import traceback
+from collections.abc import Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tree_gardener.node import Node
+
+
+class TreeGardenerError(Exception):
+    """The base of all errors of this package."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Diagnostic:
+    """One thing that is wrong with a document.
+
+    Attributes:
+        code: stable, such as ``TG103``.
+        message: what is wrong, in one sentence.
+        hint: what to do about it, or "".
+        severity: ``error`` or ``warning``.
+        file: name of the document.
+        line: from 1; 0 when unknown.
+        column: from 1; 0 when unknown.
+        tree: ID of the BehaviorTree, or "".
+        node: the node's tag, or "".
+        node_id: its ``_bts_id``, or "".
+        port: the port or attribute concerned, or "".
+    """
+
+    code: str
+    message: str
+    hint: str = ""
+    severity: str = "error"
+    file: str = "tree.xml"
+    line: int = 0
+    column: int = 0
+    tree: str = ""
+    node: str = ""
+    node_id: str = ""
+    port: str = ""
+
+    def __str__(self) -> str:
+        hint = f" ({self.hint})" if self.hint else ""
+        return f"{self.file}:{self.line}:{self.column}: {self.code} {self.message}{hint}"
+
+    def to_json(self) -> dict[str, Any]:
+        """The fields as a JSON object."""
+        return dataclasses.asdict(self)
+
+
+class LoadError(TreeGardenerError):
+    """The document is refused.
+
+    Attributes:
+        diagnostics: what is wrong; at least one.
+    """
+
+    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
+        self.diagnostics = list(diagnostics)
+        super().__init__("\n".join(str(diagnostic) for diagnostic in self.diagnostics))
+
+
+class ScriptError(TreeGardenerError):
+    """A script does not parse, or cannot be evaluated.
+
+    Attributes:
+        span: start and end offsets in the script's text.
+        message: what is wrong.
+        hint: what to do about it, or "".
+    """
+
+    def __init__(self, span: tuple[int, int], message: str, hint: str = "") -> None:
+        self.span = span
+        self.message = message
+        self.hint = hint
+        super().__init__(message + (f" ({hint})" if hint else ""))
+
+
+class PortError(TreeGardenerError):
+    """A port cannot be read or written: missing, empty, or not convertible."""
+
+
+class TickError(TreeGardenerError):
+    """A node raised while it was ticked, halted or set up.
+
+    Attributes:
+        uid: the node's uid.
+        path: its path.
+        node_id: its ``_bts_id``, or "".
+        node_type: its tag.
+        tree_id: the BehaviorTree that it belongs to.
+        file: where the exception was raised, as near to the user's own code as can be told, or "".
+        line: the line in that file, or 0.
+        message: type and text of the exception.
+        traceback_text: the whole traceback, without the engine's own frames.
+        cause: the exception itself, or None when the engine found the fault.
+    """
+
+    def __init__(self, node: "Node", message: str, cause: BaseException | None = None) -> None:
+        self.uid = node.uid
+        self.path = node.path
+        self.node_id = node.node_id
+        self.node_type = node.type
+        self.tree_id = node.tree_id
+        self.cause = cause
+        self.message = message
+        self.file, self.line = _locate(cause.__traceback__ if cause is not None else None)
+        self.traceback_text = _format(cause)
+        place = f" at {self.file}:{self.line}" if self.file else ""
+        super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{place}")
+
+
+_PACKAGE = __file__.rsplit("/", 1)[0] + "/"
+
+
+def _locate(trace: TracebackType | None) -> tuple[str, int]:
+    """The innermost line that belongs to an action, else to anything outside the engine."""
+    outside = [
+        (frame.filename, frame.lineno or 0)
+        for frame in traceback.extract_tb(trace)
+        if not frame.filename.startswith(_PACKAGE)
+    ]
+    actions = [place for place in outside if place[0].startswith("actions/") or "/actions/" in place[0]]
+    places = actions or outside
+    return places[-1] if places else ("", 0)
+
+
+def _format(cause: BaseException | None) -> str:
+    if cause is None:
+        return ""
+    trace = cause.__traceback__
+    while trace is not None and trace.tb_frame.f_code.co_filename.startswith(_PACKAGE):
+        trace = trace.tb_next
+    return "".join(traceback.format_exception(type(cause), cause, trace))
+
+
+def describe(error: BaseException) -> str:
+    """Type and text of an exception, in one line."""
+    text = str(error)
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__

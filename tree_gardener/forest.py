@@ -1,0 +1,142 @@
+"""Documents that belong together: a main document, what it includes, and others registered before it."""
+
+import pathlib
+from collections.abc import Mapping, Sequence
+
+from tree_gardener.document import Document, Element, embedded_sources, parse_document
+from tree_gardener.errors import Diagnostic, LoadError
+from tree_gardener.registry import NodeType
+from tree_gardener.structure import Definition, StructureCheck, SubTreeModel, type_of
+
+
+class Forest:
+    """All trees and models of some documents.
+
+    Attributes:
+        definitions: the trees by ID; of two with one ID the last counts.
+        models: of the SubTrees, by tree ID.
+        sources: of the actions that the documents carry, by name.
+        main: the document that says which tree is the main one.
+    """
+
+    def __init__(self) -> None:
+        self.documents: list[Document] = []
+        self.definitions: dict[str, Definition] = {}
+        self.models: dict[str, SubTreeModel] = {}
+        self.sources: dict[str, str] = {}
+        self.main: Document | None = None
+        self._own_trees: list[str] = []
+
+    def read(self, text: str | bytes, name: str, base_path: pathlib.Path | None) -> None:
+        """Parses a document and those that it includes; the last one read is the main one."""
+        self.main = self._read(text, name, base_path, [])
+
+    def _read(self, text: str | bytes, name: str, base_path: pathlib.Path | None, above: list[pathlib.Path]) -> Document:
+        document = parse_document(text, name)
+        self.sources.update(embedded_sources(document))
+        for element in document.root.children:
+            if element.tag == "include":
+                self._include(document, element, base_path, above)
+        self.documents.append(document)
+        return document
+
+    def _include(
+        self, document: Document, element: Element, base_path: pathlib.Path | None, above: list[pathlib.Path]
+    ) -> None:
+        def fail(message: str, hint: str) -> LoadError:
+            return LoadError([document.diagnostic(element, "TG220", message, hint, attribute="path")])
+
+        given = element.attributes.get("path")
+        if given is None:
+            raise fail("an <include> has no path", 'write <include path="file.xml"/>')
+        if "ros_pkg" in element.attributes:
+            base_path = _package_folder(element.attributes["ros_pkg"])
+            if base_path is None:
+                raise fail(f"the ROS package '{element.attributes['ros_pkg']}' is not installed here", "")
+        if base_path is None:
+            raise fail(f"'{given}' cannot be found from here", "load the document from a file, or give base_path")
+        path = (base_path / given).resolve()
+        if path in above:
+            raise fail(f"'{given}' includes itself", "remove one of the <include>s")
+        try:
+            data = path.read_bytes()
+        except OSError as error:
+            raise fail(f"'{path}' cannot be read: {error.strerror}", "paths are relative to the file") from None
+        self._read(data, str(path), path.parent, [*above, path])
+
+    def check(self, registry: Mapping[str, NodeType]) -> list[Diagnostic]:
+        """Checks the structure of all documents and collects their trees."""
+        problems = []
+        for document in self.documents:
+            check = StructureCheck(document, registry)
+            check.run()
+            problems += check.problems
+            self.definitions.update(check.definitions)
+            self.models.update(check.models)
+            if document is self.main:
+                self._own_trees = list(check.definitions)
+        return problems
+
+    def main_tree(self, wanted: str | None) -> Definition:
+        """The tree to run: the one asked for, that of ``main_tree_to_execute``, or the only one.
+
+        Raises:
+            LoadError: none is named and there are several, or there is none of that name.
+        """
+        assert self.main is not None
+        named = wanted or self.main.root.attributes.get("main_tree_to_execute")
+        if named is None and len(self._own_trees) == 1:
+            named = self._own_trees[0]
+        if named is not None and named in self.definitions:
+            return self.definitions[named]
+        known = ", ".join(tree for tree in self.definitions if tree) or "none"
+        message = "no main tree is named" if named is None else f"there is no tree '{named}'"
+        hint = f'write main_tree_to_execute="…" at the root; the trees are: {known}'
+        raise LoadError(
+            [self.main.diagnostic(self.main.root, "TG221", message, hint, attribute="main_tree_to_execute")]
+        )
+
+    def check_cycles(self, main: Definition) -> list[Diagnostic]:
+        """Finds trees that contain themselves, and SubTrees of trees that do not exist, from the main tree on."""
+        problems: list[Diagnostic] = []
+        done: set[str] = set()
+        above: list[str] = [main.tree_id]
+        stack = [(main, iter(_subtrees(main)))]
+        while stack:
+            definition, rest = stack[-1]
+            element = next(rest, None)
+            if element is None:
+                stack.pop()
+                done.add(above.pop())
+                continue
+            name = element.attributes["ID"]
+            target = self.definitions.get(name)
+            report = definition.document.diagnostic
+            if target is None:
+                known = ", ".join(tree for tree in self.definitions if tree) or "none"
+                message, hint = f"there is no tree '{name}'", f"the trees are: {known}"
+                problems.append(report(element, "TG222", message, hint, attribute="ID", tree=definition.tree_id))
+            elif name in above:
+                way = " → ".join([*above[above.index(name) :], name])
+                hint = "use Repeat or KeepRunningUntilFailure to do something again"
+                message = f"the tree '{name}' contains itself: {way}"
+                problems.append(report(element, "TG223", message, hint, attribute="ID", tree=definition.tree_id))
+            elif name not in done:
+                above.append(name)
+                stack.append((target, iter(_subtrees(target))))
+        return problems
+
+
+def _subtrees(definition: Definition) -> Sequence[Element]:
+    return [
+        element for element in definition.body.walk() if type_of(element) == "SubTree" and "ID" in element.attributes
+    ]
+
+
+def _package_folder(package: str) -> pathlib.Path | None:
+    try:
+        from ament_index_python.packages import get_package_share_directory  # noqa: PLC0415 - only where ROS is
+
+        return pathlib.Path(get_package_share_directory(package))
+    except (ImportError, LookupError, ValueError):
+        return None

@@ -1,0 +1,183 @@
+"""Leaves that tick py_trees behaviours.
+
+By default a behaviour is a StatefulAction. Its class attribute ``NODE_KIND`` makes it something else.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any, ClassVar, Final, NoReturn
+
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status as PyTreesStatus
+
+from tree_gardener.errors import TickError, describe
+from tree_gardener.node import Kind, Leaf
+from tree_gardener.ports import Manifest
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status, to_py_trees
+
+PY_RUNNING, PY_SUCCESS = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS
+PY_FAILURE, PY_INVALID = PyTreesStatus.FAILURE, PyTreesStatus.INVALID
+
+
+class BehaviourLeaf(Leaf):
+    """Ticks a py_trees behaviour.
+
+    `initialise` and `terminate` are None where the class does not override those of py_trees, which do nothing.
+    """
+
+    __slots__ = ("initialise", "instance_behaviour", "terminate", "update")
+
+    ALLOWS_RUNNING: ClassVar[bool] = True
+
+    def __init__(self, kind: str, name: str, manifest: Manifest | None, ports: Mapping[str, str]) -> None:
+        super().__init__(kind, name, manifest, ports)
+        self.instance_behaviour: Any = None
+
+    def bind(self, behaviour: Any) -> None:
+        """Takes the behaviour that this node ticks."""
+        self.instance_behaviour = behaviour
+        self.update: Callable[[], Any] = behaviour.update
+        self.initialise: Callable[[], Any] | None = _overridden(behaviour, "initialise")
+        self.terminate: Callable[[Any], Any] | None = _overridden(behaviour, "terminate")
+
+    @property
+    def behaviour(self) -> Any:
+        return self.instance_behaviour
+
+    def halt(self) -> None:
+        if self.status is RUNNING:
+            try:
+                if self.terminate is not None:
+                    self.terminate(PY_INVALID)
+            except Exception as error:
+                self.status = IDLE
+                self.raise_error(error)
+            self.instance_behaviour.status = PY_INVALID
+        self.status = IDLE
+
+    def end(self, result: Status) -> Status:
+        """The behaviour succeeded or failed."""
+        py_status = PY_SUCCESS if result is SUCCESS else PY_FAILURE
+        if self.terminate is not None:
+            self.terminate(py_status)
+        self.instance_behaviour.status = py_status
+        return self.complete(result)
+
+    def translate(self, returned: Any) -> Status:
+        """Makes one of our statuses of what update() returned, the rare cases."""
+        if returned is PY_FAILURE:
+            return FAILURE
+        if returned is PY_SUCCESS:
+            return SUCCESS
+        if returned is PY_RUNNING:
+            return RUNNING
+        if isinstance(returned, Status) and returned is not IDLE:
+            return returned
+        name = self.type
+        if returned is None:
+            raise TickError(self, f"{name}.update() returned nothing; it must return a py_trees.common.Status")
+        raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
+
+    def failed(self, error: Exception) -> Status:
+        """The behaviour raised: the tick ends with an error, or the node fails, as the tree is configured."""
+        located = error if isinstance(error, TickError) else TickError(self, describe(error), error)
+        if self.tree.on_error is None:
+            raise located from error
+        self.tree.on_error(located)
+        self.instance_behaviour.status = PY_FAILURE
+        return self.complete(FAILURE)
+
+    def raise_error(self, error: Exception) -> NoReturn:
+        """Names the node of an error."""
+        raise TickError(self, describe(error), error) from error
+
+
+class StatefulLeaf(BehaviourLeaf):
+    """A StatefulAction: ``initialise()`` and ``update()`` to start, ``update()`` while RUNNING.
+
+    ``terminate(status)`` is called after SUCCESS or FAILURE, ``terminate(INVALID)`` when it is halted. A leaf that
+    rests in SUCCESS or FAILURE, because its parent did not reset it, returns that again without any call.
+    """
+
+    __slots__ = ()
+
+    def execute(self) -> Status:
+        before = self.status
+        try:
+            if before is not RUNNING:
+                if before is not IDLE:
+                    return before
+                if self.initialise is not None:
+                    self.initialise()
+            returned = self.update()
+            if returned is PY_SUCCESS:
+                if self.terminate is not None:
+                    self.terminate(PY_SUCCESS)
+                self.instance_behaviour.status = PY_SUCCESS
+                self.status = SUCCESS
+                if self.journal is not None:
+                    self.last = SUCCESS
+                    self.journal(self)
+                return SUCCESS
+            if returned is PY_RUNNING:
+                if before is not RUNNING:
+                    self.instance_behaviour.status = PY_RUNNING
+                    self.start()
+                return RUNNING
+            result = self.translate(returned)
+            if result is RUNNING:
+                if before is not RUNNING:
+                    self.instance_behaviour.status = PY_RUNNING
+                    self.start()
+                return RUNNING
+            return self.skipped() if result is SKIPPED else self.end(result)
+        except Exception as error:
+            return self.failed(error)
+
+
+class ImmediateLeaf(BehaviourLeaf):
+    """A SyncAction: each tick is a whole activation, whatever the status; RUNNING is an error."""
+
+    __slots__ = ()
+    ALLOWS_RUNNING = False
+
+    def execute(self) -> Status:
+        before = self.status
+        try:
+            if self.initialise is not None and before is not RUNNING:
+                self.initialise()
+            returned = self.update()
+            result = SUCCESS if returned is PY_SUCCESS else self.translate(returned)
+            if result is SUCCESS or result is FAILURE:
+                return self.end(result)
+        except Exception as error:
+            return self.failed(error)
+        if result is SKIPPED:
+            return self.skipped()
+        if before is not RUNNING:
+            self.instance_behaviour.status = to_py_trees(RUNNING)
+            self.start()
+        if not self.ALLOWS_RUNNING:
+            hint = "leave out NODE_KIND to let it run over several ticks"
+            return self.failed(TickError(self, f"a SyncAction must not return RUNNING ({hint})"))
+        return RUNNING
+
+
+class ConditionLeaf(ImmediateLeaf):
+    """A Condition: asked at every tick, whatever its status."""
+
+    __slots__ = ()
+    KIND = Kind.CONDITION
+    ALLOWS_RUNNING = True
+
+
+LEAF_KINDS: Final[Mapping[str, type[BehaviourLeaf]]] = {
+    "Action": StatefulLeaf,
+    "StatefulAction": StatefulLeaf,
+    "SyncAction": ImmediateLeaf,
+    "Condition": ConditionLeaf,
+}
+
+
+def _overridden(behaviour: Any, method: str) -> Callable[..., Any] | None:
+    bound = getattr(behaviour, method)
+    return None if getattr(bound, "__func__", None) is getattr(Behaviour, method) else bound  # type: ignore[no-any-return]

@@ -1,0 +1,94 @@
+"""SetBlackboard, UnsetBlackboard and WasEntryUpdated."""
+
+from tree_gardener.blackboard import EMPTY
+from tree_gardener.errors import PortError, TickError
+from tree_gardener.node import SyncLeaf
+from tree_gardener.ports import pointer_key
+from tree_gardener.status import FAILURE, SUCCESS, Status
+from tree_gardener.values import ANY, STRING, ConversionError, to_text, value_type
+
+
+class SetBlackboard(SyncLeaf):
+    """Writes a value, or a copy of an entry, to the blackboard.
+
+    A literal is stored as a string if the entry is new, and converted if the entry has a type. ``value="{source}"``
+    copies value and type; a source without a value makes it fail. `output_key` is the entry's name; ``"{key}"`` there
+    means the entry whose name is stored in `key`. A literal written to an entry that a script made leaves that entry
+    without a value, as in BehaviorTree.CPP.
+    """
+
+    __slots__ = ()
+
+    def run(self) -> Status:
+        try:
+            return self.write(to_text(self.get("output_key")))
+        except (PortError, ConversionError) as error:
+            raise TickError(self, str(error)) from None
+
+    def write(self, key: str) -> Status:
+        """Writes to the entry of this name."""
+        given = self.ports.get("value")
+        if given is None:
+            raise TickError(self, "port 'value' was given no value")
+        target = self.board.find(key)
+        pointer = pointer_key(given, "value")
+        if pointer is None:
+            value, kind = given, STRING
+            if target is None:
+                target = self.board.create(key, STRING)
+        else:
+            source = self.board.find(pointer)
+            if source is None:
+                raise TickError(self, f"port 'value': the entry '{pointer}' does not exist")
+            if target is None:
+                target = self.board.create(key, source.type)
+            value = source.value
+            kind = source.type or (value_type(type(value)) if isinstance(value, (int, float, str)) else ANY)
+            if value is EMPTY:
+                return FAILURE
+        if isinstance(value, str) and target.type is not STRING:
+            value = EMPTY if target.type is None else self.parsed(value, target.type)
+        del kind
+        self.board.set(key, value, None, self.uid)
+        return SUCCESS
+
+    def parsed(self, text: str, kind: object) -> object:
+        """The literal as a value of the entry's type."""
+        assert hasattr(kind, "parse")
+        if kind is ANY:
+            raise TickError(self, f"'{text}' cannot be converted to an entry without a type")
+        try:
+            return kind.parse(text)
+        except ConversionError as error:
+            raise TickError(self, f"'{text}' cannot be written to the entry: {error}") from None
+
+
+class UnsetBlackboard(SyncLeaf):
+    """Removes an entry from the blackboard and succeeds, also if there is none.
+
+    Only an entry of the tree's own blackboard is removed, never one that a SubTree's attributes lead to.
+    """
+
+    __slots__ = ()
+
+    def run(self) -> Status:
+        self.board.unset(self.get("key"), self.uid)
+        return SUCCESS
+
+
+class WasEntryUpdated(SyncLeaf):
+    """Succeeds if a blackboard entry was written since the last look, else fails."""
+
+    __slots__ = ("key", "seen")
+
+    def prepare(self) -> None:
+        self.seen = 0
+        text = self.ports.get("entry", "")
+        self.key = pointer_key(text, "entry") or text
+
+    def run(self) -> Status:
+        entry = self.board.find(self.key)
+        if entry is None:
+            return FAILURE
+        before, self.seen = self.seen, entry.sequence
+        return SUCCESS if before != entry.sequence else FAILURE

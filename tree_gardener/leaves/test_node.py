@@ -1,0 +1,115 @@
+"""TestNode, which substitution rules put in the place of other nodes."""
+
+import dataclasses
+
+from tree_gardener.clock import Timer
+from tree_gardener.errors import PortError, ScriptError, TickError
+from tree_gardener.node import Leaf
+from tree_gardener.script import Environment, compile_script
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
+from tree_gardener.values import as_number
+
+_BY_NUMBER = (IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED)
+
+
+@dataclasses.dataclass(frozen=True)
+class TestConfig:
+    """What a TestNode does.
+
+    Attributes:
+        return_status: its result.
+        return_status_script: a script whose value is the result, by name or number; goes before `return_status`.
+        async_delay_s: how long it is RUNNING before.
+        success_script: runs when the result is SUCCESS.
+        failure_script: runs when the result is FAILURE.
+        post_script: runs in either case.
+    """
+
+    __test__ = False  # the name is BehaviorTree.CPP's; pytest shall not collect it
+
+    return_status: Status = SUCCESS
+    return_status_script: str = ""
+    async_delay_s: float = 0.0
+    success_script: str = ""
+    failure_script: str = ""
+    post_script: str = ""
+
+
+class TestNode(Leaf):
+    """Stands in for another node in tests; made by substitution rules.
+
+    It is RUNNING for `async_delay` milliseconds, then runs its scripts and returns the status it was told.
+    """
+
+    __test__ = False
+    __slots__ = ("config", "environment", "is_over", "timer")
+
+    config: TestConfig
+
+    def prepare(self) -> None:
+        self.environment = Environment(self.board, self.tree.enums, self.uid)
+        self.timer: Timer | None = None
+        self.is_over = False
+
+    def execute(self) -> Status:
+        if self.status is RUNNING:
+            return self.end() if self.is_over else RUNNING
+        if self.status is not IDLE:
+            return self.status
+        if self.config.async_delay_s <= 0:
+            return self.end()
+        self.is_over = False
+        self.timer = self.tree.timers.start(self.config.async_delay_s, self.fire)
+        self.start()
+        return RUNNING
+
+    def fire(self) -> None:
+        """The delay is over."""
+        self.is_over = True
+        self.tree.wake_up = True
+
+    def end(self) -> Status:
+        """Runs the scripts and returns the result."""
+        config = self.config
+        result = self.result()
+        if result is SUCCESS:
+            self.script(config.success_script)
+        elif result is FAILURE:
+            self.script(config.failure_script)
+        self.script(config.post_script)
+        if result is SKIPPED:
+            return self.skipped()
+        if result is RUNNING:
+            if self.status is not RUNNING:
+                self.start()
+            return RUNNING
+        if result is IDLE:
+            raise TickError(self, "a TestNode must not return IDLE")
+        return self.complete(result)
+
+    def result(self) -> Status:
+        """The status that it was told to return."""
+        if not self.config.return_status_script:
+            return self.config.return_status
+        value = self.script(self.config.return_status_script)
+        number = as_number(value)
+        if number is not None and number in range(len(_BY_NUMBER)):
+            return _BY_NUMBER[int(number)]
+        if isinstance(value, str) and value in Status.__members__:
+            return Status[value]
+        raise TickError(self, f"return_status_script gave {value!r}, which is no status")
+
+    def script(self, text: str) -> object:
+        """Runs a script, if there is one."""
+        if not text:
+            return None
+        try:
+            return compile_script(text).run(self.environment)  # type: ignore[no-any-return]
+        except (ScriptError, PortError) as error:
+            raise TickError(self, f"in the script '{text}': {error}") from None
+
+    def halt(self) -> None:
+        if self.timer is not None:
+            self.timer.cancel()
+            self.timer = None
+        self.status = IDLE

@@ -1,0 +1,362 @@
+"""Builds the nodes of a tree from checked documents.
+
+Nodes are made in pre-order, each SubTree node before its body, without recursion; on the way their ports declare
+entries on the blackboard, as in BehaviorTree.CPP, so that contradictory types are found before the first tick.
+"""
+
+import logging
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from tree_gardener.blackboard import Blackboard, Entry
+from tree_gardener.conditions import CONDITIONS, Guard, compile_conditions
+from tree_gardener.document import Element
+from tree_gardener.errors import Diagnostic, ScriptError, describe
+from tree_gardener.forest import Forest
+from tree_gardener.leaves.behaviour import BehaviourLeaf
+from tree_gardener.leaves.test_node import TestConfig, TestNode
+from tree_gardener.node import NO_PORTS, Instance, Node
+from tree_gardener.ports import INPUT, NO_DEFAULT, OUTPUT, Manifest, PortSpec, pointer_key
+from tree_gardener.rebind import rebind
+from tree_gardener.registry import NodeType
+from tree_gardener.script import Environment, compile_script
+from tree_gardener.structure import Definition, type_of
+from tree_gardener.substitution import Rule
+from tree_gardener.values import (
+    DOUBLE,
+    INT,
+    INT32,
+    INT64,
+    INT_64,
+    STATUS,
+    STRING,
+    ConversionError,
+    ValueType,
+    parse_bool,
+)
+
+if TYPE_CHECKING:
+    from tree_gardener.tree import Tree
+
+MAX_PROBLEMS: Final = 100
+_INTEGER = re.compile(r"-?[0-9]+\Z")
+_REAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
+_SCRIPTS: Final = {("Script", "code"), ("ScriptCondition", "code"), ("Precondition", "if")}
+_IDENTITY: Final = frozenset(("name", "ID"))
+_LOG = logging.getLogger(__name__)
+
+
+class Builder:
+    """Instantiates one tree."""
+
+    def __init__(
+        self, tree: "Tree", forest: Forest, registry: Mapping[str, NodeType], rules: tuple[Rule, ...]
+    ) -> None:
+        self.tree = tree
+        self.forest = forest
+        self.registry = registry
+        self.rules = rules
+        self.problems: list[Diagnostic] = []
+        self.nodes: list[Node] = []
+        self.boards: list[Blackboard] = [tree.blackboard]
+        self.definition: Definition
+        self.names: set[tuple[int, str]] = set()
+        self.depths: list[int] = []
+
+    def report(
+        self, element: Element, code: str, message: str, hint: str = "", attribute: str = "", span_start: int = 0
+    ) -> None:
+        """Adds a problem of the tree that is being built."""
+        self.problems.append(
+            self.definition.document.diagnostic(
+                *(element, code, message, hint),
+                attribute=attribute,
+                span_start=span_start,
+                tree=self.definition.tree_id,
+            )
+        )
+
+    def build(self, main: Definition) -> list[Node]:
+        """Makes all nodes of the tree, in pre-order; `problems` says what is wrong."""
+        instance = Instance(main.tree_id, self.tree.blackboard, None)
+        stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [(main, main.body, instance, None, 1)]
+        children: dict[int, list[Node]] = {}
+        while stack and len(self.problems) < MAX_PROBLEMS:
+            definition, element, instance, parent, depth = stack.pop()
+            self.definition = definition
+            node = self.make(element, instance, parent)
+            if parent is not None:
+                children.setdefault(parent.uid, []).append(node)
+            self.depths.append(depth)
+            if element.tag == "SubTree" and not isinstance(node, TestNode):
+                target = self.forest.definitions[element.attributes["ID"]]
+                inner = Instance(target.tree_id, self.scope(node, instance), node)
+                stack.append((target, target.body, inner, node, depth + 1))
+            elif not isinstance(node, TestNode):
+                stack.extend([(definition, child, instance, node, depth + 1) for child in reversed(element.children)])
+        for node in self.nodes:
+            node.children = tuple(children.get(node.uid, ()))
+        return self.nodes
+
+    # -- one node --------------------------------------------------------------------------------------------------
+
+    def make(self, element: Element, instance: Instance, parent: Node | None) -> Node:
+        """Makes one node."""
+        attributes = element.attributes
+        kind = self.registry[type_of(element)]
+        uid = len(self.nodes) + 1
+        name = attributes.get("name", attributes.get("ID", kind.name) if element.tag == "SubTree" else kind.name)
+        config = None
+        if self.rules:
+            kind, config = self.substituted(element, kind, name, instance, uid)
+        ports = self.ports(element, kind) if element.tag != "SubTree" else NO_PORTS
+        node = kind.node_class(kind.name, name, kind.manifest, ports)
+        node.uid = uid
+        node.element = element
+        node.instance = instance
+        node.board = instance.board
+        node.tree = self.tree
+        node.parent = parent
+        self.nodes.append(node)
+        if config is not None:
+            assert isinstance(node, TestNode)
+            node.config = config
+        if ports:
+            self.declare(element, kind, instance.board)
+        for attribute in attributes:
+            if attribute in CONDITIONS:
+                self.guard(node)
+                break
+        if isinstance(node, BehaviourLeaf):
+            self.bind(node, kind)
+        return node
+
+    def substituted(
+        self, element: Element, kind: NodeType, name: str, instance: Instance, uid: int
+    ) -> tuple[NodeType, TestConfig | None]:
+        """The type that a node really gets, with the config of a TestNode."""
+        prefix = instance.path()
+        local = name if "name" in element.attributes else f"{type_of(element)}::{uid}"
+        path = f"{prefix}/{local}" if prefix else local
+        for rule in self.rules:
+            if not rule.matches(name, kind.name, path):
+                continue
+            if rule.config is not None:
+                return self.registry["TestNode"], rule.config
+            if rule.type in self.registry:
+                return self.registry[rule.type], None
+            self.report(element, "TG603", f"the substitution rule '{rule.pattern}' names no node: '{rule.type}'")
+        return kind, None
+
+    def ports(self, element: Element, kind: NodeType) -> Mapping[str, str]:
+        """The ports that a node was given, and the textual defaults of the others."""
+        manifest = kind.manifest
+        if manifest is None:
+            return {
+                name: value
+                for name, value in element.attributes.items()
+                if name[0].isalpha() and name not in _IDENTITY
+            }
+        given = {}
+        for name, value in element.attributes.items():
+            if name[0] == "_" or name in _IDENTITY:
+                continue
+            spec = manifest.get(name)
+            if spec is not None:
+                given[name] = value
+                self.check_value(element, kind, spec, value)
+            elif kind.name != "TestNode" and name[0].isalpha():
+                known = ", ".join(manifest) or "it has none"
+                self.report(element, "TG301", f"{kind.name} has no port '{name}'", f"its ports: {known}", name)
+        for spec in manifest.values():
+            if spec.required and spec.name not in given and spec.default is NO_DEFAULT:
+                hint = f'write {spec.name}="…"'
+                self.report(element, "TG302", f"the port '{spec.name}' of {kind.name} needs a value", hint)
+        return given or NO_PORTS
+
+    def check_value(self, element: Element, kind: NodeType, spec: PortSpec, text: str) -> None:
+        """Checks a literal against the port's type."""
+        if pointer_key(text, spec.name) is not None:
+            return
+        if text.count("{") != text.count("}") and text.strip()[:1] == "{":
+            message = f"'{text}' opens a brace and does not close it"
+            self.report(element, "TG303", message, "an entry is written {key}", spec.name)
+            return
+        if spec.direction == OUTPUT:
+            if spec.type.is_strong:
+                message = f"the output port '{spec.name}' needs an entry, not '{text}'"
+                self.report(element, "TG304", message, f"write {{{text or 'key'}}}", spec.name)
+            return
+        if (kind.name, spec.name) in _SCRIPTS:
+            self.check_script(element, spec.name, text)
+        elif spec.type is not STATUS:
+            try:
+                spec.type.parse(text)
+            except ConversionError as error:
+                message = f"the port '{spec.name}' is of type {spec.type.name}: {error}"
+                self.report(element, "TG305", message, "write a literal of that type, or a {key}", spec.name)
+
+    def check_script(self, element: Element, attribute: str, text: str) -> None:
+        """Checks that a script parses; an empty one does nothing."""
+        if not text:
+            return
+        try:
+            compile_script(text)
+        except ScriptError as error:
+            self.script_problem(element, attribute, error)
+
+    def script_problem(self, element: Element, attribute: str, error: ScriptError) -> None:
+        """Reports a script that does not parse, at the very place."""
+        message = f"in the script of '{attribute}': {error.message}"
+        self.report(element, "TG401", message, error.hint, attribute, error.span[0])
+
+    def declare(self, element: Element, kind: NodeType, board: Blackboard) -> None:
+        """Makes the entries that the ports lead to, and compares their types."""
+        manifest: Manifest | None = kind.manifest
+        if manifest is None:
+            return
+        for name, text in element.attributes.items():
+            spec = manifest.get(name)
+            key = pointer_key(text, name) if spec is not None else None
+            if spec is None or key is None:
+                continue
+            kind_of_port = spec.type if spec.type.is_strong else None
+            entry = board.find(key)
+            if entry is None:
+                try:
+                    board.create(key, kind_of_port)
+                except Exception as error:
+                    self.report(element, "TG306", str(error), "", name)
+            elif (
+                entry.type is not None
+                and entry.type.is_strong
+                and kind_of_port is not None
+                and entry.type is not kind_of_port
+                and entry.type is not STRING
+            ):
+                message = f"the entry '{key}' is of type {entry.type.name} elsewhere and {kind_of_port.name} here"
+                self.report(element, "TG306", message, "use two entries, or ports of one type", name)
+
+    def guard(self, node: Node) -> None:
+        """Compiles the node's conditions."""
+        try:
+            scripts = compile_conditions(node.element.attributes)
+        except ScriptError:
+            for attribute, text in node.element.attributes.items():
+                if attribute not in CONDITIONS:
+                    continue
+                try:
+                    compile_script(text)
+                except ScriptError as error:
+                    self.script_problem(node.element, attribute, error)
+            return
+        node.guard = Guard(scripts, Environment(node.board, self.tree.enums, node.uid))
+
+    def bind(self, node: BehaviourLeaf, kind: NodeType) -> None:
+        """Makes the behaviour of an action."""
+        assert kind.behaviour_class is not None
+        try:
+            if kind.takes_ports:
+                behaviour = kind.behaviour_class(node.name, ports=bound_ports(node))
+            else:
+                behaviour = kind.behaviour_class(node.name)
+            behaviour.tree_gardener_node = node
+            node.bind(behaviour)
+            rebind(behaviour)
+        except Exception as error:
+            _LOG.debug("the action %s cannot be made", kind.name, exc_info=True)
+            hint = "look at its __init__: it is called with the node's name"
+            self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}", hint)
+
+    # -- SubTrees --------------------------------------------------------------------------------------------------
+
+    def scope(self, node: Node, instance: Instance) -> Blackboard:
+        """Makes the blackboard of a SubTree's body."""
+        element = node.element
+        name = element.attributes.get("name")
+        if name is not None:
+            key = (id(instance), name)
+            if key in self.names:
+                message = f"two SubTrees here are named '{name}'"
+                self.report(element, "TG501", message, "give each its own name, or none", "name")
+            self.names.add(key)
+        board = Blackboard(instance.board)
+        board.locate = lambda: node.path
+        self.boards.append(board)
+        board.autoremap = self.autoremap(element)
+        for port, text in self.remapping(element, autoremap=board.autoremap).items():
+            key_outside = pointer_key(text, port)
+            if key_outside is not None:
+                board.remapping[port] = key_outside
+            else:
+                value, kind = constant(text)
+                entry = board.entries[port] = Entry(board, port, kind)
+                entry.write(value)
+        return board
+
+    def autoremap(self, element: Element) -> bool:
+        """Whether names that are not found inside are those of the caller."""
+        text = element.attributes.get("_autoremap")
+        if text is None:
+            return False
+        try:
+            return parse_bool(text)
+        except ConversionError as error:
+            self.report(element, "TG502", f"_autoremap: {error}", 'write _autoremap="true"', "_autoremap")
+            return False
+
+    def remapping(self, element: Element, *, autoremap: bool) -> dict[str, str]:
+        """The SubTree's ports, with the defaults of its model."""
+        given = {
+            name: text
+            for name, text in element.attributes.items()
+            if name[0] != "_" and name not in _IDENTITY
+        }
+        model = self.forest.models.get(element.attributes["ID"])
+        if model is None or autoremap:
+            return given
+        for name, default in model.ports.items():
+            if name in given:
+                continue
+            if default is None:
+                message = f"the SubTree '{element.attributes['ID']}' needs a value for its port '{name}'"
+                self.report(element, "TG503", message, f'write {name}="…", or give it a default in TreeNodesModel')
+            else:
+                given[name] = default
+        return given
+
+
+def constant(text: str) -> tuple[Any, ValueType | None]:
+    """The value of a constant that a SubTree is given; a text makes an entry without a type."""
+    if _INTEGER.match(text):
+        number = int(text)
+        if INT64[0] <= number <= INT64[1]:
+            return number, INT if INT32[0] <= number <= INT32[1] else INT_64
+    if _REAL.match(text):
+        return float(text), DOUBLE
+    return text, None
+
+
+class PortText(str):
+    """The text of a port, as the older contract hands it to an action; it knows the scope it belongs to."""
+
+    __slots__ = ("board", "port", "writer")
+
+    board: Blackboard
+    port: str
+    writer: int
+
+
+def bound_ports(node: Node) -> dict[str, str]:
+    """What the constructor of an action gets as ``ports``: port name to text."""
+    texts = {spec.name: str(spec.default) for spec in (node.manifest or {}).values() if spec.default is not NO_DEFAULT}
+    texts.update(node.ports)
+    ports: dict[str, str] = {}
+    for name, text in texts.items():
+        bound = PortText(text)
+        bound.board, bound.port, bound.writer = node.board, name, node.uid
+        ports[name] = bound
+    return ports
+
+

@@ -1,0 +1,359 @@
+"""The nodes of a running tree: what all of them share.
+
+A node's `execute` is its whole tick: it applies the node's rule, sets the node's own status and returns the result.
+Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a plain node costs
+one call, and only nodes with conditions or hooks take a longer way.
+
+While somebody observes the tree, `journal` takes every node whose status may have changed; else it is None.
+"""
+
+import enum
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, ClassVar, Final
+
+from tree_gardener.errors import PortError, TickError
+from tree_gardener.ports import Manifest, read_port, write_port
+from tree_gardener.status import IDLE, RUNNING, SKIPPED, SUCCESS, Status
+
+if TYPE_CHECKING:
+    from tree_gardener.blackboard import Blackboard
+    from tree_gardener.conditions import Guard
+    from tree_gardener.document import Element
+    from tree_gardener.tree import Tree
+
+Execute = Callable[[], Status]
+NO_PORTS: Final[Mapping[str, str]] = {}
+
+
+class Kind(enum.Enum):
+    """The kinds of nodes."""
+
+    CONTROL = "Control"
+    DECORATOR = "Decorator"
+    ACTION = "Action"
+    CONDITION = "Condition"
+    SUBTREE = "SubTree"
+
+
+class Instance:
+    """One instantiation of a BehaviorTree: the main tree, or the body of one SubTree node."""
+
+    __slots__ = ("board", "subtree", "tree_id")
+
+    def __init__(self, tree_id: str, board: "Blackboard", subtree: "Node | None") -> None:
+        self.tree_id = tree_id
+        self.board = board
+        self.subtree = subtree
+
+    def path(self) -> str:
+        """Path of the SubTree node, or "" for the main tree."""
+        return "" if self.subtree is None else self.subtree.path
+
+
+class Node:
+    """The base of all nodes.
+
+    Attributes:
+        tree: the tree that it is part of.
+        uid: 1 for the root, then in pre-order.
+        type: its tag in XML.
+        name: its name, or its type if it was given none.
+        parent: None for the root.
+        children: in order of execution.
+        status: never SKIPPED.
+        board: the scope of the blackboard that its ports and scripts use.
+        ports: what its ports were given, as text.
+    """
+
+    __slots__ = (
+        *("board", "children", "element", "guard", "inputs", "instance", "journal", "last", "manifest", "name"),
+        *("parent", "ports", "reported", "status", "ticks", "tree", "type", "uid", "view"),
+    )
+
+    KIND: ClassVar[Kind]
+    RULE: ClassVar[str] = ""
+    MARKS_RUNNING: ClassVar[bool] = True
+    """Whether the node makes itself RUNNING before it ticks its children."""
+
+    tree: "Tree"
+
+    def __init__(self, kind: str, name: str, manifest: Manifest | None, ports: Mapping[str, str]) -> None:
+        self.type = kind
+        self.name = name
+        self.manifest = manifest
+        self.ports = ports
+        self.inputs: dict[str, Any] = {}
+        self.uid = 0
+        self.parent: Node | None = None
+        self.children: tuple[Node, ...] = ()
+        self.ticks: tuple[Execute, ...] = ()
+        self.status = IDLE
+        self.guard: Guard | None = None
+        self.journal: Callable[[Node], None] | None = None
+        self.reported = IDLE
+        self.last = IDLE
+        self.view: Any = None
+        self.board: Blackboard
+        self.instance: Instance
+        self.element: Element
+
+    # -- identity ------------------------------------------------------------------------------------------------
+
+    @property
+    def local_path(self) -> str:
+        """The last part of the path: the name, or ``Type::uid`` if the node was given none."""
+        return self.name if "name" in self.element.attributes else f"{self.type}::{self.uid}"
+
+    @property
+    def path(self) -> str:
+        """Names of the SubTrees round the node and its own, joined by ``/``."""
+        parts = [self.local_path]
+        around = self.instance.subtree
+        while around is not None:
+            parts.append(around.local_path)
+            around = around.instance.subtree
+        return "/".join(reversed(parts))
+
+    @property
+    def node_id(self) -> str:
+        """The id of the diagram's node that it was made from, or ""."""
+        return self.element.attributes.get("_bts_id", "")
+
+    @property
+    def tree_id(self) -> str:
+        """ID of the BehaviorTree that it is part of."""
+        return self.instance.tree_id
+
+    @property
+    def kind(self) -> str:
+        """``Control``, ``Decorator``, ``Action``, ``Condition`` or ``SubTree``."""
+        return self.KIND.value
+
+    @property
+    def attributes(self) -> Mapping[str, str]:
+        """All its attributes in XML."""
+        return self.element.attributes
+
+    @property
+    def behaviour(self) -> Any:
+        """What py_trees sees of it: the user's own behaviour for an action, a view for all else."""
+        from tree_gardener.views import view_of  # noqa: PLC0415 - views need nodes
+
+        return view_of(self)
+
+    def __repr__(self) -> str:
+        return f"<{self.type} '{self.path}' {self.status.name}>"
+
+    # -- ticking -------------------------------------------------------------------------------------------------
+
+    def execute(self) -> Status:
+        """Ticks the node: applies its rule, sets its status, returns the result."""
+        raise NotImplementedError
+
+    def halt(self) -> None:
+        """Stops the node and all below it; its status is IDLE afterwards."""
+        raise NotImplementedError
+
+    def entry(self) -> Execute:
+        """What the parent calls to tick this node."""
+        if self.tree.has_hooks(self):
+            return self._execute_hooked
+        return self.execute if self.guard is None else self._execute_guarded
+
+    def link(self) -> None:
+        """Looks up how the children are ticked; again after hooks came or went."""
+        self.ticks = tuple([child.entry() for child in self.children])
+
+    def prepare(self) -> None:
+        """Sets what the node remembers to its start; once, when the tree is complete."""
+
+    def stop(self) -> None:
+        """Halts the node as its parent does: afterwards its ``_onHalted`` runs."""
+        self.halt()
+        if self.guard is not None:
+            self.guard.halted(self)
+        if self.journal is not None and self.reported is not IDLE:
+            self.journal(self)
+
+    def complete(self, status: Status) -> Status:
+        """Sets the node's own status to a result."""
+        self.status = status
+        if self.journal is not None:
+            self.last = status
+            self.journal(self)
+        return status
+
+    def skipped(self) -> Status:
+        """Returns SKIPPED, which leaves the node's status as it is."""
+        if self.journal is not None:
+            self.last = SKIPPED
+            self.journal(self)
+        return SKIPPED
+
+    def start(self) -> None:
+        """Makes the node RUNNING."""
+        self.status = RUNNING
+        if self.journal is not None:
+            self.journal(self)
+
+    def _execute_guarded(self) -> Status:
+        """Ticks a node that has pre- or post-conditions."""
+        guard = self.guard
+        assert guard is not None
+        forced = guard.before(self)
+        if forced is None:
+            before = self.status
+            status = self.execute()
+            if status is RUNNING or status is SKIPPED:
+                return status
+            try:
+                guard.after(self, status)
+            except TickError:
+                self.status = RUNNING if self.MARKS_RUNNING else before
+                raise
+            return status
+        if forced is SKIPPED:
+            return self.skipped()
+        guard.after(self, forced)
+        return self.complete(forced)
+
+    def _execute_hooked(self) -> Status:
+        inner = self.execute if self.guard is None else self._execute_guarded
+        return self.tree.run_hooks(self, inner)
+
+    # -- ports and errors ----------------------------------------------------------------------------------------
+
+    def get(self, port: str) -> Any:
+        """Reads one of its own ports.
+
+        Raises:
+            TickError: it has no value, or one of the wrong type.
+        """
+        try:
+            return read_port(self, port)
+        except PortError as error:
+            raise TickError(self, str(error)) from None
+
+    def put(self, port: str, value: Any) -> None:
+        """Writes one of its own ports.
+
+        Raises:
+            TickError: it leads to no entry, or to one of another type.
+        """
+        try:
+            write_port(self, port, value)
+        except PortError as error:
+            raise TickError(self, str(error)) from None
+
+
+class Control(Node):
+    """A node with children."""
+
+    __slots__ = ()
+    KIND = Kind.CONTROL
+
+    def reset_children(self) -> None:
+        """Halts the children that are RUNNING and makes all of them IDLE."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.stop()
+            child.status = IDLE
+        if self.journal is not None:
+            self._journal_children()
+
+    def reset_child(self, index: int) -> None:
+        """Halts one child if it is RUNNING, and makes it IDLE."""
+        child = self.children[index]
+        if child.status is RUNNING:
+            child.stop()
+        child.status = IDLE
+        if self.journal is not None and child.reported is not IDLE:
+            self.journal(child)
+
+    def _journal_children(self) -> None:
+        journal = self.journal
+        assert journal is not None
+        for child in self.children:
+            if child.reported is not IDLE:
+                journal(child)
+
+    def finish(self, status: Status) -> Status:
+        """Resets all children and takes a result for the node's own status."""
+        for child in self.children:
+            if child.status is RUNNING:
+                child.stop()
+            child.status = IDLE
+        self.status = status
+        if self.journal is not None:
+            self._journal_children()
+            self.last = status
+            self.journal(self)
+        return status
+
+    def finish_skipped(self) -> Status:
+        """Resets all children and returns SKIPPED; the node's own status stays RUNNING."""
+        self.reset_children()
+        return self.skipped()
+
+    def halt(self) -> None:
+        self.reset_children()
+        self.status = IDLE
+
+
+class Decorator(Control):
+    """A node with one child."""
+
+    __slots__ = ("child", "tick_child")
+    KIND = Kind.DECORATOR
+
+    def link(self) -> None:
+        self.child = self.children[0]
+        self.tick_child = self.child.entry()
+
+    def reset(self) -> None:
+        """Halts the child if it is RUNNING, and makes it IDLE."""
+        child = self.child
+        if child.status is RUNNING:
+            child.stop()
+        child.status = IDLE
+        if self.journal is not None and child.reported is not IDLE:
+            self.journal(child)
+
+    def reset_children(self) -> None:
+        self.reset()
+
+    def finish(self, status: Status) -> Status:
+        child = self.child
+        if child.status is RUNNING:
+            child.stop()
+        child.status = IDLE
+        self.status = status
+        if self.journal is not None:
+            self._journal_children()
+            self.last = status
+            self.journal(self)
+        return status
+
+
+class Leaf(Node):
+    """A node without children."""
+
+    __slots__ = ()
+    KIND = Kind.ACTION
+    MARKS_RUNNING = False
+
+    def halt(self) -> None:
+        self.status = IDLE
+
+
+class SyncLeaf(Leaf):
+    """A built-in leaf that is done within one tick."""
+
+    __slots__ = ()
+
+    def execute(self) -> Status:
+        return self.complete(self.run())
+
+    def run(self) -> Status:
+        """Does the work."""
+        return SUCCESS

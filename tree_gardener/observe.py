@@ -1,0 +1,156 @@
+"""What an observer is told after each tick."""
+
+import dataclasses
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from tree_gardener.blackboard import EMPTY, Blackboard, Entry
+from tree_gardener.node import Node
+from tree_gardener.status import IDLE, Status
+
+if TYPE_CHECKING:
+    from tree_gardener.tree import Tree
+
+
+@dataclasses.dataclass(frozen=True)
+class BlackboardChange:
+    """A blackboard entry that was written or removed.
+
+    Attributes:
+        scope: path of the SubTree that stores it; "" for the root.
+        key: its name there.
+        type: its type by name; ``empty`` if it has no value.
+        value: by reference; None if it has none.
+        removed: whether it is gone.
+        writer_uid: the node that wrote last; 0 if it was written from outside.
+    """
+
+    scope: str
+    key: str
+    type: str
+    value: Any
+    removed: bool
+    writer_uid: int
+
+
+class TickChanges:
+    """What changed in one tick.
+
+    Attributes:
+        tick: number of the tick, from 1.
+        changed: nodes whose status differs from that after the tick before, with the new one.
+        flashed: nodes that returned a status within the tick and do not have it any more after it: a SUCCESS or
+            FAILURE that the parent reset, or SKIPPED.
+        blackboard: entries that were written, also since the tick before.
+        duration_s: of the tick.
+        node_times_s: seconds that each node took, with all below it, by uid; empty unless asked for.
+    """
+
+    __slots__ = ("blackboard", "changed", "duration_s", "flashed", "node_times_s", "tick")
+
+    def __init__(
+        self,
+        tick: int,
+        changed: list[tuple[int, Status]],
+        flashed: list[tuple[int, Status]],
+        blackboard: list[BlackboardChange],
+        duration_s: float,
+    ) -> None:
+        self.tick = tick
+        self.changed = changed
+        self.flashed = flashed
+        self.blackboard = blackboard
+        self.duration_s = duration_s
+        self.node_times_s: dict[int, float] = {}
+
+    def __repr__(self) -> str:
+        return f"TickChanges(tick={self.tick}, changed={self.changed}, flashed={self.flashed})"
+
+
+Observer = Callable[[TickChanges], None]
+
+
+class Recorder:
+    """Collects the changes of a tree while it is observed."""
+
+    def __init__(self, tree: "Tree") -> None:
+        self.tree = tree
+        self.observers: list[Observer] = []
+        self.touched: list[Node] = []
+        self.entries: dict[int, tuple[Entry, int]] = {}
+
+    def attach(self) -> None:
+        """Begins to record. All that is not IDLE, and all entries, count as changed."""
+        self.touched = []
+        for node in self.tree.nodes:
+            node.reported = node.last = IDLE
+            node.journal = self.touched.append
+            if node.status is not IDLE:
+                self.touched.append(node)
+        for board in self.tree.boards:
+            board.journal = self.written
+            for entry in board.entries.values():
+                self.written(entry, 0)
+
+    def detach(self) -> None:
+        """Ends recording."""
+        for node in self.tree.nodes:
+            node.journal = None
+        for board in self.tree.boards:
+            board.journal = None
+        self.touched = []
+        self.entries = {}
+
+    def written(self, entry: Entry, writer: int) -> None:
+        """An entry was written or removed."""
+        self.entries[id(entry)] = (entry, writer)
+
+    def tick(self, function: Callable[[], Status]) -> Status:
+        """Ticks the tree and tells the observers, also when the tick raises."""
+        start_s = time.perf_counter()
+        try:
+            return function()
+        finally:
+            self.tell(time.perf_counter() - start_s)
+
+    def tell(self, duration_s: float) -> None:
+        """Tells the observers what changed since the last time."""
+        changes = self.collect(duration_s)
+        for observer in tuple(self.observers):
+            observer(changes)
+
+    def collect(self, duration_s: float) -> TickChanges:
+        """Makes the changes of what was recorded."""
+        touched = self.touched
+        changed: list[tuple[int, Status]] = []
+        flashed: list[tuple[int, Status]] = []
+        if touched:
+            for node in touched:
+                status = node.status
+                last = node.last
+                if last is not IDLE:
+                    if last is not status:
+                        flashed.append((node.uid, last))
+                    node.last = IDLE
+                if status is not node.reported:
+                    node.reported = status
+                    changed.append((node.uid, status))
+            touched.clear()
+        entries: list[BlackboardChange] = []
+        if self.entries:
+            entries = [change(entry, writer) for entry, writer in self.entries.values()]
+            self.entries = {}
+        changes = TickChanges(self.tree.tick_number, changed, flashed, entries, duration_s)
+        if self.tree.node_times_s is not None:
+            changes.node_times_s = self.tree.node_times_s
+            self.tree.node_times_s = {}
+        return changes
+
+
+def change(entry: Entry, writer: int) -> BlackboardChange:
+    """What an observer is told of an entry."""
+    board: Blackboard = entry.board
+    value = None if entry.value is EMPTY else entry.value
+    removed = board.entries.get(entry.key) is not entry
+    return BlackboardChange(board.path, entry.key, entry.type_name, value, removed, writer)

@@ -1,0 +1,236 @@
+"""Ports of actions: how they are declared, read and written.
+
+```python
+class Forward(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"speed": Port(float, default=0.3, description="Speed ahead in m/s.")}
+
+    def update(self):
+        drive(get_input(self, "speed"))
+```
+"""
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Final
+
+from tree_gardener.blackboard import EMPTY
+from tree_gardener.errors import PortError
+from tree_gardener.values import ANY, ConversionError, ValueType, value_type
+
+if TYPE_CHECKING:
+    from tree_gardener.node import Node
+
+INPUT: Final = "input"
+OUTPUT: Final = "output"
+INOUT: Final = "inout"
+
+NO_DEFAULT: Final = EMPTY
+
+_POINTER = re.compile(r"\s*\{(.+)\}\s*\Z", re.DOTALL)
+
+
+class Port:
+    """A port of an action, as declared in ``INPUT_PORTS``, ``OUTPUT_PORTS`` or ``INOUT_PORTS``.
+
+    Attributes:
+        type: a Python type; ``Any`` lets everything pass.
+        default: a value, ``"{key}"``, or ``"{=}"`` for the entry named like the port.
+        required: whether a tree must give it a value.
+        description: one sentence for users.
+    """
+
+    __slots__ = ("default", "description", "required", "type")
+
+    def __init__(
+        self,
+        type: Any = Any,  # noqa: A002 - it is what users write
+        *,
+        default: Any = NO_DEFAULT,
+        required: bool = False,
+        description: str = "",
+    ) -> None:
+        self.type = type
+        self.default = default
+        self.required = required
+        self.description = description
+
+    def __repr__(self) -> str:
+        return f"Port({self.type!r}, default={self.default!r})"
+
+
+@dataclasses.dataclass(frozen=True)
+class PortSpec:
+    """A port as the engine knows it.
+
+    Attributes:
+        name: the attribute in XML.
+        direction: ``input``, ``output`` or ``inout``.
+        type: what it carries.
+        default: NO_DEFAULT if there is none.
+        required: whether a missing value is refused at load.
+        description: one sentence.
+    """
+
+    name: str
+    direction: str
+    type: ValueType
+    default: Any = NO_DEFAULT
+    required: bool = False
+    description: str = ""
+
+
+Manifest = Mapping[str, PortSpec]
+
+
+def pointer_key(text: str, port: str) -> str | None:
+    """The name of the entry that ``{key}`` or ``{=}`` stands for, or None if the text is a literal."""
+    if "{" not in text:
+        return None
+    match = _POINTER.match(text)
+    if match is None:
+        return None
+    key = match.group(1)
+    return port if key == "=" else key
+
+
+def manifest_of(cls: type) -> dict[str, PortSpec] | None:
+    """The ports that a behaviour class declares, or None if it declares none and accepts any (an *open* class)."""
+    specs: dict[str, PortSpec] = {}
+    is_open = True
+    for attribute, direction in (("INPUT_PORTS", INPUT), ("OUTPUT_PORTS", OUTPUT), ("INOUT_PORTS", INOUT)):
+        declared = getattr(cls, attribute, None)
+        if declared is None:
+            continue
+        is_open = False
+        for name, port in declared.items():
+            both = name in specs and specs[name].direction != direction
+            specs[name] = _spec(name, INOUT if both else direction, port)
+    return None if is_open else specs
+
+
+def _spec(name: str, direction: str, port: Any) -> PortSpec:
+    if isinstance(port, Port):
+        return PortSpec(name, direction, value_type(port.type), port.default, port.required, port.description)
+    if hasattr(port, "data_type"):  # py_trees.ports.PortInformation, whose `required` is about reading
+        default = NO_DEFAULT if port.default_value is None else port.default_value
+        return PortSpec(name, direction, value_type(port.data_type), default, description=port.description)
+    return PortSpec(name, direction, value_type(port))
+
+
+class InputBinding:
+    """Where a node's input port gets its value: a literal that was parsed once, or an entry."""
+
+    __slots__ = ("key", "name", "type", "value")
+
+    def __init__(self, spec: PortSpec, given: Any) -> None:
+        self.name = spec.name
+        self.type = spec.type
+        self.key = pointer_key(given, spec.name) if isinstance(given, str) else None
+        self.value: Any = EMPTY
+        if self.key is None:
+            self.value = spec.type.parse(given) if isinstance(given, str) else given
+
+    def read(self, node: "Node") -> Any:
+        """The port's value now.
+
+        Raises:
+            PortError: the entry is missing, empty, or of a type that does not convert.
+        """
+        if self.key is None:
+            return self.value
+        entry = node.board.find(self.key)
+        if entry is None or entry.value is EMPTY:
+            state = "does not exist" if entry is None else "has no value yet"
+            raise PortError(f"port '{self.name}': the entry '{self.key}' {state}")
+        try:
+            return self.type.convert(entry.value)
+        except ConversionError as error:
+            raise PortError(f"port '{self.name}': the entry '{self.key}': {error}") from None
+
+
+def read_port(node: "Node", name: str) -> Any:
+    """Reads an input port of a node.
+
+    Raises:
+        PortError: it has no value, or one that does not convert.
+    """
+    binding = node.inputs.get(name)
+    if binding is None:
+        binding = _bind(node, name)
+    return binding.read(node)
+
+
+def _bind(node: "Node", name: str) -> InputBinding:
+    manifest = node.manifest
+    spec = PortSpec(name, INOUT, ANY) if manifest is None else manifest.get(name)
+    if spec is None:
+        raise PortError(f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}")
+    given = node.ports.get(name, spec.default)
+    if given is NO_DEFAULT:
+        raise PortError(f"port '{name}' was given no value and has no default")
+    if spec.direction == OUTPUT:
+        raise PortError(f"port '{name}' is an output: it can be written, not read")
+    try:
+        binding = InputBinding(spec, given)
+    except ConversionError as error:
+        raise PortError(f"port '{name}': {error}") from None
+    if not node.inputs:
+        node.inputs = {}
+    node.inputs[name] = binding
+    return binding
+
+
+def write_port(node: "Node", name: str, value: Any) -> None:
+    """Writes an output port of a node.
+
+    Raises:
+        PortError: it leads to no entry, or to one of another type.
+    """
+    manifest = node.manifest
+    spec = PortSpec(name, INOUT, ANY) if manifest is None else manifest.get(name)
+    if spec is None:
+        raise PortError(f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}")
+    if spec.direction == INPUT:
+        raise PortError(f"port '{name}' is an input: it can be read, not written")
+    given = node.ports.get(name, spec.default)
+    if given is NO_DEFAULT:
+        raise PortError(f"port '{name}' leads to no entry; give it a {{key}}")
+    key = pointer_key(given, name) if isinstance(given, str) else None
+    if key is None:
+        raise PortError(f"port '{name}' is an output and needs a {{key}}, not '{given}'")
+    try:
+        value = spec.type.convert(value)
+    except ConversionError as error:
+        raise PortError(f"port '{name}' carries {spec.type.name}: {error}") from None
+    node.board.set(key, value, spec.type, node.uid)
+
+
+def node_of(behaviour: Any) -> "Node":
+    """The engine's node of a behaviour that is in a tree.
+
+    Raises:
+        PortError: it is in no tree, as during ``__init__``.
+    """
+    node = getattr(behaviour, "tree_gardener_node", None)
+    if node is None:
+        raise PortError(f"{behaviour!r} is not in a tree yet: ports can be used from setup() on")
+    return node  # type: ignore[no-any-return]
+
+
+def get_input(behaviour: Any, name: str) -> Any:
+    """Reads an input port, converted to the port's type.
+
+    Raises:
+        PortError: it has no value, or one that does not convert.
+    """
+    return read_port(node_of(behaviour), name)
+
+
+def set_output(behaviour: Any, name: str, value: Any) -> None:
+    """Writes an output port.
+
+    Raises:
+        PortError: it was given no ``{key}``, or the entry is of another type.
+    """
+    write_port(node_of(behaviour), name, value)

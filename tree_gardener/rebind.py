@@ -1,0 +1,27 @@
+"""Classes written for ``py_trees.ports``: their access to ports is led to ours."""
+
+from typing import Any
+
+from tree_gardener.errors import PortError
+from tree_gardener.ports import get_input, set_output
+
+
+def rebind(behaviour: Any) -> None:
+    """Lets a behaviour with py_trees' ``PortsMixin`` use the ports of the tree; others are left as they are."""
+    if not hasattr(behaviour, "setup_ports") or not hasattr(behaviour, "_set_output"):
+        return
+
+    def read(port_name: str, default: Any = None) -> Any:
+        try:
+            return get_input(behaviour, port_name)
+        except PortError:
+            if default is not None:
+                return default
+            raise
+
+    def write(port_name: str, value: Any) -> None:
+        set_output(behaviour, port_name, value)
+
+    behaviour.get_input = read
+    behaviour._set_output = write  # noqa: SLF001 - the name is py_trees'
+    behaviour.setup_ports = lambda *_args, **_kwargs: None

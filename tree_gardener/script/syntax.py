@@ -1,0 +1,125 @@
+"""The syntax tree of a script. Each node knows the span of text that it comes from."""
+
+import dataclasses
+from collections.abc import Iterator
+
+Span = tuple[int, int]
+
+
+@dataclasses.dataclass(frozen=True)
+class Expression:
+    """The base of all expressions."""
+
+    span: Span
+
+
+@dataclasses.dataclass(frozen=True)
+class Literal(Expression):
+    """A number or a string; ``true`` and ``false`` are 1.0 and 0.0."""
+
+    value: int | float | str
+
+
+@dataclasses.dataclass(frozen=True)
+class Name(Expression):
+    """An enum constant or a blackboard entry."""
+
+    name: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Unary(Expression):
+    """``-x``, ``~x`` or ``!x``."""
+
+    operator: str
+    operand: Expression
+
+
+@dataclasses.dataclass(frozen=True)
+class Binary(Expression):
+    """Arithmetic, bits, logic, or joining of strings."""
+
+    operator: str
+    left: Expression
+    right: Expression
+
+
+@dataclasses.dataclass(frozen=True)
+class Comparison(Expression):
+    """``a < b < c``: each neighbouring pair must hold."""
+
+    first: Expression
+    rest: tuple[tuple[str, Expression], ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Conditional(Expression):
+    """``condition ? then : otherwise``."""
+
+    condition: Expression
+    then: Expression
+    otherwise: Expression
+
+
+@dataclasses.dataclass(frozen=True)
+class Assignment(Expression):
+    """``target := value`` and its relatives; that the target is a name is only tested when it runs."""
+
+    operator: str
+    target: Expression
+    value: Expression
+
+
+@dataclasses.dataclass(frozen=True)
+class Program:
+    """A whole script: the value of its last statement is its value."""
+
+    text: str
+    statements: tuple[Expression, ...]
+
+
+def walk(expression: Expression) -> Iterator[Expression]:
+    """The expression and all its parts, in the order of the text."""
+    yield expression
+    for part in _parts(expression):
+        yield from walk(part)
+
+
+def _parts(expression: Expression) -> tuple[Expression, ...]:
+    if isinstance(expression, Unary):
+        return (expression.operand,)
+    if isinstance(expression, Binary):
+        return (expression.left, expression.right)
+    if isinstance(expression, Comparison):
+        return (expression.first, *(right for _, right in expression.rest))
+    if isinstance(expression, Conditional):
+        return (expression.condition, expression.then, expression.otherwise)
+    if isinstance(expression, Assignment):
+        return (expression.target, expression.value)
+    return ()
+
+
+def names_written(program: Program) -> list[Name]:
+    """The names that the script assigns to."""
+    return [
+        part.target
+        for statement in program.statements
+        for part in walk(statement)
+        if isinstance(part, Assignment) and isinstance(part.target, Name)
+    ]
+
+
+def names_read(program: Program) -> list[Name]:
+    """The names whose value the script needs; a name that is only created by ``:=`` is not among them."""
+    created = {
+        id(part.target)
+        for statement in program.statements
+        for part in walk(statement)
+        if isinstance(part, Assignment) and part.operator == ":="
+    }
+    return [
+        part
+        for statement in program.statements
+        for part in walk(statement)
+        if isinstance(part, Name) and id(part) not in created
+    ]

@@ -1,0 +1,53 @@
+"""The five statuses of a node, and how py_trees' four relate to them."""
+
+import enum
+
+from py_trees.common import Status as PyTreesStatus
+
+
+class Status(enum.Enum):
+    """What a node is, or what its tick returned.
+
+    A node *is* IDLE, RUNNING, SUCCESS or FAILURE; SKIPPED is only ever returned, it is never a node's own status.
+    """
+
+    IDLE = "IDLE"
+    RUNNING = "RUNNING"
+    SUCCESS = "SUCCESS"
+    FAILURE = "FAILURE"
+    SKIPPED = "SKIPPED"
+
+    # Enum hashes by name in Python code, which is ten times slower than identity.
+    __hash__ = object.__hash__
+
+    @property
+    def letter(self) -> str:
+        """One letter: I, R, S, F, or K for SKIPPED, as in the traces of the conformance cases."""
+        return _LETTERS[self]
+
+    @property
+    def is_completed(self) -> bool:
+        """Whether it is SUCCESS or FAILURE."""
+        return self is Status.SUCCESS or self is Status.FAILURE
+
+
+IDLE = Status.IDLE
+RUNNING = Status.RUNNING
+SUCCESS = Status.SUCCESS
+FAILURE = Status.FAILURE
+SKIPPED = Status.SKIPPED
+
+_LETTERS = {IDLE: "I", RUNNING: "R", SUCCESS: "S", FAILURE: "F", SKIPPED: "K"}
+
+_TO_PY_TREES = {
+    IDLE: PyTreesStatus.INVALID,
+    RUNNING: PyTreesStatus.RUNNING,
+    SUCCESS: PyTreesStatus.SUCCESS,
+    FAILURE: PyTreesStatus.FAILURE,
+    SKIPPED: PyTreesStatus.INVALID,
+}
+
+
+def to_py_trees(status: Status) -> PyTreesStatus:
+    """The nearest status of py_trees, whose tools know neither IDLE nor SKIPPED: both are INVALID there."""
+    return _TO_PY_TREES[status]

@@ -1,0 +1,386 @@
+"""A behaviour tree that runs."""
+
+import pathlib
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from tree_gardener import tree_tools
+from tree_gardener.actions import load_actions
+from tree_gardener.blackboard import Blackboard
+from tree_gardener.clock import Clock, SystemClock, Timers
+from tree_gardener.deep import DEEP, call_deep
+from tree_gardener.errors import LoadError, TickError, describe
+from tree_gardener.forest import Forest
+from tree_gardener.hooks import After, Before, Hook, Hooks
+from tree_gardener.leaves.behaviour import BehaviourLeaf
+from tree_gardener.loader import Builder
+from tree_gardener.node import Execute, Node
+from tree_gardener.observe import Observer, Recorder
+from tree_gardener.registry import build_registry
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
+from tree_gardener.substitution import parse_rules
+
+
+class Tree:
+    """A tree of nodes, its blackboard, and the functions that tick it.
+
+    Make one with `from_xml` or `from_file`; call `setup` once, then one of the tick functions again and again, and
+    `shutdown` at the end.
+
+    Attributes:
+        nodes: all nodes in pre-order; ``nodes[0]`` is the root node.
+        blackboard: the root blackboard.
+        boards: all scopes of the blackboard.
+        clock: tells the time to Delay, Timeout and Sleep.
+        enums: constants that scripts and Switch know by name.
+        wake_up: set by nodes that want the tree to be ticked again soon.
+        on_error: called with the error when an action raises, which then counts as FAILURE of its node; if None, the
+            error is raised out of the tick.
+        tick_number: how many ticks there were.
+        current_uid: the action that is being ticked, while leaves are timed; else 0.
+        slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
+        node_times_s: time of each node in the tick, while an observer asked for it; else None.
+    """
+
+    def __init__(self, clock: Clock | None, blackboard: Blackboard | None, enums: Mapping[str, int]) -> None:
+        self.clock: Clock = clock or SystemClock()
+        self.timers = Timers(self.clock)
+        self.blackboard = blackboard if blackboard is not None else Blackboard()
+        self.enums = dict(enums)
+        self.nodes: list[Node] = []
+        self.boards: list[Blackboard] = [self.blackboard]
+        self.depth = 0
+        self.wake_up = False
+        self.on_error: Callable[[TickError], None] | None = None
+        self.tick_number = 0
+        self.current_uid = 0
+        self.slowest: tuple[float, int] = (0.0, 0)
+        self.node_times_s: dict[int, float] | None = None
+        self._hooks = Hooks(self)
+        self._recorder = Recorder(self)
+        self._is_plain = True
+        self._tick_root: Execute
+        self._signal = threading.Event()
+
+    # -- making ----------------------------------------------------------------------------------------------------
+
+    @classmethod
+    def from_xml(
+        cls,
+        text: str | bytes,
+        nodes: Mapping[str, Any] | None = None,
+        clock: Clock | None = None,
+        *,
+        main_tree: str | None = None,
+        base_path: str | pathlib.Path | None = None,
+        name: str = "tree.xml",
+        documents: Sequence[str | bytes] = (),
+        blackboard: Blackboard | None = None,
+        enums: Mapping[str, int] | None = None,
+        substitutions: Mapping[str, Any] | str | None = None,
+    ) -> "Tree":
+        """Builds a tree from a document.
+
+        Args:
+            text: the document. A self-contained one brings the sources of its actions.
+            nodes: classes of actions by XML tag; they go before those in the document.
+            clock: the time for Delay, Timeout and Sleep; the computer's if None.
+            main_tree: the tree to run, if it is not the one that the document names.
+            base_path: the folder that ``<include>`` starts from.
+            name: of the document, for messages.
+            documents: others, whose trees can be used as SubTrees.
+            blackboard: the root blackboard; entries in it keep their types.
+            enums: constants for scripts and Switch.
+            substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
+
+        Raises:
+            LoadError: the document is refused; all that is wrong is in `diagnostics`.
+        """
+        forest = Forest()
+        base = pathlib.Path(base_path) if base_path is not None else None
+        for index, document in enumerate(documents):
+            forest.read(document, f"document {index + 1}", base)
+        forest.read(text, name, base)
+        given = dict(nodes or {})
+        missing = {action: source for action, source in forest.sources.items() if action not in given}
+        if missing:
+            given.update(load_actions(missing))
+        registry = build_registry(given)
+        problems = forest.check(registry)
+        if problems:
+            raise LoadError(problems)
+        main = forest.main_tree(main_tree)
+        problems = forest.check_cycles(main)
+        if problems:
+            raise LoadError(problems)
+        tree = cls(clock, blackboard, enums or {})
+        builder = Builder(tree, forest, registry, parse_rules(substitutions or {}))
+        tree.nodes = builder.build(main)
+        if builder.problems:
+            raise LoadError(builder.problems)
+        tree._adopt(builder)
+        return tree
+
+    @classmethod
+    def from_file(
+        cls, path: str | pathlib.Path, nodes: Mapping[str, Any] | None = None, clock: Clock | None = None, **more: Any
+    ) -> "Tree":
+        """Builds a tree from a file; ``<include>`` is relative to it. Arguments as for `from_xml`."""
+        path = pathlib.Path(path)
+        more.setdefault("base_path", path.parent)
+        more.setdefault("name", str(path))
+        return cls.from_xml(path.read_bytes(), nodes, clock, **more)
+
+    def _adopt(self, builder: Builder) -> None:
+        """Takes the nodes that a builder made."""
+        self.boards = builder.boards
+        self.blackboard.scopes = self._scope
+        self.depth = max(builder.depths)
+        for node in self.nodes:
+            node.prepare()
+        self.link()
+        tree_tools.use_blackboard(self.blackboard)
+
+    def _scope(self, path: str) -> Blackboard:
+        for board in self.boards:
+            if board.path == path:
+                return board
+        raise KeyError(path)
+
+    @property
+    def root(self) -> Any:
+        """The tree as py_trees sees it: its tools, visitors and ``BehaviourTree`` work on it."""
+        return self.nodes[0].behaviour
+
+    # -- life ------------------------------------------------------------------------------------------------------
+
+    def setup(self, node: Any = None, **kwargs: Any) -> None:
+        """Calls ``setup(node=…)`` of each behaviour once, in pre-order.
+
+        Args:
+            node: the rclpy node, or None.
+            kwargs: handed on as they are.
+
+        Raises:
+            TickError: a behaviour raised.
+        """
+        for leaf in self._leaves():
+            try:
+                leaf.instance_behaviour.setup(node=node, **kwargs)
+            except Exception as error:
+                raise TickError(leaf, describe(error), error) from error
+
+    def halt(self) -> None:
+        """Halts the whole tree, as BT.CPP's ``haltTree``: the root, and then every node once more."""
+        self._guarded(self._halt)
+        if self._recorder.observers:
+            self._recorder.tell(0.0)
+
+    def _halt(self) -> None:
+        root = self.nodes[0]
+        root.stop()
+        for node in self.nodes:
+            node.stop()
+        root.status = IDLE
+
+    def shutdown(self) -> None:
+        """Halts the tree and calls ``shutdown()`` of each behaviour, whatever goes wrong on the way.
+
+        Raises:
+            TickError: the first thing that went wrong.
+        """
+        first: TickError | None = None
+        try:
+            self.halt()
+        except TickError as error:
+            first = error
+            self._halt_one_by_one()
+        for leaf in self._leaves():
+            try:
+                leaf.instance_behaviour.shutdown()
+            except Exception as error:
+                first = first or TickError(leaf, describe(error), error)
+        if first is not None:
+            raise first
+
+    def _halt_one_by_one(self) -> None:
+        """Halts every leaf, after halting the tree failed in one of them."""
+        for leaf in self._leaves():
+            try:
+                leaf.halt()
+            except TickError:
+                continue
+        for node in self.nodes:
+            node.status = IDLE
+
+    def _leaves(self) -> list[BehaviourLeaf]:
+        return [node for node in self.nodes if isinstance(node, BehaviourLeaf)]
+
+    # -- ticking ---------------------------------------------------------------------------------------------------
+
+    def tick_exactly_once(self) -> Status:
+        """Ticks the root once.
+
+        Raises:
+            TickError: a node could not do its work.
+        """
+        if self._is_plain:
+            self.tick_number += 1
+            if self.timers:
+                self.timers.fire()
+            status = self._tick_root()
+            if status is SUCCESS or status is FAILURE:
+                self.nodes[0].status = IDLE
+            return status
+        return self._guarded(self._tick_exactly_once)
+
+    def _tick_exactly_once(self) -> Status:
+        self._begin()
+        return self._reset_root(self._tick_root())
+
+    def tick_once(self) -> Status:
+        """Ticks the root, and again as long as it is RUNNING and a node asked for that by waking the tree up.
+
+        Raises:
+            TickError: a node could not do its work.
+        """
+        return self._guarded(self._tick_once)
+
+    def _tick_once(self) -> Status:
+        self._begin()
+        status = self._tick_root()
+        while status is RUNNING and self._woken():
+            status = self._tick_root()
+        return self._reset_root(status)
+
+    def tick_while_running(self, sleep_msec: float = 10) -> Status:
+        """Ticks with `tick_once` and sleeps in between, until the root is not RUNNING.
+
+        Args:
+            sleep_msec: the sleep ends earlier when the tree is woken up.
+
+        Raises:
+            TickError: a node could not do its work.
+        """
+        while True:
+            status = self.tick_once()
+            if status is not RUNNING:
+                return status
+            self.sleep(sleep_msec / 1000.0)
+
+    def sleep(self, duration_s: float) -> None:
+        """Waits until the time is over or the tree is woken up; timers fire on the way."""
+        end_s = self.clock.now() + duration_s
+        while not self._woken():
+            now_s = self.clock.now()
+            if now_s >= end_s - 1e-9:
+                return
+            timer_s = self.timers.next_s()
+            until_s = end_s if timer_s is None else min(end_s, timer_s)
+            self._wait(max(until_s - now_s, 0.0))
+
+    def _wait(self, duration_s: float) -> None:
+        if isinstance(self.clock, SystemClock):
+            self._signal.wait(duration_s)
+        else:
+            self.clock.sleep(duration_s)
+
+    def wake(self) -> None:
+        """Wakes the tree up; may be called from any thread."""
+        self.wake_up = True
+        self._signal.set()
+
+    def fire_timers(self) -> None:
+        """Lets what is due happen now; otherwise it happens at the next tick."""
+        self._guarded_without_telling(self.timers.fire)
+
+    def _begin(self) -> None:
+        self.tick_number += 1
+        self.slowest = (0.0, 0)
+        if self.timers:
+            self.timers.fire()
+
+    def _woken(self) -> bool:
+        """Tests and clears the wake-up flag."""
+        if self.timers:
+            self.timers.fire()
+        woken, self.wake_up = self.wake_up, False
+        self._signal.clear()
+        return woken
+
+    def _reset_root(self, status: Status) -> Status:
+        if status is SUCCESS or status is FAILURE:
+            self.nodes[0].status = IDLE
+        return status
+
+    def _guarded(self, function: Callable[[], Any]) -> Any:
+        """Calls what ticks or halts nodes, with room for deep trees, and tells the observers."""
+        if function != self._halt and self._recorder.observers:
+            return self._recorder.tick(lambda: self._guarded_without_telling(function))
+        return self._guarded_without_telling(function)
+
+    def _guarded_without_telling(self, function: Callable[[], Any]) -> Any:
+        return call_deep(function, self.depth) if self.depth > DEEP else function()
+
+    # -- observation and hooks -------------------------------------------------------------------------------------
+
+    def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
+        """Lets `callback` be called after each tick with what changed; gives the function that ends it.
+
+        Args:
+            callback: is called with a `TickChanges`, also when the tick raised. The first one has all nodes that are
+                not IDLE and all entries.
+            node_times: also measure each node.
+        """
+        recorder = self._recorder
+        if not recorder.observers:
+            recorder.attach()
+        recorder.observers.append(callback)
+        if node_times and self.node_times_s is None:
+            self.node_times_s = {}
+        self.link()
+
+        def unsubscribe() -> None:
+            if callback not in recorder.observers:
+                return
+            recorder.observers.remove(callback)
+            if not recorder.observers:
+                recorder.detach()
+                self.node_times_s = None
+            self.link()
+
+        return unsubscribe
+
+    def add_hook(
+        self, *, before: Before | None = None, after: After | None = None, node: Node | int | None = None
+    ) -> Callable[[], None]:
+        """Lets functions be called round the ticks of one node, or of all; gives the function that ends it.
+
+        Args:
+            before: called with the node; a status that it returns is taken instead of ticking the node.
+            after: called with the node and its result; a status that it returns replaces that.
+            node: the node or its uid; None for all nodes.
+        """
+        uid = node.uid if isinstance(node, Node) else node
+        return self._hooks.add(Hook(uid, before, after))
+
+    def time_leaves(self, *, on: bool = True) -> None:
+        """Keeps `current_uid` and `slowest` up to date, so that a slow action can be named."""
+        self._hooks.times_leaves = on
+        self.link()
+
+    def has_hooks(self, node: Node) -> bool:
+        """Whether a node must be ticked through `run_hooks`."""
+        return self._hooks.applies(node)
+
+    def run_hooks(self, node: Node, inner: Execute) -> Status:
+        """Ticks a node with its hooks."""
+        return self._hooks.run(node, inner)
+
+    def link(self) -> None:
+        """Looks up anew how each node is ticked."""
+        for node in self.nodes:
+            node.link()
+        self._tick_root = self.nodes[0].entry()
+        self._is_plain = not self._recorder.observers and self.depth <= DEEP and not self._hooks.times_leaves

@@ -1,0 +1,291 @@
+"""Types of ports and blackboard entries, with the conversions that BehaviorTree.CPP makes between them.
+
+A value is a plain Python object. Numbers, strings and booleans convert as BT.CPP's ``Any`` does; everything else
+passes by reference.
+"""
+
+import collections
+import dataclasses
+import enum
+import json
+import math
+import numbers
+import re
+import typing
+from collections.abc import Callable
+from typing import Any, Final
+
+from tree_gardener.status import Status
+
+INT32: Final = (-(2**31), 2**31 - 1)
+UINT32: Final = (0, 2**32 - 1)
+INT64: Final = (-(2**63), 2**63 - 1)
+
+_INTEGER = re.compile(r"-?[0-9]+")
+_UNSIGNED = re.compile(r"[0-9]+")
+_REAL = re.compile(r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE)
+_TRUE = frozenset(("1", "true", "TRUE", "True"))
+_FALSE = frozenset(("0", "false", "FALSE", "False"))
+
+
+class ConversionError(ValueError):
+    """A text or a value that is not of the type asked for."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ValueType:
+    """A type that a port or an entry can have.
+
+    Attributes:
+        name: as in ``catalog.json``: ``int``, ``double``, ``list[int]``; a Python class by its full name.
+        parse: makes a value from a literal; raises ConversionError.
+        convert: makes a value of this type from another value; raises ConversionError.
+        is_strong: whether an entry of this type refuses others; ``any`` does not.
+    """
+
+    name: str
+    parse: Callable[[str], Any]
+    convert: Callable[[Any], Any]
+    is_strong: bool = True
+
+
+def format_number(value: float) -> str:
+    """A number as text: an integer plain, a double always with six decimals."""
+    if isinstance(value, int):
+        return str(int(value))
+    return f"{value:.6f}" if math.isfinite(value) else str(value).replace("+", "")
+
+
+def to_text(value: Any) -> str:
+    """A value as a string port reads it."""
+    if isinstance(value, str):
+        return value
+    number = as_number(value)
+    if number is None:
+        raise ConversionError(f"a value of type {type_name_of(value)} is not a string")
+    return format_number(number)
+
+
+def as_number(value: Any) -> int | float | None:
+    """The value as an int (booleans too) or a float; None if it is not a number."""
+    if isinstance(value, bool):
+        return int(value)
+    if isinstance(value, (int, float)):
+        return value
+    if isinstance(value, numbers.Integral):
+        return int(value)
+    if isinstance(value, numbers.Real):
+        return float(value)
+    return None
+
+
+def _integer(limits: tuple[int, int], name: str) -> ValueType:
+    low, high = limits
+    pattern = _UNSIGNED if low == 0 else _INTEGER
+
+    def parse(text: str) -> int:
+        match = pattern.match(text)
+        if match is None:
+            raise ConversionError(f"'{text}' is not an integer")
+        return in_range(int(match.group()))
+
+    def convert(value: Any) -> int:
+        number = as_number(value)
+        if number is None:
+            if isinstance(value, str):
+                return parse(value)
+            raise ConversionError(f"a value of type {type_name_of(value)} is not an integer")
+        if isinstance(number, float):
+            if not number.is_integer():
+                raise ConversionError(f"{number} is not an integer")
+            number = int(number)
+        return in_range(number)
+
+    def in_range(number: int) -> int:
+        if not low <= number <= high:
+            raise ConversionError(f"{number} is outside of {low}..{high}")
+        return number
+
+    return ValueType(name, parse, convert)
+
+
+def parse_double(text: str) -> float:
+    """Reads a real number as C++ ``from_chars`` does: what follows the number is ignored."""
+    match = _REAL.match(text)
+    if match is None:
+        raise ConversionError(f"'{text}' is not a number")
+    return float(match.group())
+
+
+def _convert_double(value: Any) -> float:
+    number = as_number(value)
+    if number is not None:
+        return float(number)
+    if isinstance(value, str):
+        return parse_double(value)
+    raise ConversionError(f"a value of type {type_name_of(value)} is not a number")
+
+
+def parse_bool(text: str) -> bool:
+    """Reads one of ``0 1 true TRUE True false FALSE False``."""
+    if text in _TRUE:
+        return True
+    if text in _FALSE:
+        return False
+    raise ConversionError(f"'{text}' is not true or false")
+
+
+def to_bool(value: Any) -> bool:
+    """Casts to bool: an integer must be 0 or 1, a double must not be negative, a string is not a bool."""
+    number = as_number(value)
+    if number is None:
+        raise ConversionError(f"a value of type {type_name_of(value)} is not true or false")
+    if isinstance(number, int):
+        if number not in (0, 1):
+            raise ConversionError(f"the integer {number} is neither 0 nor 1")
+    elif number < 0:
+        raise ConversionError(f"the negative number {number} is neither true nor false")
+    return bool(number)
+
+
+def _convert_bool(value: Any) -> bool:
+    return parse_bool(value) if isinstance(value, str) else to_bool(value)
+
+
+def parse_status(text: str) -> Status:
+    """Reads the name of a status."""
+    try:
+        return Status[text]
+    except KeyError:
+        raise ConversionError(f"'{text}' is not a status: IDLE, RUNNING, SUCCESS, FAILURE or SKIPPED") from None
+
+
+def _convert_status(value: Any) -> Status:
+    if isinstance(value, Status):
+        return value
+    return parse_status(to_text(value))
+
+
+def _same(value: Any) -> Any:
+    return value
+
+
+INT: Final = _integer(INT32, "int")
+INT_64: Final = _integer(INT64, "int64")
+UINT: Final = _integer(UINT32, "uint")
+DOUBLE: Final = ValueType("double", parse_double, _convert_double)
+STRING: Final = ValueType("string", _same, to_text)
+BOOL: Final = ValueType("bool", parse_bool, _convert_bool)
+STATUS: Final = ValueType("status", parse_status, _convert_status)
+ANY: Final = ValueType("any", _same, _same, is_strong=False)
+
+
+def _list_of(item: ValueType) -> ValueType:
+    def parse(text: str) -> list[Any]:
+        if text.startswith("json:"):
+            try:
+                values = json.loads(text[len("json:") :])
+            except ValueError as error:
+                raise ConversionError(f"'{text}' is not JSON: {error}") from None
+            if not isinstance(values, list):
+                raise ConversionError(f"'{text}' is not a list")
+            return [item.convert(value) for value in values]
+        return [item.parse(part) for part in text.split(";")] if text else []
+
+    def convert(value: Any) -> Any:
+        if isinstance(value, str):
+            return parse(value)
+        if isinstance(value, (list, tuple, collections.deque)):
+            return value
+        raise ConversionError(f"a value of type {type_name_of(value)} is not a list")
+
+    return ValueType(f"list[{item.name}]", parse, convert)
+
+
+BY_NAME: Final[dict[str, ValueType]] = {
+    kind.name: kind
+    for kind in (
+        *(INT, INT_64, UINT, DOUBLE, STRING, BOOL, STATUS, ANY),
+        *(_list_of(item) for item in (INT, INT_64, UINT, DOUBLE, STRING, BOOL)),
+    )
+} | {"script": STRING}
+
+_BY_CLASS: dict[Any, ValueType] = {
+    int: INT,
+    float: DOUBLE,
+    str: STRING,
+    bool: BOOL,
+    Status: STATUS,
+    Any: ANY,
+    object: ANY,
+    None: ANY,
+}
+
+
+def value_type(annotation: Any) -> ValueType:
+    """The type that a Python annotation stands for, as in ``Port(list[float])``.
+
+    A name out of ``catalog.json`` stands for itself. A class of one's own is a type of its own: its values pass by
+    reference, and it has no literals, except for an Enum, whose members are written by name.
+    """
+    if isinstance(annotation, ValueType):
+        return annotation
+    if isinstance(annotation, str):
+        return BY_NAME.get(annotation, ANY)
+    known = _BY_CLASS.get(annotation)
+    if known is None:
+        known = _BY_CLASS[annotation] = _make_type(annotation)
+    return known
+
+
+def _make_type(annotation: Any) -> ValueType:
+    if typing.get_origin(annotation) in (list, collections.deque):
+        item = value_type(typing.get_args(annotation)[0])
+        return BY_NAME.get(f"list[{item.name}]") or _list_of(item)
+    if annotation in (list, collections.deque):
+        return BY_NAME["list[string]"]
+    if isinstance(annotation, type) and issubclass(annotation, enum.Enum):
+        return _enumeration(annotation)
+    if isinstance(annotation, type):
+        return _class(annotation)
+    return ANY
+
+
+def _enumeration(cls: type[enum.Enum]) -> ValueType:
+    def parse(text: str) -> enum.Enum:
+        if text in cls.__members__:
+            return cls[text]
+        for member in cls:
+            if str(member.value) == text:
+                return member
+        raise ConversionError(f"'{text}' is not one of {', '.join(cls.__members__)}")
+
+    def convert(value: Any) -> enum.Enum:
+        return value if isinstance(value, cls) else parse(to_text(value))
+
+    return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
+
+
+def _class(cls: type) -> ValueType:
+    def parse(text: str) -> Any:
+        raise ConversionError(f"'{text}': a {cls.__qualname__} cannot be written as text, use a {{key}}")
+
+    def convert(value: Any) -> Any:
+        if isinstance(value, cls):
+            return value
+        raise ConversionError(f"a value of type {type_name_of(value)} is not a {cls.__qualname__}")
+
+    return ValueType(f"{cls.__module__}.{cls.__qualname__}", parse, convert)
+
+
+def type_name_of(value: Any) -> str:
+    """The name of a value's type for people: ``int``, ``double``, ``string``, ``bool``, else its class."""
+    if isinstance(value, bool):
+        return "bool"
+    if isinstance(value, int):
+        return "int"
+    if isinstance(value, float):
+        return "double"
+    if isinstance(value, str):
+        return "string"
+    return type(value).__qualname__

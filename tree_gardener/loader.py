@@ -108,10 +108,11 @@ class Builder:
         uid = len(self.nodes) + 1
         name = attributes.get("name", attributes.get("ID", kind.name) if element.tag == "SubTree" else kind.name)
         config = None
+        type_name = kind.name
         if self.rules:
             kind, config = self.substituted(element, kind, name, instance, uid)
         ports = self.ports(element, kind) if element.tag != "SubTree" else NO_PORTS
-        node = kind.node_class(kind.name, name, kind.manifest, ports)
+        node = kind.node_class(type_name, name, kind.manifest, ports)
         node.uid = uid
         node.element = element
         node.instance = instance

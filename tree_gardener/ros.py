@@ -1,0 +1,81 @@
+"""Runs a tree on an rclpy node, by ROS time, which is simulated time under ``use_sim_time``."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from tree_gardener.errors import TickError
+from tree_gardener.runner import Overrun, Runner
+from tree_gardener.status import Status
+from tree_gardener.tree import Tree
+
+NANOSECONDS = 1_000_000_000
+
+
+class RosClock:
+    """The time of an rclpy node."""
+
+    def __init__(self, node: Any) -> None:
+        self._clock = node.get_clock()
+
+    def now(self) -> float:
+        """Seconds of ROS time."""
+        return float(self._clock.now().nanoseconds) / NANOSECONDS
+
+    def sleep(self, duration_s: float) -> None:
+        """Waits; a node that spins itself must not call it from a callback."""
+        end_s = self.now() + duration_s
+        while self.now() < end_s:
+            time.sleep(min(0.001, duration_s))
+
+
+class RosRunner:
+    """Ticks a tree from a timer of an rclpy node, once per period of ROS time.
+
+    All publishers and subscriptions of the actions live on that one node, so that spinning it runs everything.
+
+    Args:
+        tree: made with ``clock=RosClock(node)``.
+        node: the rclpy node; it is handed to ``setup`` of each action.
+        tick_hz: ticks a second.
+        finished: called with the root's last status when the run ends by itself.
+        more: arguments of `Runner`.
+    """
+
+    def __init__(
+        self,
+        tree: Tree,
+        node: Any,
+        *,
+        tick_hz: float,
+        finished: Callable[[Status], None] | None = None,
+        **more: Any,
+    ) -> None:
+        self._node = node
+        self._clock = RosClock(node)
+        self._log = node.get_logger()
+        more.setdefault("fault", self._log_fault)
+        more.setdefault("overrun", self._log_overrun)
+        tree.setup(node=node)
+        self.runner = Runner(tree, tick_hz=tick_hz, finished=finished, **more)
+        # A few calls a period: the runner itself decides when a tick is due, so that the rate can change.
+        self._timer = node.create_timer(self.runner.period_s / 4.0, self.poll)
+
+    def poll(self) -> None:
+        """Ticks if a tick is due."""
+        self.runner.tick_due(self._clock.now())
+
+    def shutdown(self) -> None:
+        """Halts the tree, which stops the robot, and ends the timer."""
+        self._node.destroy_timer(self._timer)
+        self.runner.shutdown()
+
+    def _log_fault(self, error: TickError) -> None:
+        self._log.error(f"{error}\n{error.traceback_text}")
+
+    def _log_overrun(self, overrun: Overrun) -> None:
+        tree = self.runner.tree
+        slow = f", of which {tree.nodes[overrun.slow_uid - 1].path} {overrun.slow_s:.3f} s" if overrun.slow_uid else ""
+        self._log.warning(
+            f"tick {overrun.tick} took {overrun.duration_s:.3f} s of {overrun.period_s:.3f} s{slow}"
+        )

@@ -1,0 +1,255 @@
+"""Ticks a tree at a fixed rate.
+
+The runner owns no thread and no clock: whoever drives it calls `tick_due` with the time, as often as he likes. All
+commands take effect at the boundary between two ticks.
+"""
+
+import dataclasses
+import enum
+import time
+from collections.abc import Callable
+from typing import Final
+
+from tree_gardener.errors import TickError
+from tree_gardener.status import RUNNING, Status
+from tree_gardener.tree import Tree
+
+
+class RunnerState(enum.Enum):
+    """What a runner does."""
+
+    RUNNING = "running"
+    PAUSED = "paused"
+    FINISHED = "finished"
+
+
+@dataclasses.dataclass(frozen=True)
+class Overrun:
+    """A tick that took longer than its period.
+
+    Attributes:
+        tick: its number.
+        duration_s: how long it took.
+        period_s: how long it may take.
+        missed: ticks that were left out because of it.
+        slow_uid: the action that took most of the time; 0 if none was ticked.
+        slow_s: how long that took.
+    """
+
+    tick: int
+    duration_s: float
+    period_s: float
+    missed: int
+    slow_uid: int
+    slow_s: float
+
+
+@dataclasses.dataclass
+class RunStatistics:
+    """What a runner counted: ticks, overruns, ticks left out, and the longest tick."""
+
+    ticks: int = 0
+    overruns: int = 0
+    missed: int = 0
+    longest_s: float = 0.0
+    total_s: float = 0.0
+
+
+OnFinish = Callable[[Status], None]
+OnFault = Callable[[TickError], None]
+OnOverrun = Callable[[Overrun], None]
+
+_ON_FINISH: Final = ("stop", "repeat")
+_ON_ERROR: Final = ("stop", "failure")
+
+
+class Runner:
+    """Ticks a tree at a fixed rate.
+
+    Args:
+        tree: set up already.
+        tick_hz: ticks a second.
+        on_finish: ``stop`` ends the run when the root succeeds, fails or is skipped; ``repeat`` ticks on.
+        on_error: ``stop`` ends the run when an action raises; ``failure`` makes that node fail.
+        finished: called once with the root's last status when the run ends by itself.
+        fault: called with each error.
+        overrun: called after each tick that took longer than its period.
+        measure: seconds, for the length of ticks; not the time that ticks are due by.
+    """
+
+    def __init__(
+        self,
+        tree: Tree,
+        *,
+        tick_hz: float,
+        on_finish: str = "stop",
+        on_error: str = "stop",
+        finished: OnFinish | None = None,
+        fault: OnFault | None = None,
+        overrun: OnOverrun | None = None,
+        measure: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        if on_finish not in _ON_FINISH:
+            raise ValueError(f"on_finish is {on_finish!r}, not one of {', '.join(_ON_FINISH)}")
+        if on_error not in _ON_ERROR:
+            raise ValueError(f"on_error is {on_error!r}, not one of {', '.join(_ON_ERROR)}")
+        self.tree = tree
+        self.period_s = _period(tick_hz)
+        self.repeats = on_finish == "repeat"
+        self.state = RunnerState.RUNNING
+        self.status = Status.IDLE
+        self.error: TickError | None = None
+        self.statistics = RunStatistics()
+        self._finished = finished
+        self._fault = fault
+        self._overrun = overrun
+        self._measure = measure
+        self._due_s: float | None = None
+        self._steps = 0
+        self._wanted_state: RunnerState | None = None
+        self._wanted_period_s: float | None = None
+        self._stop_wanted = False
+        self._in_tick = False
+        tree.on_error = self._count_as_failure if on_error == "failure" else None
+        tree.time_leaves()
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether the run is over."""
+        return self.state is RunnerState.FINISHED
+
+    # -- commands --------------------------------------------------------------------------------------------------
+
+    def pause(self) -> None:
+        """Ticks no more until `resume` or `step`."""
+        self._wanted_state = RunnerState.PAUSED
+        self._settle()
+
+    def resume(self) -> None:
+        """Ticks again, one period from the next call of `tick_due` at the earliest if it was paused."""
+        self._wanted_state = RunnerState.RUNNING
+        self._settle()
+
+    def step(self, count: int = 1) -> None:
+        """Lets a paused runner tick `count` times."""
+        self._steps += count
+
+    def set_tick_rate(self, tick_hz: float) -> None:
+        """Changes the rate, from the next tick on."""
+        self._wanted_period_s = _period(tick_hz)
+        self._settle()
+
+    def stop(self) -> None:
+        """Ends the run and halts the tree, so that robots stop."""
+        self._stop_wanted = True
+        self._settle()
+
+    # -- driving ---------------------------------------------------------------------------------------------------
+
+    def tick_due(self, now_s: float) -> Status | None:
+        """Ticks the tree once if a tick is due; gives the root's status, or None if there was no tick.
+
+        Args:
+            now_s: the time; simulated time where there is one. If it went back, the next tick is due at once.
+        """
+        self._settle()
+        if self.state is RunnerState.FINISHED or not self._is_due(now_s):
+            return None
+        start_s = self._measure()
+        self._in_tick = True
+        try:
+            status = self.tree.tick_exactly_once()
+        except TickError as error:
+            self._fail(error)
+            return None
+        finally:
+            self._in_tick = False
+            self._account(self._measure() - start_s)
+        self.status = status
+        if status is not RUNNING and not self.repeats:
+            self._end(status)
+        self._settle()
+        return status
+
+    def shutdown(self) -> None:
+        """Ends the run and shuts the tree down."""
+        self.state = RunnerState.FINISHED
+        self.tree.shutdown()
+
+    def _is_due(self, now_s: float) -> bool:
+        if self.state is RunnerState.PAUSED:
+            self._due_s = None
+            if self._steps == 0:
+                return False
+            self._steps -= 1
+            return True
+        due_s = self._due_s
+        if due_s is not None and now_s < due_s - 1e-9 and due_s - now_s <= self.period_s + 1e-9:
+            return False
+        if due_s is None or now_s < due_s:
+            due_s = now_s
+        # Ticks that were missed are left out, and those that follow keep to the grid.
+        late = int((now_s - due_s) / self.period_s + 1e-9)
+        self.statistics.missed += late
+        self._due_s = due_s + (late + 1) * self.period_s
+        return True
+
+    def _account(self, duration_s: float) -> None:
+        statistics = self.statistics
+        statistics.ticks += 1
+        statistics.total_s += duration_s
+        statistics.longest_s = max(statistics.longest_s, duration_s)
+        if duration_s > self.period_s:
+            statistics.overruns += 1
+            if self._overrun is not None:
+                slow_s, slow_uid = self.tree.slowest
+                missed = int(duration_s / self.period_s)
+                self._overrun(
+                    Overrun(self.tree.tick_number, duration_s, self.period_s, missed, slow_uid, slow_s)
+                )
+
+    def _settle(self) -> None:
+        """Carries out the commands, unless a tick is going on."""
+        if self._in_tick or self.state is RunnerState.FINISHED:
+            return
+        if self._wanted_period_s is not None:
+            if self._due_s is not None:
+                self._due_s += self._wanted_period_s - self.period_s
+            self.period_s, self._wanted_period_s = self._wanted_period_s, None
+        if self._wanted_state is not None:
+            self.state, self._wanted_state = self._wanted_state, None
+            self._steps = 0
+        if self._stop_wanted:
+            self.state = RunnerState.FINISHED
+            self._halt()
+
+    def _end(self, status: Status) -> None:
+        self.state = RunnerState.FINISHED
+        self._halt()
+        if self._finished is not None:
+            self._finished(status)
+
+    def _fail(self, error: TickError) -> None:
+        self.error = error
+        if self._fault is not None:
+            self._fault(error)
+        self.status = Status.FAILURE
+        self._end(Status.FAILURE)
+
+    def _halt(self) -> None:
+        try:
+            self.tree.halt()
+        except TickError as error:
+            self.error = self.error or error
+            if self._fault is not None:
+                self._fault(error)
+
+    def _count_as_failure(self, error: TickError) -> None:
+        if self._fault is not None:
+            self._fault(error)
+
+
+def _period(tick_hz: float) -> float:
+    if not tick_hz > 0:
+        raise ValueError(f"the tick rate is {tick_hz} Hz and must be more than 0")
+    return 1.0 / tick_hz

@@ -1,0 +1,111 @@
+"""A zoo of children for the manager, good and bad: `python child.py HABIT --channel-fd N`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import time
+
+from executor.channel import Channel, ChannelClosed
+from executor.confine import die_with_parent
+
+READY = {"type": "ready", "renderer": "fake", "tf": False, "universe": "Fake"}
+ANSWERS = {"pause": "paused", "resume": "resumed", "step": "stepped", "set_blackboard": "blackboard_set"}
+
+
+def obey(channel, *, on_start=lambda: None):
+    """Does what it is told until it is told to stop."""
+    while True:
+        message = channel.receive()
+        assert message is not None
+        match message["type"]:
+            case "start":
+                on_start()
+                channel.send(READY)
+            case "subscribe":
+                channel.send(
+                    {
+                        "type": "frame",
+                        "client": message["client"],
+                        "stream": message["stream"],
+                        "data": b"\x80",
+                    }
+                )
+            case "exit":
+                os._exit(message.get("code", 0))
+            case "say":
+                channel.send(message["message"])
+            case "stop":
+                return
+            case type_ if type_ in ANSWERS:
+                channel.send({"type": ANSWERS[type_]})
+
+
+def flood():
+    for n in range(100_000):
+        sys.stdout.write(f"line {n}\n")
+    sys.stdout.flush()
+
+
+def leave_daemon():
+    """Starts a process that leaves our group and would outlive us."""
+    if os.fork() == 0:
+        os.setsid()
+        if os.fork() == 0:
+            while True:
+                time.sleep(1)
+        os._exit(0)
+
+
+def fork_many():
+    for _ in range(100):
+        if os.fork() == 0:
+            while True:
+                time.sleep(1)
+
+
+def leak():
+    hoard = []
+    while True:
+        hoard.append(b"x" * 10_000_000)
+
+
+def die(code):
+    sys.stderr.write("last words\n")
+    sys.stderr.flush()
+    os._exit(code)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("habit")
+    parser.add_argument("--channel-fd", type=int, required=True)
+    arguments = parser.parse_args()
+    die_with_parent()
+    channel = Channel(arguments.channel_fd)
+    habits = {
+        "good": lambda: obey(channel),
+        "dies_at_start": lambda: die(3),
+        "dies_when_started": lambda: obey(channel, on_start=lambda: die(4)),
+        "never_ready": lambda: time.sleep(3600),
+        "floods": lambda: obey(channel, on_start=flood),
+        "daemon": lambda: obey(channel, on_start=leave_daemon),
+        "forks": lambda: obey(channel, on_start=fork_many),
+        "leaks": lambda: obey(channel, on_start=leak),
+        "closes_pipe": lambda: (channel.close(), time.sleep(3600)),
+        "talks_rubbish": lambda: (os.write(arguments.channel_fd, b"\xff" * 100), time.sleep(3600)),
+    }
+    if arguments.habit == "ignores_signals":
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGHUP):
+            signal.signal(number, signal.SIG_IGN)
+        time.sleep(3600)
+    try:
+        habits[arguments.habit]()
+    except ChannelClosed:
+        return
+
+
+if __name__ == "__main__":
+    main()

@@ -1,6 +1,6 @@
 import { Button, Center, Stack, Text, Title } from '@mantine/core';
 import { useMediaQuery } from '@mantine/hooks';
-import { useEffect, useState } from 'react';
+import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { useShortcuts } from '@/actions/shortcuts';
@@ -59,7 +59,7 @@ function Workbench({ projectId }: StudioProps) {
   const isNarrow = useMediaQuery('(max-width: 900px)', false, { getInitialValueInEffect: false });
   const width = isNarrow ? 'narrow' : 'wide';
   const model = useTabs((state) => state.model);
-  const [modelWidth, setModelWidth] = useState(width);
+  const modelWidth = useTabs((state) => state.width);
   const name = useProjectStore((state) => state.name);
   useShortcuts();
   useRunReactions({ showPanel, openFile: (path, line) => openTab({ kind: 'file', path }, line) });
@@ -83,8 +83,7 @@ function Workbench({ projectId }: StudioProps) {
   useEffect(() => {
     if (model && modelWidth === width) return;
     const fresh = loadLayout(width, hasWebGl());
-    useTabs.setState({ model: fresh });
-    setModelWidth(width);
+    useTabs.setState({ model: fresh, width });
     reopen(projectId, useProjectStore.getState().mainTree);
     followFront(fresh);
   }, [model, modelWidth, width, projectId]);
@@ -94,7 +93,9 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunProgress />
       <Banner />
-      <div className={classes['dock']}>{model ? <Dock model={model} width={width} key={width} /> : null}</div>
+      <div className={classes['dock']}>
+        {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
+      </div>
       <StatusBar />
       <CommandPalette />
       <ConflictDialog />

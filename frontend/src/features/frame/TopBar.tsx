@@ -44,8 +44,8 @@ export function TopBar() {
         <SaveIndicator />
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
-        <ActionButton action="canvas.undo" testId="undo" isDisabled={!history?.past.length} />
-        <ActionButton action="canvas.redo" testId="redo" isDisabled={!history?.future.length} />
+        <ActionButton action="edit.undo" testId="undo" isDisabled={!history?.past.length} />
+        <ActionButton action="edit.redo" testId="redo" isDisabled={!history?.future.length} />
         <Divider orientation="vertical" mx={4} my={8} />
         <RunControls />
       </Group>

@@ -85,7 +85,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
         {
           type: 'row',
           weight: 17,
-          children: [tabset('files', 36, ['explorer', 'outline']), tabset('nodes', 64, ['palette'])],
+          children: [tabset('files', 42, ['explorer', 'outline']), tabset('nodes', 58, ['palette'])],
         },
         {
           type: 'row',

@@ -1,7 +1,7 @@
 import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Model } from 'flexlayout-react';
 import { create } from 'zustand';
 import { useProjectStore } from '@/store/project';
-import { EDITORS, type PanelId } from './layoutModel';
+import { EDITORS, type FrameWidth, type PanelId } from './layoutModel';
 
 /** A document that is open in a tab. */
 export type DocumentTab = { kind: 'tree'; id: string } | { kind: 'file'; path: string };
@@ -15,10 +15,12 @@ export interface LineTarget {
 
 interface TabsData {
   model: Model | null;
+  /** Of which window width the model is the layout. */
+  width: FrameWidth | null;
   target: LineTarget | null;
 }
 
-export const useTabs = create<TabsData>(() => ({ model: null, target: null }));
+export const useTabs = create<TabsData>(() => ({ model: null, width: null, target: null }));
 
 let requests = 0;
 

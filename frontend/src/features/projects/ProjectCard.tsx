@@ -16,6 +16,11 @@ interface ProjectCardProps {
   readonly onDelete: () => void;
 }
 
+/** Ready to type another name as soon as the field is there. */
+function focusAll(input: HTMLInputElement | null): void {
+  input?.select();
+}
+
 export function ProjectCard({ project, onRename, onDuplicate, onDelete }: ProjectCardProps) {
   const { t, i18n } = useTranslation('projects');
   const [isRenaming, setRenaming] = useState(false);
@@ -50,8 +55,7 @@ export function ProjectCard({ project, onRename, onDuplicate, onDelete }: Projec
               size="xs"
               value={name}
               aria-label={t('rename')}
-              autoFocus
-              onFocus={(event) => event.currentTarget.select()}
+              ref={focusAll}
               onChange={(event) => setName(event.currentTarget.value)}
               onBlur={() => finish(true)}
               onKeyDown={onKey}

@@ -27,15 +27,9 @@ export function PicturePanel({ stream, canvas, label, emptyText, children }: Pic
   const isEmpty = !hasWorld || !shown;
   return (
     <>
-      <canvas
-        ref={canvas}
-        className={classes['image']}
-        role="img"
-        aria-label={label}
-        hidden={isEmpty}
-        width={640}
-        height={480}
-      />
+      <canvas ref={canvas} className={classes['image']} hidden={isEmpty} width={640} height={480}>
+        {label}
+      </canvas>
       {isEmpty ? (
         <Text size="sm" c="dimmed" className={classes['empty']}>
           {emptyText}

@@ -67,6 +67,8 @@ export function VideoPanel() {
   };
 
   return (
+    // An application by its role: it is turned by dragging and by the arrow keys.
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={panel}
       className={classes['panel']}

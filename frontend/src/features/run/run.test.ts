@@ -1,0 +1,80 @@
+import { describe, expect, it } from 'vitest';
+import type { Fault } from '@/generated/messages';
+import { bannerFor } from './banner';
+import { fractionOf } from './RunProgress';
+
+const calm = { connection: 'open', connectionMessage: '', faults: [], failure: null } as const;
+
+const fault = (more: Partial<Fault>): Fault => ({
+  kind: 'exception',
+  message: 'boom',
+  hint: '',
+  node_id: '',
+  tree_id: '',
+  node_path: '',
+  file: '',
+  line: 0,
+  traceback: '',
+  ...more,
+});
+
+describe('bannerFor', () => {
+  it('says nothing when all is well', () => {
+    expect(bannerFor(calm)).toBeNull();
+  });
+
+  it('leads to the line that raised', () => {
+    const banner = bannerFor({
+      ...calm,
+      faults: [fault({ file: 'actions/Go.py', line: 12, node_id: 'n1' })],
+    });
+    expect(banner).toMatchObject({ titleKey: 'banner.faultAt', link: { file: 'actions/Go.py', line: 12 } });
+  });
+
+  it('leads to the block where there is no line', () => {
+    const faults = [fault({ kind: 'timeout', node_id: 'n1', tree_id: 'MainTree' })];
+    expect(bannerFor({ ...calm, faults })?.link).toEqual({ tree: 'MainTree', node: 'n1' });
+  });
+
+  it('puts the lost connection before all else', () => {
+    const banner = bannerFor({ ...calm, connection: 'reconnecting', faults: [fault({})] });
+    expect(banner).toMatchObject({ kind: 'connection', tone: 'warning' });
+  });
+
+  it('names the first error of a project that cannot run', () => {
+    const failure = {
+      stage: 'checking' as const,
+      code: 'invalid_project',
+      message: 'The project has errors.',
+      hint: '',
+      diagnostics: [
+        {
+          code: 'BT0201',
+          severity: 'error' as const,
+          message: 'No such action.',
+          tree: 'MainTree',
+          node: 'n4',
+        },
+      ],
+    };
+    const banner = bannerFor({ ...calm, failure });
+    expect(banner).toMatchObject({ text: 'No such action.', link: { tree: 'MainTree', node: 'n4' } });
+  });
+});
+
+describe('fractionOf', () => {
+  it('only grows from pressing Run to running', () => {
+    const steps = [
+      fractionOf('saving', undefined, 0),
+      fractionOf('checking', undefined, 0),
+      fractionOf('starting', undefined, 0),
+      fractionOf('launching', 'connect', 0.5),
+      fractionOf('launching', 'launch_universe', 0.1),
+      fractionOf('launching', 'launch_universe', 1),
+      fractionOf('launching', 'prepare_visualization', 0.2),
+      fractionOf('launching', 'run_application', 1),
+    ];
+    expect([...steps].sort((a, b) => a - b)).toEqual(steps);
+    expect(steps.at(-1)).toBe(1);
+  });
+});

@@ -1,0 +1,64 @@
+import { describe, expect, it } from 'vitest';
+import type { Poses, Scene } from '@/generated/messages';
+import { frames } from './frames';
+import { speedOf, useMotion } from './motion';
+import { currentPoses } from './poses';
+
+const bytes = (array: Float32Array | Uint16Array) => new Uint8Array(array.buffer);
+
+const scene: Scene = {
+  type: 'scene',
+  name: 'room',
+  t: 0,
+  objects: [
+    { id: 1, body: 'wall', link: '', kind: 'static', shapes: [], pose: [5, 0, 0, 0, 0, 0, 1] },
+    { id: 4, body: 'robot', link: 'base', kind: 'robot', shapes: [], pose: [0, 0, 0, 0, 0, 0, 1] },
+  ],
+  meshes: {},
+  lights: [],
+  ground_color: [1, 1, 1],
+  sensors: [],
+};
+
+const poses = (t: number, x: number): Poses => ({
+  type: 'poses',
+  t,
+  ids: bytes(new Uint16Array([4])),
+  poses: bytes(new Float32Array([x, 0, 0, 0, 0, 0, 1])),
+});
+
+describe('speedOf', () => {
+  it('is the way over the time', () => {
+    const samples = [0, 0.5, 1].map((t) => ({ t, x: 0.3 * t, y: 0 }));
+    expect(speedOf(samples)).toBeCloseTo(0.3);
+  });
+
+  it('is nothing where time stands still', () => {
+    expect(speedOf([{ t: 1, x: 0, y: 0 }])).toBe(0);
+    expect(speedOf([])).toBe(0);
+  });
+});
+
+describe('poses', () => {
+  it('keep what earlier frames said of objects that later ones leave out', () => {
+    frames.publish(scene);
+    frames.publish(poses(0.1, 1));
+    expect(currentPoses.get(1)?.[0]).toBe(5);
+    expect(currentPoses.get(4)?.[0]).toBe(1);
+  });
+
+  it("measure the robot's speed", () => {
+    frames.publish(scene);
+    for (let step = 0; step <= 20; step += 1) frames.publish(poses(step * 0.1, step * 0.05));
+    expect(useMotion.getState().speed).toBeCloseTo(0.5, 1);
+  });
+
+  it('are read also where the bytes do not begin at a multiple of four', () => {
+    frames.publish(scene);
+    const frame = poses(0.1, 2);
+    const shifted = new Uint8Array(frame.poses.length + 1);
+    shifted.set(frame.poses, 1);
+    frames.publish({ ...frame, poses: shifted.subarray(1) });
+    expect(currentPoses.get(4)?.[0]).toBe(2);
+  });
+});

@@ -1,0 +1,140 @@
+import { describe, expect, it } from 'vitest';
+import type { BlackboardEntry, Events, Log, ServerMessage, Snapshot } from '@/generated/messages';
+import { appendLogs, blackboardId, initialSession, MAX_LOG_LINES, reduce, reduceAll } from './reduce';
+
+let seq = 0;
+
+function message<K extends keyof Events>(command: K, data: Events[K], t = 1): ServerMessage {
+  seq += 1;
+  return { id: `s${seq}`, command, data, seq, t };
+}
+
+const entry = (key: string, value: unknown, more: Partial<BlackboardEntry> = {}): BlackboardEntry => ({
+  scope: '',
+  key,
+  type: 'float',
+  value,
+  preview: false,
+  removed: false,
+  ...more,
+});
+
+const log = (text: string, more: Partial<Log> = {}): Log => ({
+  source: 'action',
+  level: 'info',
+  text,
+  node_id: '',
+  node_path: '',
+  time: 0,
+  ...more,
+});
+
+const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
+  state: 'application_running',
+  tree: null,
+  statuses: [],
+  blackboard: [],
+  logs: [],
+  faults: [],
+  tick_hz: 20,
+  speed: 1,
+  universe: 'walled_room',
+  ...more,
+});
+
+describe('reduce', () => {
+  it('follows the ladder and keeps the reason', () => {
+    const state = reduce(initialSession, message('state-changed', { state: 'paused', reason: 'asked' }));
+    expect(state).toMatchObject({ executor: 'paused', executorReason: 'asked' });
+  });
+
+  it('keeps simulated time and sequence of every message', () => {
+    const state = reduce(initialSession, { ...message('tick', tick(7)), t: 3.5 });
+    expect(state).toMatchObject({ tick: 7, simTime: 3.5, lastSeq: seq });
+  });
+
+  it('lets deltas after a snapshot give what a fresh snapshot gives', () => {
+    const first = snapshot({ blackboard: [entry('a', 1), entry('b', 2)], logs: [log('one')] });
+    const deltas = [
+      message('blackboard', { entries: [entry('a', 5), entry('b', 2, { removed: true }), entry('c', 3)] }),
+      message('log', log('two')),
+      message('state-changed', { state: 'paused', reason: '' }),
+    ];
+    const followed = reduceAll(reduce(initialSession, message('snapshot', first)), deltas);
+    const fresh = reduce(
+      initialSession,
+      message('snapshot', {
+        ...first,
+        state: 'paused',
+        blackboard: [entry('a', 5), entry('c', 3)],
+        logs: [log('one'), log('two')],
+      }),
+    );
+    const shape = (state: typeof followed) => ({
+      executor: state.executor,
+      logs: state.logs.map(({ text }) => text),
+      blackboard: Object.fromEntries(Object.values(state.blackboard).map((row) => [row.key, row.value])),
+    });
+    expect(shape(followed)).toEqual(shape(fresh));
+  });
+
+  it('forgets the faults and the blackboard of the last run when a new tree comes', () => {
+    const before = {
+      ...initialSession,
+      faults: [
+        {
+          kind: 'exception' as const,
+          message: 'boom',
+          hint: '',
+          node_id: 'n1',
+          tree_id: 'MainTree',
+          node_path: '',
+          file: '',
+          line: 0,
+          traceback: '',
+        },
+      ],
+      blackboard: { x: { ...entry('x', 1), changedAt: 1 } },
+    };
+    const state = reduce(before, message('tree', { nodes: [] }));
+    expect(state.faults).toEqual([]);
+    expect(state.blackboard).toEqual({});
+  });
+
+  it('tells two scopes of one key apart', () => {
+    const state = reduce(
+      initialSession,
+      message('blackboard', { entries: [entry('k', 1), entry('k', 2, { scope: 'sub' })] }),
+    );
+    expect(Object.keys(state.blackboard)).toHaveLength(2);
+    expect(blackboardId({ scope: 'a', key: 'b' })).not.toBe(blackboardId({ scope: '', key: 'ab' }));
+  });
+
+  it('changes nothing for a message that it does not know', () => {
+    const unknown = { id: 'x', command: 'later', data: {}, seq: 99, t: 0 };
+    expect(reduce(initialSession, unknown)).toBe(initialSession);
+  });
+});
+
+describe('appendLogs', () => {
+  it('makes a row of each line of text and numbers them', () => {
+    const { logs, nextLogId } = appendLogs({ logs: [], nextLogId: 1 }, [log('a\nb\n'), log('c')]);
+    expect(logs.map(({ id, text }) => [id, text])).toEqual([
+      [1, 'a'],
+      [2, 'b'],
+      [3, 'c'],
+    ]);
+    expect(nextLogId).toBe(4);
+  });
+
+  it('drops the oldest lines rather than grow without end', () => {
+    const many = Array.from({ length: MAX_LOG_LINES + 10 }, (_, index) => log(String(index)));
+    const { logs } = appendLogs({ logs: [], nextLogId: 1 }, many);
+    expect(logs).toHaveLength(MAX_LOG_LINES);
+    expect(logs[0]?.text).toBe('10');
+  });
+});
+
+function tick(n: number): Events['tick'] {
+  return { n, changed: [], flashed: [], duration_ms: 0.1 };
+}

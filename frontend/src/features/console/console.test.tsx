@@ -72,8 +72,8 @@ describe('filterLines', () => {
 describe('ConsolePanel', () => {
   beforeEach(() => {
     // jsdom has no layout; the list of visible rows needs a height to fill.
-    vi.spyOn(HTMLElement.prototype, 'offsetHeight', 'get').mockReturnValue(300);
-    vi.spyOn(HTMLElement.prototype, 'offsetWidth', 'get').mockReturnValue(600);
+    vi.spyOn(Element.prototype, 'clientHeight', 'get').mockReturnValue(300);
+    vi.spyOn(Element.prototype, 'clientWidth', 'get').mockReturnValue(600);
     useSessionStore.setState(initialSession, true);
     useProjectStore.setState({
       files: {

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Final
 
 FASTDDS_PROFILE: Final = Path(__file__).with_name("fastdds.xml")
+LOCKSTEP_PROFILE: Final = Path(__file__).with_name("lockstep.xml")
 
 
 def ros_environment(domain_id: int) -> dict[str, str]:
@@ -19,6 +20,13 @@ def ros_environment(domain_id: int) -> dict[str, str]:
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(FASTDDS_PROFILE),
         "RCUTILS_COLORIZED_OUTPUT": "0",
     }
+
+
+def lockstep_environment() -> dict[str, str]:
+    """Returns the variables of a process that holds its whole graph itself and hears nobody else."""
+    profile = str(LOCKSTEP_PROFILE)
+    names = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+    return ros_environment(0) | dict.fromkeys(names, profile)
 
 
 def has_tf() -> bool:

@@ -78,7 +78,12 @@ class WorldNode:
     """The topics of a world. A second robot's stand under its id, the first one's at the root."""
 
     def __init__(
-        self, world: World, context: Context, *, topics: dict[str, dict[str, str]] | None = None
+        self,
+        world: World,
+        context: Context,
+        *,
+        topics: dict[str, dict[str, str]] | None = None,
+        clock_hz: float = CLOCK_HZ,
     ) -> None:
         self._world = world
         self.node = Node(
@@ -88,7 +93,8 @@ class WorldNode:
             enable_rosout=False,
         )
         self._clock = self.node.create_publisher(Clock, "/clock", _CLOCK_QOS)
-        self._clock_due, self._odometry_due = Due(CLOCK_HZ), Due(ODOMETRY_HZ)
+        self._clock_hz = clock_hz
+        self._clock_due, self._odometry_due = Due(clock_hz), Due(ODOMETRY_HZ)
         renamed = topics or {}
         self._robots = [
             self._make_topics(i, robot, renamed.get(robot.id, {})) for i, robot in enumerate(world.robots)
@@ -131,7 +137,7 @@ class WorldNode:
 
     def restart(self) -> None:
         """Forgets what was done when: simulated time begins anew."""
-        self._clock_due, self._odometry_due = Due(CLOCK_HZ), Due(ODOMETRY_HZ)
+        self._clock_due, self._odometry_due = Due(self._clock_hz), Due(ODOMETRY_HZ)
         for topics in self._robots:
             for sensor in topics.lidars:
                 sensor.due = Due(sensor.lidar.rate_hz)

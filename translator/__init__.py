@@ -5,7 +5,9 @@ from translator.check import check
 from translator.diagnostic import Diagnostic, Place, Severity, TranslatorError
 from translator.export import export_files, self_contained, to_xml
 from translator.importer import from_xml
+from translator.opening import open_files, open_path
 from translator.package.app import to_app_zip
+from translator.package.ros2 import Ros2Package, to_ros2_package
 from translator.project import Project, load
 from translator.settings import Settings
 from translator.tree import Node, Tree
@@ -16,6 +18,7 @@ __all__ = [
     "Node",
     "Place",
     "Project",
+    "Ros2Package",
     "Settings",
     "Severity",
     "TranslatorError",
@@ -25,7 +28,10 @@ __all__ = [
     "from_xml",
     "inspect_action",
     "load",
+    "open_files",
+    "open_path",
     "self_contained",
     "to_app_zip",
+    "to_ros2_package",
     "to_xml",
 ]

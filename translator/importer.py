@@ -73,6 +73,7 @@ def from_xml(
     file: str = "tree.xml",
     included: Mapping[str, bytes] | None = None,
     actions: Mapping[str, bytes] | None = None,
+    stubs: bool = True,
 ) -> Project:
     """Makes a project of a BehaviorTree.CPP document, v3 or v4, or of a Groot2 project.
 
@@ -80,7 +81,8 @@ def from_xml(
         xml: The document.
         file: Its path, to which the paths of `<include>` are relative.
         included: The files that it may include, by path.
-        actions: Sources of actions by file name, such as `Forward.py`. For the others stubs are made.
+        actions: Sources of actions by file name, such as `Forward.py`.
+        stubs: Whether actions that are missing get a stub.
 
     Raises:
         TranslatorError: If the text is no behaviour tree that can be read.
@@ -92,10 +94,9 @@ def from_xml(
     if not trees:
         raise TranslatorError([*work.found, diagnostic("BT0734", Place(file, line=1, column=1))])
     documents = list(work.documents.values())
-    sources = {PurePosixPath(name).stem: raw for name, raw in (actions or {}).items()}
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
-    files.update(_actions(trees, documents, sources))
+    files.update(_actions(trees, documents, actions or {}, stubs=stubs))
     project = load(files)
     return _with_findings(project, [item.moved(file=f"{IMPORTS}{item.place.file}") for item in work.found])
 
@@ -137,9 +138,11 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
     return list(trees.values()), Settings(name=name[:200] or "Untitled", main_tree=main or "MainTree")
 
 
-def _actions(trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes]) -> dict[str, bytes]:
+def _actions(
+    trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], *, stubs: bool
+) -> dict[str, bytes]:
     """Returns the action files: those given, those of `<Code>`, and stubs for the others that are leaves."""
-    files = {f"actions/{name}.py": raw for name, raw in sources.items()}
+    files = {f"actions/{name}": raw for name, raw in sources.items()}
     for document in documents:
         for name, code in document.code.items():
             if can_be_class(name):
@@ -149,7 +152,7 @@ def _actions(trees: list[Tree], documents: list[Document], sources: Mapping[str,
     for document in documents:
         models.update(document.models)
         kinds.update(document.kinds)
-    for type_, ports in _unknown_leaves(trees).items():
+    for type_, ports in _unknown_leaves(trees).items() if stubs else ():
         path = f"actions/{type_}.py"
         model = models.get(type_)
         kind = model.kind if model is not None else kinds.get(type_, "action")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import NamedTuple
 
-from tree_gardener.script import ScriptError, names_read, names_written, parse
-
 MAX_LENGTH = 20_000
 
 
@@ -29,6 +27,9 @@ class ScriptNames(NamedTuple):
 @lru_cache(maxsize=4096)
 def script_names(code: str) -> ScriptNames:
     """Returns what is to be known about a script without running it."""
+    # Only here, since the engine brings py_trees, which reading and writing trees does without.
+    from tree_gardener.script import ScriptError, names_read, names_written, parse  # noqa: PLC0415
+
     if len(code) > MAX_LENGTH:
         return ScriptNames(problem=Problem(0, f"it is longer than {MAX_LENGTH} characters", ""))
     try:

@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from importlib.resources.abc import Traversable
 
-_KEPT = (".py", ".json", ".typed", ".lark", ".txt")
+_LEFT_OUT = {"__pycache__", "conformance"}
+_KEPT = (".py", ".json", ".typed")
 
 
 @cache
@@ -21,7 +22,7 @@ def engine_files() -> Mapping[str, bytes]:
     while stack:
         path, item = stack.pop()
         if item.is_dir():
-            if item.name != "__pycache__":
+            if item.name not in _LEFT_OUT:
                 stack.extend((f"{path}/{child.name}", child) for child in item.iterdir())
         elif item.name.endswith(_KEPT):
             found[path] = item.read_bytes()

@@ -1,0 +1,52 @@
+"""`bt-studio import`: trees and projects of other programs as a project of ours."""
+
+from __future__ import annotations
+
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import Annotated
+
+import typer
+
+
+def import_(
+    source: Annotated[str, typer.Argument(help="An XML file, a .btproj, a folder or a zip.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="The project folder or .zip to make.")],
+    actions: Annotated[Path | None, typer.Option(help="Folder of actions to bring along.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
+) -> None:
+    """Imports BehaviorTree.CPP XML (v3, v4), a Groot2 project, or a project of JdeRobot's BT Studio."""
+    from backend.cli import _translation as cli
+    from backend.cli.errors import BAD_ARGUMENTS, CliError
+    from translator import TranslatorError
+    from translator.package.zip import write_zip
+
+    is_zip = output.suffix.lower() == ".zip"
+    if output.exists() and (is_zip or not output.is_dir() or any(output.iterdir())):
+        raise CliError(f"{output}:1:1: it exists already (choose another name)", status=BAD_ARGUMENTS)
+    try:
+        project = cli.open_project(source, actions=actions)
+    except TranslatorError as error:
+        raise cli.fail(error.diagnostics, as_json=as_json) from None
+    if is_zip:
+        cli.write_file(output, write_zip(project.files))
+    else:
+        for path, raw in project.files.items():
+            cli.write_file(output / path, raw)
+    stubs = sorted(
+        name for name, action in project.actions.items() if "bt-studio: to be written" in action.source
+    )
+    if as_json:
+        cli.print_json(
+            {
+                "project": str(output),
+                "trees": sorted(project.trees),
+                "actions": sorted(project.actions),
+                "to_be_written": stubs,
+                "diagnostics": [item.to_json() for item in project.diagnostics],
+            }
+        )
+        return
+    cli.tell(project.diagnostics)
+    print(f"{output}: {len(project.trees)} trees, {len(project.actions)} actions")
+    if stubs:
+        print(f"To be written: {', '.join(f'actions/{name}.py' for name in stubs)}")

@@ -1,0 +1,135 @@
+"""Reading folders and zips from outside into memory: bounded, and never a path that leads elsewhere."""
+
+from __future__ import annotations
+
+import io
+import os
+import stat
+import zipfile
+import zlib
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
+
+from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+MAX_FILES = 5_000
+MAX_FILE_BYTES = 64 * 1024 * 1024
+MAX_TOTAL_BYTES = 256 * 1024 * 1024
+SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules", ".git"}
+_DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
+_CHUNK = 1024 * 1024
+
+
+def _error(code: str, file: str, **values: object) -> TranslatorError:
+    found: Diagnostic = diagnostic(code, Place(file, line=1, column=1), **values)
+    return TranslatorError([found])
+
+
+def safe_path(name: str) -> str | None:
+    """Returns the path of an entry in normal form, or None if it leads out of the project."""
+    if "\\" in name or "\0" in name or name.startswith("/") or (len(name) > 1 and name[1] == ":"):
+        return None
+    parts = PurePosixPath(name).parts
+    if ".." in parts or not parts or len(name) > 1_000 or any(ord(char) < 32 for char in name):
+        return None
+    try:
+        name.encode("utf-8")
+    except UnicodeEncodeError:
+        return None
+    return "/".join(parts)
+
+
+def read_zip(raw: bytes, *, file: str = "project.zip") -> dict[str, bytes]:
+    """Returns the files of a zip, by path; a single folder round all of them is left out.
+
+    Raises:
+        TranslatorError: If it is no zip, holds paths that lead elsewhere or links, or unpacks to too much.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(raw)) as archive:
+            return without_top_folder(dict(_entries(archive, file)))
+    except _DAMAGED:
+        raise _error("BT0920", file) from None
+
+
+def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]:
+    entries = archive.infolist()
+    if len(entries) > MAX_FILES:
+        raise _error("BT0922", file, limit=f"{MAX_FILES} files")
+    total = 0
+    seen: set[str] = set()
+    for entry in entries:
+        path = safe_path(entry.filename)
+        kind = stat.S_IFMT(entry.external_attr >> 16)
+        if path is None or kind not in {0, stat.S_IFREG, stat.S_IFDIR} or path in seen:
+            raise _error("BT0921", file, path=entry.filename[:200].encode("utf-8", "replace").decode())
+        if entry.is_dir() or not SKIPPED_FOLDERS.isdisjoint(path.split("/")):
+            continue
+        seen.add(path)
+        data = _bounded(archive, entry, file, MAX_TOTAL_BYTES - total)
+        total += len(data)
+        yield path, data
+
+
+def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: int) -> bytes:
+    """Reads an entry in pieces, since the size that it states may be a lie."""
+    parts: list[bytes] = []
+    size = 0
+    with archive.open(entry) as stream:
+        while chunk := stream.read(_CHUNK):
+            size += len(chunk)
+            if size > MAX_FILE_BYTES or size > left:
+                raise _error("BT0922", file, limit=f"{MAX_TOTAL_BYTES // 2**20} MB")
+            parts.append(chunk)
+    return b"".join(parts)
+
+
+def without_top_folder(files: dict[str, bytes]) -> dict[str, bytes]:
+    """Leaves out a folder that holds all files, as zips made of a folder have it."""
+    tops = {path.partition("/")[0] for path in files}
+    if len(tops) != 1 or any("/" not in path for path in files):
+        return files
+    top = tops.pop()
+    if top in {"trees", "actions", "code"}:
+        return files
+    return {path[len(top) + 1 :]: raw for path, raw in files.items()}
+
+
+def read_folder(folder: Path) -> dict[str, bytes]:
+    """Returns the files of a folder, by path; hidden folders and links are left out.
+
+    Raises:
+        TranslatorError: If a file cannot be read, or there is too much.
+    """
+    files: dict[str, bytes] = {}
+    total = 0
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if name not in SKIPPED_FOLDERS and name[0] != ".")
+        for name in sorted(names):
+            path = Path(place, name)
+            if path.is_symlink() or not path.is_file():
+                continue
+            total += path.stat().st_size
+            if total > MAX_TOTAL_BYTES or len(files) >= MAX_FILES:
+                raise _error(
+                    "BT0922", str(folder), limit=f"{MAX_FILES} files or {MAX_TOTAL_BYTES // 2**20} MB"
+                )
+            files[path.relative_to(folder).as_posix()] = read_file(path)
+    return files
+
+
+def read_file(path: Path) -> bytes:
+    """Returns the bytes of a file.
+
+    Raises:
+        TranslatorError: If it is not there, or cannot be read.
+    """
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise _error("BT0925", str(path)) from None
+    except OSError as error:
+        raise _error("BT0926", str(path), problem=error.strerror or str(error)) from None

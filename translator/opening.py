@@ -1,0 +1,140 @@
+"""Opening whatever a user names: a project folder or zip, a diagram, an XML file, a project of JdeRobot."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING
+
+from translator.archive import read_file, read_folder, read_zip
+from translator.diagnostic import Place, TranslatorError, diagnostic
+from translator.diagram import restore
+from translator.importer import from_xml, project_files
+from translator.jderobot.graph import looks_like_graph
+from translator.jderobot.project import import_jderobot, is_jderobot_project
+from translator.jderobot.self_contained import is_old_form, read_old_form
+from translator.project import Project, load
+from translator.settings import PROJECT_FILE, Settings
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+XML_SUFFIXES = (".xml", ".btproj")
+
+
+def open_path(path: Path, *, actions: Path | None = None, stubs: bool = True) -> Project:
+    """Opens a project from disk.
+
+    Args:
+        path: A folder, a zip, a diagram (`.json`) or a tree (`.xml`, `.btproj`).
+        actions: A folder of actions to take with a diagram or a tree.
+        stubs: Whether actions that are missing get a stub.
+
+    Raises:
+        TranslatorError: If there is nothing that can be read.
+    """
+    sources = _read_actions(actions) if actions is not None else {}
+    if path.is_dir():
+        return open_files(read_folder(path), name=path.resolve().name, actions=sources, stubs=stubs)
+    raw = read_file(path)
+    if path.suffix.lower() == ".zip":
+        return open_files(read_zip(raw, file=str(path)), name=path.stem, actions=sources, stubs=stubs)
+    if path.suffix.lower() == ".json":
+        return _open_diagram(path, raw, sources)
+    return _open_tree(path, raw, sources, stubs=stubs)
+
+
+def open_files(
+    files: Mapping[str, bytes],
+    *,
+    name: str = "",
+    actions: Mapping[str, bytes] | None = None,
+    stubs: bool = True,
+) -> Project:
+    """Opens a project of any kind from its files, by path.
+
+    Raises:
+        TranslatorError: If there is nothing that can be read.
+    """
+    sources = actions or {}
+    if is_jderobot_project(files):
+        return import_jderobot(files, name=name)
+    if PROJECT_FILE in files or any(path.startswith("trees/") and path.endswith(".json") for path in files):
+        return load({**files, **{f"actions/{file}": raw for file, raw in sources.items()}})
+    trees = [path for path in sorted(files) if path.lower().endswith(XML_SUFFIXES)]
+    projects = [path for path in trees if path.lower().endswith(".btproj")]
+    chosen = projects or trees
+    if not chosen:
+        raise TranslatorError([diagnostic("BT0923", Place(name or ".", line=1, column=1))])
+    if len(chosen) > 1:
+        place = Place(name or ".", line=1, column=1)
+        raise TranslatorError([diagnostic("BT0924", place, files=", ".join(chosen[:10]))])
+    beside = {
+        PurePosixPath(path).name: raw
+        for path, raw in files.items()
+        if path.startswith("actions/") and path.endswith(".py")
+    }
+    return open_tree(
+        files[chosen[0]], file=chosen[0], included=files, actions=beside | dict(sources), stubs=stubs
+    )
+
+
+def open_tree(
+    raw: bytes,
+    *,
+    file: str,
+    included: Mapping[str, bytes] | None = None,
+    actions: Mapping[str, bytes] | None = None,
+    stubs: bool = True,
+) -> Project:
+    """Opens one XML document of any form.
+
+    Raises:
+        TranslatorError: If it cannot be read.
+    """
+    if is_old_form(raw):
+        return read_old_form(raw, file=file)
+    xml_files = {path: data for path, data in (included or {}).items() if path.lower().endswith(XML_SUFFIXES)}
+    return from_xml(raw, file=file, included=xml_files, actions=actions, stubs=stubs)
+
+
+def _read_actions(folder: Path) -> dict[str, bytes]:
+    if not folder.is_dir():
+        raise TranslatorError([diagnostic("BT0925", Place(str(folder), line=1, column=1))])
+    return {path: raw for path, raw in read_folder(folder).items() if path.endswith(".py")}
+
+
+def _open_diagram(path: Path, raw: bytes, sources: Mapping[str, bytes]) -> Project:
+    """Opens a diagram: inside a project folder with all that is there, else alone."""
+    if looks_like_graph(raw):
+        return import_jderobot({"graph.json": raw} | _beside(path), name=path.stem)
+    tree, found = restore(raw, file=str(path))
+    if tree is None:
+        raise TranslatorError(found)
+    folder = path.resolve().parent.parent
+    if path.resolve().parent.name == "trees" and (folder / PROJECT_FILE).is_file():
+        files = read_folder(folder) | {f"actions/{name}": data for name, data in sources.items()}
+        project = load(files)
+        settings = project.settings.model_copy(update={"main_tree": tree.id})
+        return replace(project, settings=settings)
+    files = project_files(Settings(name=tree.id, main_tree=tree.id), [])
+    files |= {f"trees/{path.name}": raw, **{f"actions/{name}": data for name, data in sources.items()}}
+    return load(files)
+
+
+def _beside(path: Path) -> dict[str, bytes]:
+    config = path.with_name("config.json")
+    return {"config.json": read_file(config)} if config.is_file() else {}
+
+
+def _open_tree(path: Path, raw: bytes, sources: Mapping[str, bytes], *, stubs: bool) -> Project:
+    folder = path.resolve().parent
+    included = {
+        item.relative_to(folder).as_posix(): read_file(item)
+        for suffix in XML_SUFFIXES
+        for item in sorted(folder.rglob(f"*{suffix}"))[:1000]
+        if b"<include" in raw and item.is_file() and not item.is_symlink()
+    }
+    if not sources and (folder / "actions").is_dir():
+        sources = _read_actions(folder / "actions")
+    return open_tree(raw, file=path.name, included=included, actions=sources, stubs=stubs)

@@ -1,0 +1,69 @@
+"""Names of ROS packages, derived from what users call their projects."""
+
+from __future__ import annotations
+
+import keyword
+import re
+import sys
+import unicodedata
+
+from translator.diagnostic import Place, TranslatorError, diagnostic
+from translator.package.rosdep import rosdep_table
+from translator.settings import PROJECT_FILE
+
+SUFFIX = "_bt"
+MAX_LENGTH = 80
+_VALID = re.compile(r"[a-z][a-z0-9_]*[a-z0-9]")
+# Folders of a colcon workspace and of a package, and the engine that travels along.
+_RESERVED = {
+    "build",
+    "install",
+    "log",
+    "src",
+    "test",
+    "tests",
+    "actions",
+    "launch",
+    "tree_gardener",
+    "tree_tools",
+}
+
+
+def package_name(title: str) -> str:
+    """Returns a valid name of a ROS package for a project's title."""
+    ascii_text = unicodedata.normalize("NFKD", title).encode("ascii", "ignore").decode("ascii").lower()
+    name = re.sub(r"[^a-z0-9]+", "_", ascii_text).strip("_")[:MAX_LENGTH].strip("_")
+    if not name:
+        return "robot" + SUFFIX
+    if not name[0].isalpha():
+        name = f"robot_{name}"
+    return name if problem_with(name) is None else f"{name}{SUFFIX}"
+
+
+def problem_with(name: str) -> str | None:
+    """Tells why a text cannot be the name of a package, or None if it can."""
+    if len(name) > MAX_LENGTH + len(SUFFIX):
+        return "it is too long"
+    if _VALID.fullmatch(name) is None or "__" in name:
+        return "it must be lower case letters, digits and single _, begin with a letter and be 2 long"
+    if keyword.iskeyword(name) or keyword.issoftkeyword(name) or name in sys.stdlib_module_names:
+        return "it means something in Python"
+    if name in _RESERVED:
+        return "the workspace uses it"
+    if name in rosdep_table().ros_packages or name in rosdep_table().imports:
+        return "another package has it"
+    return None
+
+
+def require_name(name: str) -> str:
+    """Returns the name that a user chose.
+
+    Raises:
+        TranslatorError: If no ROS package can be called that.
+    """
+    problem = problem_with(name)
+    if problem is not None:
+        place = Place(PROJECT_FILE, line=1)
+        values = {"name": name, "problem": problem, "suggestion": package_name(name)}
+        raise TranslatorError([diagnostic("BT0900", place, **values)])
+    return name

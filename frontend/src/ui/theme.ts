@@ -19,10 +19,38 @@ const indigo: MantineColorsTuple = [
   '#24318a',
 ];
 
+/** Mantine's dark scale in the slate of our dark tokens: text first, deepest ground last. */
+const dark: MantineColorsTuple = [
+  '#e9ebf1',
+  '#c3c9d6',
+  '#a1aabd',
+  '#6a7489',
+  '#303644',
+  '#282d38',
+  '#1e222b',
+  '#181b22',
+  '#12141a',
+  '#0e1015',
+];
+
+/** Mantine's dark greys, in the hue of our tokens: it draws fields, menus and hovers with them. */
+const slate: MantineColorsTuple = [
+  '#e9ebf1',
+  '#c9cedb',
+  '#a1aabd',
+  '#7d879b',
+  '#3b4252',
+  '#303644',
+  '#1e222b',
+  '#181b22',
+  '#12141a',
+  '#0e1015',
+];
+
 export const theme = createTheme({
   primaryColor: 'indigo',
   primaryShade: { light: 6, dark: 5 },
-  colors: { indigo },
+  colors: { indigo, dark },
   fontFamily: 'var(--bts-font)',
   fontFamilyMonospace: 'var(--bts-font-mono)',
   defaultRadius: 'md',
@@ -52,6 +80,8 @@ export const cssVariablesResolver: CSSVariablesResolver = () => {
     '--mantine-color-default-hover': 'var(--bts-surface-2)',
     '--mantine-color-default-color': 'var(--bts-text)',
     '--mantine-color-default-border': 'var(--bts-border)',
+    '--mantine-color-indigo-light': 'var(--bts-accent-soft)',
+    '--mantine-color-indigo-light-color': 'var(--bts-accent)',
     '--mantine-color-gray-light-color': 'var(--bts-muted)',
   };
   return { variables: {}, light: shared, dark: shared };

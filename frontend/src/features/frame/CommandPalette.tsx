@@ -3,10 +3,13 @@ import { Spotlight, type SpotlightActionData } from '@mantine/spotlight';
 import { IconFileCode, IconGitFork, IconSearch } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
-import { useActionTable } from '@/actions/registry';
+import { useActionTable, type ActionGroup } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
 import { useProjectStore } from '@/store/project';
 import { openTab } from './tabs';
+
+/** What is wanted most often comes first. */
+const GROUPS: ActionGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go'];
 
 /** Everything that can be done, and every file, by name. */
 export function CommandPalette() {
@@ -18,6 +21,7 @@ export function CommandPalette() {
   const actions = useMemo(() => {
     const commands = Object.values(table)
       .filter((action) => !action.hidden)
+      .sort((a, b) => GROUPS.indexOf(a.group) - GROUPS.indexOf(b.group))
       .map((action): SpotlightActionData => {
         const Icon = action.icon;
         return {

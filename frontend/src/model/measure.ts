@@ -62,15 +62,21 @@ function emWidth(text: string): number {
   return width;
 }
 
+/** A value is cut beyond some 16 letters; `required` is the word for a missing one. */
+function valueWidth(line: PortLine): number {
+  const text = line.value ?? line.default ?? (line.required ? 'required' : '—');
+  return Math.min(16, text.length) * 7;
+}
+
 export function measureNode(node: DiagramNode, spec: NodeSpec | undefined): Size {
   const lines = portLines(node, spec);
   const name = emWidth(displayName(node)) * 14;
   const type = emWidth(node.type) * 11.5;
   const badges = (node.comment ? 18 : 0) + (node.conditions ? 18 : 0);
-  const title = BLOCK.tile + Math.max(name, type + badges) + 34;
+  const title = BLOCK.tile + Math.max(name, type + badges) + 30;
   const ports = lines
     .slice(0, BLOCK.maxPorts)
-    .map((line) => emWidth(line.name) * 12 + (line.value ?? line.default ?? '—').length * 7.3 + 38);
+    .map((line) => emWidth(line.name) * 12 + (line.direction === 'input' ? 0 : 18) + valueWidth(line) + 100);
   const width = Math.max(BLOCK.minWidth, Math.min(BLOCK.maxWidth, Math.max(title, ...ports)));
   const rows = Math.min(lines.length, BLOCK.maxPorts) + (lines.length > BLOCK.maxPorts ? 1 : 0);
   const height = BLOCK.header + (rows > 0 ? rows * BLOCK.portRow + BLOCK.portsPadding : 0);

@@ -181,7 +181,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         zoomOnDoubleClick={false}
         onlyRenderVisibleElements={nodes.length > 150}
         elevateNodesOnSelect={false}
-        proOptions={{ hideAttribution: true }}
+        attributionPosition="bottom-center"
       >
         <Background
           variant={BackgroundVariant.Dots}

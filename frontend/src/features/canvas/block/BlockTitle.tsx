@@ -16,6 +16,7 @@ export function BlockTitle({ id, node }: BlockTitleProps) {
   const { t } = useTranslation('canvas');
   const field = useEditorStore((state) => (state.editing?.node === id ? state.editing.field : null));
   const name = displayName(node);
+  const hasBadges = node.comment !== undefined || node.conditions !== undefined;
 
   const finish = (text: string | null): void => {
     setEditor({ editing: null });
@@ -29,10 +30,12 @@ export function BlockTitle({ id, node }: BlockTitleProps) {
       {field === null ? (
         <>
           <span className={classes['name']}>{name}</span>
-          <span className={classes['subtitle']}>
-            {name !== node.type && <span className={classes['type']}>{node.type}</span>}
-            <BlockBadges node={node} />
-          </span>
+          {(name !== node.type || hasBadges) && (
+            <span className={classes['subtitle']}>
+              {name !== node.type && <span className={classes['type']}>{node.type}</span>}
+              <BlockBadges node={node} />
+            </span>
+          )}
         </>
       ) : (
         <input

@@ -1,0 +1,84 @@
+import { ActionIcon, Menu, Textarea } from '@mantine/core';
+import { IconPlus, IconTrash } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { setCondition } from '@/model/edits';
+import { change } from '@/store/project/commands';
+import { Section } from './Section';
+import type { Target } from './target';
+import classes from './Inspector.module.css';
+
+const CONDITIONS = [
+  '_skipIf',
+  '_failureIf',
+  '_successIf',
+  '_while',
+  '_onSuccess',
+  '_onFailure',
+  '_onHalted',
+  '_post',
+] as const;
+
+/** Scripts before and after the node's tick, in BT.CPP's script language. */
+export function ConditionList({ id, node }: Target) {
+  const { t } = useTranslation('inspector');
+  const set = node.conditions ?? {};
+  const free = CONDITIONS.filter((name) => !(name in set));
+  return (
+    <Section
+      title={t('conditions')}
+      action={
+        <Menu position="bottom-end">
+          <Menu.Target>
+            <ActionIcon size={22} aria-label={t('addCondition')} title={t('addCondition')}>
+              <IconPlus size={15} aria-hidden="true" />
+            </ActionIcon>
+          </Menu.Target>
+          <Menu.Dropdown>
+            {free.map((name) => (
+              <Menu.Item
+                key={name}
+                onClick={() => {
+                  change('condition', [setCondition(id, name, '')]);
+                }}
+                rightSection={<code className={classes['code']}>{name}</code>}
+              >
+                {t(`condition.${name}`)}
+              </Menu.Item>
+            ))}
+          </Menu.Dropdown>
+        </Menu>
+      }
+    >
+      {CONDITIONS.filter((name) => name in set).map((name) => (
+        <div key={name} className={classes['condition']}>
+          <Textarea
+            size="xs"
+            autosize
+            label={
+              <>
+                {t(`condition.${name}`)} <code className={classes['code']}>{name}</code>
+              </>
+            }
+            spellCheck={false}
+            styles={{ input: { fontFamily: 'var(--bts-font-mono)' } }}
+            value={set[name] ?? ''}
+            onChange={(event) => {
+              change('condition', [setCondition(id, name, event.currentTarget.value)], {
+                mergeKey: `condition ${id} ${name}`,
+              });
+            }}
+          />
+          <ActionIcon
+            size={22}
+            aria-label={t('removeCondition', { name: t(`condition.${name}`) })}
+            onClick={() => {
+              change('condition', [setCondition(id, name, null)]);
+            }}
+          >
+            <IconTrash size={14} aria-hidden="true" />
+          </ActionIcon>
+        </div>
+      ))}
+    </Section>
+  );
+}

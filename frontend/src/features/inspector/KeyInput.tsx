@@ -1,0 +1,33 @@
+import { Autocomplete } from '@mantine/core';
+import { IconBraces } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+
+interface KeyInputProps {
+  readonly name: string;
+  readonly labelledBy: string;
+  /** The port's text, braces and all. */
+  readonly value: string;
+  readonly keys: readonly string[];
+  readonly error: string | null;
+  readonly onChange: (value: string) => void;
+}
+
+/** A blackboard key, completed from the keys that the tree already uses. */
+export function KeyInput({ name, labelledBy, value, keys, error, onChange }: KeyInputProps) {
+  const { t } = useTranslation('inspector');
+  return (
+    <Autocomplete
+      size="xs"
+      aria-labelledby={labelledBy}
+      data-testid={`port-${name}`}
+      placeholder={`{${name}}`}
+      leftSection={<IconBraces size={14} aria-label={t('key')} />}
+      data={keys.map((key) => `{${key}}`)}
+      value={value}
+      error={error !== null}
+      comboboxProps={{ shadow: 'md' }}
+      styles={{ input: { fontFamily: 'var(--bts-font-mono)', color: 'var(--bts-accent)' } }}
+      onChange={onChange}
+    />
+  );
+}

@@ -1,0 +1,20 @@
+import type { ReactNode } from 'react';
+import classes from './Inspector.module.css';
+
+interface SectionProps {
+  readonly title: string;
+  readonly action?: ReactNode;
+  readonly children: ReactNode;
+}
+
+export function Section({ title, action, children }: SectionProps) {
+  return (
+    <div className={classes['section']}>
+      <div className={classes['sectionHead']}>
+        <h3 className={classes['sectionTitle']}>{title}</h3>
+        {action}
+      </div>
+      {children}
+    </div>
+  );
+}

@@ -1,0 +1,33 @@
+import { Select } from '@mantine/core';
+import { useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { morph } from '@/model/edits';
+import { wouldRecurse } from '@/model/vocabulary';
+import { change } from '@/store/project/commands';
+import { useProjectStore } from '@/store/project';
+import type { Target } from './target';
+import classes from './Inspector.module.css';
+
+/** The tree that a SubTree stands for; those that would contain themselves are not offered. */
+export function TreeField({ tree, id, node }: Target) {
+  const { t } = useTranslation('inspector');
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const choices = useMemo(
+    () => [...vocabulary.trees.keys()].filter((other) => !wouldRecurse(vocabulary, tree, other)),
+    [vocabulary, tree],
+  );
+  return (
+    <Select
+      className={classes['pad'] ?? ''}
+      size="xs"
+      label={t('tree')}
+      data={choices}
+      value={node.tree ?? null}
+      allowDeselect={false}
+      searchable
+      onChange={(value) => {
+        if (value !== null) change('morph', [morph(id, { type: 'SubTree', tree: value }, () => true)]);
+      }}
+    />
+  );
+}

@@ -1,0 +1,95 @@
+import { SegmentedControl, Select, Textarea, TextInput } from '@mantine/core';
+import type { KeyboardEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import { choicesOf, widgetOf, type PortSpec } from '@/model/ports';
+
+interface ValueInputProps {
+  readonly port: PortSpec;
+  readonly labelledBy: string;
+  readonly value: string | null;
+  readonly error: string | null;
+  readonly onChange: (value: string | null) => void;
+}
+
+/** One step of a number: of its last written decimal, ten of them with Shift. */
+function stepped(text: string, by: number): string {
+  const decimals = /\.(\d+)/.exec(text)?.[1]?.length ?? 0;
+  return (Number(text) + by * 10 ** -decimals).toFixed(decimals);
+}
+
+const mono = { input: { fontFamily: 'var(--bts-font-mono)' } };
+
+/** The widget for a literal of the port's type. */
+export function ValueInput({ port, labelledBy, value, error, onChange }: ValueInputProps) {
+  const { t } = useTranslation('inspector');
+  const shared = { 'aria-labelledby': labelledBy, 'data-testid': `port-${port.name}`, size: 'xs' } as const;
+  const widget = widgetOf(port.type);
+  const current = value ?? '';
+  const placeholder = port.default === null ? '' : t('default', { value: port.default });
+
+  if (widget === 'boolean') {
+    const now = /^(true|1)$/i.test(value ?? port.default ?? '') ? 'true' : 'false';
+    return (
+      <SegmentedControl
+        {...shared}
+        value={now}
+        onChange={onChange}
+        data={[
+          { value: 'true', label: t('trueText') },
+          { value: 'false', label: t('falseText') },
+        ]}
+      />
+    );
+  }
+  if (widget === 'enum') {
+    return (
+      <Select
+        {...shared}
+        data={[...choicesOf(port.type)]}
+        value={value ?? port.default}
+        error={error !== null}
+        allowDeselect={false}
+        onChange={onChange}
+      />
+    );
+  }
+  if (widget === 'script') {
+    return (
+      <Textarea
+        {...shared}
+        autosize
+        minRows={2}
+        styles={mono}
+        value={current}
+        error={error !== null}
+        spellCheck={false}
+        onChange={(event) => {
+          onChange(event.currentTarget.value);
+        }}
+      />
+    );
+  }
+  const isNumber = widget === 'number' || widget === 'integer';
+  const onKeyDown = (event: KeyboardEvent<HTMLInputElement>): void => {
+    const direction = event.key === 'ArrowUp' ? 1 : event.key === 'ArrowDown' ? -1 : 0;
+    const text = current === '' ? (port.default ?? '0') : current;
+    if (!isNumber || direction === 0 || !Number.isFinite(Number(text))) return;
+    event.preventDefault();
+    onChange(stepped(text, direction * (event.shiftKey ? 10 : 1)));
+  };
+  return (
+    <TextInput
+      {...shared}
+      styles={mono}
+      value={current}
+      placeholder={placeholder}
+      error={error !== null}
+      spellCheck={false}
+      {...(isNumber ? { inputMode: 'decimal' as const } : {})}
+      onKeyDown={onKeyDown}
+      onChange={(event) => {
+        onChange(event.currentTarget.value);
+      }}
+    />
+  );
+}

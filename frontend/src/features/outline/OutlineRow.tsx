@@ -1,0 +1,66 @@
+import { IconChevronRight } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { displayName, type DiagramNode } from '@/model/diagram';
+import { setCollapsed } from '@/model/edits';
+import type { OutlineLine } from '@/model/outline';
+import type { NodeSpec } from '@/model/vocabulary';
+import { change } from '@/store/project/commands';
+import { liveKey, useLiveStore } from '@/store/project/live';
+import { useProjectStore } from '@/store/project';
+import { FamilyTile } from '@/ui/FamilyTile';
+import classes from './Outline.module.css';
+
+interface OutlineRowProps {
+  readonly tree: string;
+  readonly row: OutlineLine;
+  readonly node: DiagramNode;
+  readonly spec: NodeSpec | undefined;
+  readonly isSelected: boolean;
+  readonly top: number;
+}
+
+/** One line: symbol, name, type where it differs, status. The list above has the keys. */
+export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRowProps) {
+  const { t } = useTranslation('outline');
+  const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');
+  const name = displayName(node);
+  return (
+    // eslint-disable-next-line jsx-a11y/click-events-have-key-events
+    <div
+      id={`outline-${row.id}`}
+      role="treeitem"
+      tabIndex={-1}
+      aria-level={row.depth + 1}
+      aria-selected={isSelected}
+      {...(row.hasChildren ? { 'aria-expanded': !row.isFolded } : {})}
+      className={classes['row']}
+      data-status={status}
+      data-disabled={node.disabled || undefined}
+      style={{ transform: `translateY(${top}px)`, paddingLeft: 6 + row.depth * 14 }}
+      onClick={() => {
+        useProjectStore.getState().reveal(tree, row.id);
+      }}
+    >
+      {row.hasChildren ? (
+        <button
+          type="button"
+          tabIndex={-1}
+          className={classes['fold']}
+          aria-label={t(row.isFolded ? 'unfold' : 'fold', { name })}
+          onClick={(event) => {
+            event.stopPropagation();
+            change(row.isFolded ? 'unfold' : 'fold', [setCollapsed(row.id, !row.isFolded)]);
+          }}
+        >
+          <IconChevronRight size={13} aria-hidden="true" />
+        </button>
+      ) : (
+        <span className={classes['fold']} />
+      )}
+      <FamilyTile type={node.type} family={spec?.family ?? null} size={18} />
+      <span className={classes['name']}>{name}</span>
+      {name !== node.type && <span className={classes['type']}>{node.type}</span>}
+      {row.isDraft && <span className={classes['draft']}>{t('drafts')}</span>}
+    </div>
+  );
+}

@@ -181,6 +181,6 @@ def _refuse_collisions(current: Mapping[str, Existing], result: Plan) -> None:
         for index, character in enumerate(key):
             if character == "/" and key[:index] in owners:
                 raise InvalidInputError(
-                    f"“{names.shown(owners[key[:index]])}” is a file, and “{names.shown(path)}” needs a folder there.",
+                    f"“{names.shown(owners[key[:index]])}” is a file, and “{names.shown(path)}” is in it.",
                     field="files",
                 )

@@ -39,6 +39,7 @@ PROTOCOL: Final = "bt-studio.v1"
 MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
 POLL_S: Final = 0.03
+LOST_POLLS: Final = 20
 
 GOING_AWAY: Final = 1001
 NO_SUCH_SESSION: Final = 4404
@@ -116,8 +117,17 @@ async def _serve(
         closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")
     if closed is None:
         return None
-    session = await sync_to_async(actions.refresh)(session)
-    return closed if session.state == SessionState.READY else Closed(EXECUTOR_FAILED, _short(session.error))
+    return await _explained(session, closed)
+
+
+async def _explained(session: Session, closed: Closed) -> Closed:
+    """Adds why a lost executor was lost; its process ends a moment after its sockets do."""
+    for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
+        session = await sync_to_async(actions.refresh)(session)
+        if session.state != SessionState.READY:
+            return Closed(EXECUTOR_FAILED, _short(session.error))
+        await asyncio.sleep(POLL_S)
+    return closed
 
 
 async def _when_ready(session_id: UUID) -> Session:

@@ -60,7 +60,7 @@ class ProcessLauncher(Launcher):
             raise LaunchError(f"The executor could not be started: {error}.") from error
         state = {"pid": child.pid, "created": _created(child.pid)}
         if port is None:
-            status = child.poll()
+            status = _status_of(child)
             self.stop(state, timeout_s=spec.stop_timeout_s)
             raise LaunchError(_why(status, spec.start_timeout_s), hint=_last_lines(log))
         return Started(f"127.0.0.1:{port}", state)
@@ -76,24 +76,32 @@ class ProcessLauncher(Launcher):
     def stop(self, state: State, *, timeout_s: float) -> None:
         """Asks the manager to end, and kills what is left after the time is up."""
         process = _find(state)
-        family = [process, *_descendants(process)] if process else []
-        if process:
-            with contextlib.suppress(psutil.Error):
-                process.send_signal(signal.SIGTERM)
-            _, alive = psutil.wait_procs([process], timeout=timeout_s)
-            if alive:
-                family += _descendants(process)
-        for member in family:
-            with contextlib.suppress(psutil.Error):
-                member.kill()
-        psutil.wait_procs(family, timeout=timeout_s)
         with self._lock:
-            child = self._children.pop(state["pid"], None)
+            child = self._children.get(state["pid"])
+        if process:
+            family = _descendants(process)
+            with contextlib.suppress(psutil.Error):
+                process.terminate()
+            _wait(process, child, timeout_s)
+            family = [*{*family, *_descendants(process)}, process]
+            for member in family:
+                with contextlib.suppress(psutil.Error):
+                    member.kill()
+            _wait(process, child, timeout_s)
+            psutil.wait_procs([member for member in family if member != process], timeout=timeout_s)
         if child is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 child.wait(timeout_s)
             if child.stdin:
                 child.stdin.close()
+
+    def close(self) -> None:
+        """Ends every executor and the thread that started them; for the end of the server."""
+        with self._lock:
+            children = list(self._children.values())
+        for child in children:
+            self.stop({"pid": child.pid, "created": _created(child.pid)}, timeout_s=1)
+        self._thread.shutdown()
 
     def _spawn(self, spec: Spec, ready_fd: int, log: Path) -> subprocess.Popen[bytes]:
         log.parent.mkdir(parents=True, exist_ok=True)
@@ -159,6 +167,22 @@ def _last_lines(log: Path) -> str:
     except OSError:
         return ""
     return "\n".join(lines[-STDERR_LINES:])
+
+
+def _status_of(child: subprocess.Popen[bytes]) -> int | None:
+    """The exit status of a child whose ready pipe has closed: it is about to end, or it never will."""
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        return child.wait(timeout=0.5)
+    return None
+
+
+def _wait(process: psutil.Process, child: subprocess.Popen[bytes] | None, timeout_s: float) -> None:
+    """Waits for the end; only `Popen` may reap its child, or the exit status is lost."""
+    with contextlib.suppress(psutil.Error, subprocess.TimeoutExpired):
+        if child is not None:
+            child.wait(timeout_s)
+        else:
+            process.wait(timeout_s)
 
 
 def _created(pid: int) -> float:

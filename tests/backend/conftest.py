@@ -1,0 +1,86 @@
+"""What the tests of the web server share."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from django.conf import settings
+from django.test import Client
+
+from backend.accounts.actions import local_user
+from backend.config import guard
+from backend.config.environment import environment
+
+HOST = "127.0.0.1:8000"
+
+
+class Api:
+    """A browser that has opened the link, reduced to JSON."""
+
+    def __init__(self):
+        self.client = Client(HTTP_HOST=HOST)
+        self.client.cookies[guard.cookie_name(HOST)] = guard.keys().cookie_value
+
+    def call(self, method, path, body=None, *, expect=200, **headers):
+        address = path if path.startswith("/") else f"/api/v1/{path}"
+        data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
+        response = self.client.generic(method, address, headers=headers, **data)
+        assert response.status_code == expect, (response.status_code, response.content[:2000])
+        self.response = response
+        is_json = "json" in response.headers.get("Content-Type", "")
+        return json.loads(response.content) if is_json and response.content else response.content
+
+    def get(self, path, **options):
+        return self.call("GET", path, **options)
+
+    def post(self, path, body=None, **options):
+        return self.call("POST", path, {} if body is None else body, **options)
+
+    def patch(self, path, body, **options):
+        return self.call("PATCH", path, body, **options)
+
+    def put(self, path, body, **options):
+        return self.call("PUT", path, body, **options)
+
+    def delete(self, path, *, expect=204, **options):
+        return self.call("DELETE", path, expect=expect, **options)
+
+    def save(self, project_id, *files, message="", **options):
+        return self.post(
+            f"projects/{project_id}/changes", {"message": message, "files": list(files)}, **options
+        )
+
+
+@pytest.fixture(scope="session")
+def django_db_modify_db_settings(tmp_path_factory):
+    """A file, as in use: SQLite's memory databases lock whole tables among threads."""
+    settings.DATABASES["default"]["TEST"]["NAME"] = str(tmp_path_factory.mktemp("database") / "test.sqlite3")
+
+
+@pytest.fixture
+def api(db):
+    return Api()
+
+
+@pytest.fixture
+def user(db):
+    return local_user()
+
+
+@pytest.fixture
+def project(api):
+    return api.post("projects", {"name": "Robot"}, expect=201)
+
+
+@pytest.fixture
+def settings_of(monkeypatch):
+    """Sets `BT_STUDIO_…` variables for one test."""
+
+    def change(**values):
+        for name, value in values.items():
+            monkeypatch.setenv(f"BT_STUDIO_{name.upper()}", str(value))
+        environment.cache_clear()
+
+    yield change
+    environment.cache_clear()

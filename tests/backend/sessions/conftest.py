@@ -1,0 +1,54 @@
+"""Launchers that start fake managers."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import psutil
+import pytest
+
+from backend.sessions import actions
+from backend.sessions.launchers.base import Spec
+from backend.sessions.launchers.process import ProcessLauncher
+
+FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"
+
+
+def spec(**changes):
+    values = {
+        "session_id": "s1",
+        "token": "t0ken",
+        "ros_domain_id": 51,
+        "start_timeout_s": 20,
+        "stop_timeout_s": 1,
+    }
+    return Spec(**values | changes)
+
+
+@pytest.fixture
+def launcher_of(tmp_path):
+    """Makes launchers, and ends what a failed test leaves behind."""
+    made = []
+
+    def make(kind):
+        launcher = ProcessLauncher(tmp_path / "logs", (sys.executable, str(FAKE), kind))
+        made.append(launcher)
+        return launcher
+
+    yield make
+    for launcher in made:
+        launcher.close()
+    assert psutil.Process().children(recursive=True) == []
+
+
+@pytest.fixture
+def fake_manager(launcher_of, monkeypatch):
+    """Makes sessions start fake managers of a kind."""
+
+    def use(kind):
+        launcher = launcher_of(kind)
+        monkeypatch.setattr(actions, "launcher", lambda: launcher)
+        return launcher
+
+    return use

@@ -1,0 +1,186 @@
+"""The relay between browser and manager, over real sockets."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import threading
+
+import pytest
+import uvicorn
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from backend.config import guard
+from backend.config.server import bind
+from backend.sessions import actions
+from backend.sessions.consumers import EXECUTOR_FAILED, NO_SUCH_SESSION, relay_sockets
+from tests.backend.sessions.test_sessions import launched
+
+pytestmark = pytest.mark.django_db(transaction=True)
+MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"
+
+
+@pytest.fixture
+def relay():
+    """The sockets behind a real server; its address as a `Host`."""
+    listener = bind("127.0.0.1", 0)
+    config = uvicorn.Config(relay_sockets, ws="websockets-sansio", lifespan="off", log_config=None)
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
+    thread.start()
+    yield f"127.0.0.1:{listener.getsockname()[1]}"
+    server.should_exit = True
+    thread.join()
+
+
+@pytest.fixture
+def session(api, project, fake_manager):
+    """Starts a session on a fake manager of a kind."""
+
+    def start(kind):
+        fake_manager(kind)
+        return api.post(f"projects/{project['id']}/session")
+
+    yield start
+    actions.end_all_sessions()
+
+
+@contextlib.contextmanager
+def opened(host, path, **changes):
+    headers = {"Cookie": f"{guard.cookie_name(host)}={guard.keys().cookie_value}"}
+    options = {
+        "origin": f"http://{host}",
+        "additional_headers": headers,
+        "proxy": None,
+        "compression": None,
+        "max_size": None,
+    }
+    with connect(f"ws://{host}{path}", **options | changes) as socket:
+        yield socket
+
+
+def test_text_and_bytes_go_both_ways_verbatim(relay, session):
+    started = session("echo")
+    with opened(relay, started["control_url"] + "?client=c1", subprotocols=["bt-studio.v1"]) as socket:
+        hello = json.loads(socket.recv())
+        assert hello["path"] == "/control?client=c1"
+        assert hello["authorization"].startswith("Bearer ")
+        assert socket.subprotocol == "bt-studio.v1"
+        for message in ("", "ä€", "x" * 300_000, b"", b"\x00\xff", bytes(3_000_000)):
+            socket.send(message)
+            assert socket.recv() == message
+
+
+def test_a_socket_waits_for_a_session_that_starts(relay, session):
+    started = session("slow")
+    assert started["state"] == "starting"
+    with opened(relay, started["stream_url"]) as socket:
+        assert json.loads(socket.recv())["path"] == "/stream"
+
+
+def test_the_managers_close_reaches_the_browser(relay, session):
+    with opened(relay, session("echo")["control_url"]) as socket:
+        socket.recv()
+        socket.send("close")
+        with pytest.raises(ConnectionClosed):
+            socket.recv()
+        assert (socket.close_code, socket.close_reason) == (4321, "as asked")
+
+
+def test_a_manager_that_dies_is_told_with_its_reason(relay, session):
+    with opened(relay, session("echo")["control_url"]) as socket:
+        socket.recv()
+        socket.send("die")
+        with pytest.raises(ConnectionClosed):
+            socket.recv()
+        assert socket.close_code == EXECUTOR_FAILED
+        assert socket.close_reason
+
+
+def test_a_session_that_failed_is_told(relay, session):
+    started = session("failing")
+    launched(started["id"])
+    with opened(relay, started["control_url"]) as socket, pytest.raises(ConnectionClosed):
+        socket.recv()
+    assert socket.close_code == EXECUTOR_FAILED and "exit status 3" in socket.close_reason
+
+
+def test_a_session_that_is_not_there_is_told(relay, db):
+    with opened(relay, MISSING) as socket, pytest.raises(ConnectionClosed):
+        socket.recv()
+    assert socket.close_code == NO_SUCH_SESSION
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        {"origin": "http://evil.example"},
+        {"origin": "null"},
+        {"origin": None},
+        {"additional_headers": {}},
+        {"additional_headers": {"Cookie": "bt_studio_session=x"}},
+        {"additional_headers": {"Authorization": "Bearer wrong"}},
+    ],
+)
+def test_a_foreign_page_opens_no_socket(relay, attack):
+    with pytest.raises(InvalidStatus) as caught, opened(relay, MISSING, **attack):
+        pass
+    assert caught.value.response.status_code == 403
+
+
+def test_a_rebound_host_opens_no_socket(relay):
+    port = relay.rpartition(":")[2]
+    cookie = f"{guard.cookie_name(relay)}={guard.keys().cookie_value}"
+    rebound = f"evil.example:{port}"
+    with (
+        pytest.raises(InvalidStatus),
+        connect(
+            f"ws://{rebound}{MISSING}",
+            address=("127.0.0.1", int(port)),
+            origin=f"http://{rebound}",
+            additional_headers={"Cookie": cookie},
+            proxy=None,
+        ),  # fmt: skip
+    ):
+        pass
+
+
+@pytest.mark.parametrize(
+    "path", ["/", "/ws/sessions/x/control", "/ws/sessions/../../etc", MISSING + "/x", "/api/v1/me"]
+)
+def test_other_addresses_have_no_sockets(relay, path):
+    with pytest.raises(InvalidStatus), opened(relay, path):
+        pass
+
+
+def test_a_program_may_show_the_token(relay, session):
+    headers = {"Authorization": f"Bearer {guard.keys().token}"}
+    with opened(relay, session("echo")["control_url"], origin=None, additional_headers=headers) as socket:
+        assert json.loads(socket.recv())
+
+
+def when_it_stops_growing(file, *, limit):
+    """The file's size, once it has not changed for a while; what is under way fits into a few sockets' buffers."""
+    size = -1
+    while (now := file.stat().st_size) != size:
+        assert now <= limit, "the relay takes what its browser does not"
+        size = now
+        threading.Event().wait(0.4)
+    return size
+
+
+def test_a_browser_that_does_not_read_holds_the_manager_up_and_fills_no_queue(
+    relay, session, tmp_path, monkeypatch
+):
+    counter = tmp_path / "sent"
+    monkeypatch.setenv("FAKE_MANAGER_COUNTER", str(counter))
+    started = session("flood")
+    launched(started["id"])
+    with opened(relay, started["stream_url"], max_queue=1, close_timeout=0.1) as socket:
+        socket.recv()
+        stuck = when_it_stops_growing(counter, limit=400)
+        for _ in range(stuck + 1):
+            socket.recv()
+        assert counter.stat().st_size > stuck

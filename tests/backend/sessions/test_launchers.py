@@ -1,0 +1,130 @@
+"""The launcher contract, and its process back end against a zoo of managers."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import threading
+import urllib.request
+from contextlib import suppress
+
+import psutil
+import pytest
+
+from backend.sessions.errors import LaunchError
+from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Started
+from tests.backend.sessions.conftest import spec
+
+
+def is_alive(process):
+    return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+
+
+def test_a_launcher_that_lacks_a_method_fails_when_it_is_defined():
+    with pytest.raises(TypeError, match="poll, stop"):
+
+        class Half(Launcher):
+            name = "half"
+
+            def start(self, spec):
+                return Started("", {})
+
+
+def test_a_launcher_needs_a_name():
+    with pytest.raises(TypeError, match="name"):
+
+        class Nameless(Launcher):
+            start = poll = stop = lambda self: None
+
+
+def test_a_manager_starts_runs_and_ends(launcher_of):
+    launcher = launcher_of("echo")
+    started = launcher.start(spec())
+    assert launcher.poll(started.state) is None
+    launcher.stop(started.state, timeout_s=5)
+    assert launcher.poll(started.state) is not None
+    assert not psutil.pid_exists(started.state["pid"])
+    launcher.stop(started.state, timeout_s=5)
+
+
+def test_the_state_is_json_and_holds_no_secret(launcher_of):
+    started = launcher_of("echo").start(spec())
+    assert "t0ken" not in json.dumps(started.state)
+
+
+def test_the_child_gets_its_token_and_domain_and_not_our_secrets(launcher_of, monkeypatch):
+    monkeypatch.setenv("BT_STUDIO_TOKEN", "ours")
+    started = launcher_of("echo").start(spec(ros_domain_id=77))
+    environment = psutil.Process(started.state["pid"]).environ()
+    assert environment["BT_STUDIO_MANAGER_TOKEN"] == "t0ken"
+    assert (environment["ROS_DOMAIN_ID"], environment["ROS_AUTOMATIC_DISCOVERY_RANGE"]) == ("77", "LOCALHOST")
+    assert "BT_STUDIO_TOKEN" not in environment
+    assert "t0ken" not in " ".join(psutil.Process(started.state["pid"]).cmdline())
+
+
+def test_another_launcher_finds_the_process_by_its_state(launcher_of):
+    first, second = launcher_of("echo"), launcher_of("echo")
+    state = first.start(spec()).state
+    assert second.poll(state) is None
+    second.stop(state, timeout_s=5)
+    assert first.poll(state) is not None
+    assert second.poll(state) == UNKNOWN_EXIT
+
+
+def test_a_later_process_with_the_same_number_is_not_ours(launcher_of):
+    launcher = launcher_of("echo")
+    state = {"pid": os.getpid(), "created": 1.0}
+    assert launcher.poll(state) == UNKNOWN_EXIT
+    launcher.stop(state, timeout_s=1)
+
+
+@pytest.mark.parametrize(
+    ("kind", "says"),
+    [("failing", "exit status 3"), ("never", "within 0.7 s"), ("mute", "not report|within")],
+)
+def test_a_manager_that_does_not_come_up_is_told_and_leaves_nothing(launcher_of, kind, says):
+    with pytest.raises(LaunchError, match=says) as caught:
+        launcher_of(kind).start(spec(start_timeout_s=0.7 if kind == "never" else 20))
+    assert caught.value.hint == "the fake manager starts" or kind == "never"
+    assert psutil.Process().children(recursive=True) == []
+
+
+def test_a_slow_manager_is_waited_for(launcher_of):
+    assert launcher_of("slow").start(spec()).address
+
+
+def test_a_manager_that_does_not_want_to_end_is_killed_with_its_children(launcher_of):
+    launcher = launcher_of("stubborn")
+    state = launcher.start(spec()).state
+    family = psutil.Process(state["pid"]).children(recursive=True)
+    assert len(family) == 1
+    launcher.stop(state, timeout_s=0.5)
+    assert not any(is_alive(member) for member in family)
+
+
+def test_a_program_that_cannot_be_started_is_told(launcher_of, tmp_path):
+    launcher = launcher_of("echo")
+    launcher._command = (str(tmp_path / "missing"),)
+    with pytest.raises(LaunchError, match="could not be started"):
+        launcher.start(spec())
+
+
+def test_managers_survive_the_thread_that_asked_for_them(launcher_of):
+    launcher = launcher_of("echo")
+    started = []
+    thread = threading.Thread(target=lambda: started.append(launcher.start(spec())))
+    thread.start()
+    thread.join()
+    assert launcher.poll(started[0].state) is None
+    with suppress(Exception):
+        urllib.request.urlopen(f"http://{started[0].address}")
+    assert launcher.poll(started[0].state) is None
+
+
+def test_a_killed_manager_is_seen_with_its_signal(launcher_of):
+    launcher = launcher_of("echo")
+    state = launcher.start(spec()).state
+    os.kill(state["pid"], signal.SIGKILL)
+    os.waitid(os.P_PID, state["pid"], os.WEXITED | os.WNOWAIT)
+    assert launcher.poll(state) == -signal.SIGKILL

@@ -1,0 +1,121 @@
+"""Sessions over HTTP: one for a project, started once, ended for good."""
+
+from __future__ import annotations
+
+import os
+import signal
+from uuid import UUID
+
+import psutil
+import pytest
+from django.utils import timezone
+
+from backend.projects.models import Project
+from backend.sessions import actions
+from backend.sessions.choices import SessionState
+from backend.sessions.models import Session
+from tests.backend.sessions.conftest import spec
+
+pytestmark = pytest.mark.django_db(transaction=True)
+
+
+def launched(session_id):
+    """Waits for the launch to end, as `end_session` does."""
+    actions._launches[UUID(session_id)].result()
+
+
+def test_a_session_starts_is_found_again_and_ends(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    assert started["state"] in {"starting", "ready"}
+    assert started["control_url"] == f"/ws/sessions/{started['id']}/control"
+    assert api.post(f"projects/{project['id']}/session")["id"] == started["id"]
+    launched(started["id"])
+    assert api.get(f"sessions/{started['id']}")["state"] == "ready"
+    pid = Session.objects.get().launcher_state["pid"]
+    api.delete(f"sessions/{started['id']}")
+    assert not psutil.pid_exists(pid)
+    assert api.get(f"sessions/{started['id']}")["state"] == "ended"
+    api.delete(f"sessions/{started['id']}")
+
+
+def test_a_session_can_be_ended_while_it_starts(api, project, fake_manager):
+    fake_manager("slow")
+    started = api.post(f"projects/{project['id']}/session")
+    api.delete(f"sessions/{started['id']}")
+    assert api.get(f"sessions/{started['id']}")["state"] == "ended"
+    assert psutil.Process().children(recursive=True) == []
+
+
+def test_a_failed_start_says_why_and_another_may_follow(api, project, fake_manager):
+    fake_manager("failing")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    failed = api.get(f"sessions/{started['id']}")
+    assert failed["state"] == "failed"
+    assert "exit status 3" in failed["error"] and "the fake manager starts" in failed["error"]
+    fake_manager("echo")
+    again = api.post(f"projects/{project['id']}/session")
+    assert again["id"] != started["id"]
+    api.delete(f"sessions/{again['id']}")
+
+
+def test_an_executor_that_dies_fails_its_session(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    pid = Session.objects.get().launcher_state["pid"]
+    os.kill(pid, signal.SIGKILL)
+    os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
+    assert api.get(f"sessions/{started['id']}")["state"] == "failed"
+    again = api.post(f"projects/{project['id']}/session")
+    assert again["id"] != started["id"]
+    api.delete(f"sessions/{again['id']}")
+
+
+def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
+    fake_manager("echo")
+    for name in ("One", "Two"):
+        pid = api.post("projects", {"name": name}, expect=201)["id"]
+        api.post(f"projects/{pid}/session")
+    domains = set(Session.objects.values_list("ros_domain_id", flat=True))
+    assert len(domains) == 2 and domains <= set(actions.ROS_DOMAINS)
+    actions.end_all_sessions()
+    assert set(Session.objects.values_list("state", flat=True)) == {"ended"}
+    assert psutil.Process().children(recursive=True) == []
+
+
+def test_a_full_host_says_so(api, project, fake_manager, monkeypatch):
+    fake_manager("echo")
+    monkeypatch.setattr(actions, "ROS_DOMAINS", range(5, 6))
+    api.post(f"projects/{project['id']}/session")
+    other = api.post("projects", {"name": "Other"}, expect=201)
+    assert api.post(f"projects/{other['id']}/session", expect=503)["code"] == "host_full"
+    actions.end_all_sessions()
+
+
+def test_what_a_killed_server_left_is_ended_at_the_next_start(api, project, user, fake_manager):
+    launcher = fake_manager("echo")
+    started = launcher.start(spec())
+    Session.objects.create(
+        project=Project.objects.get(), user=user, launcher="process", launcher_state=started.state,
+        state=SessionState.READY, ros_domain_id=5, created_at=timezone.now(),
+    )  # fmt: skip
+    fake_manager("echo")
+    actions.end_orphans()
+    assert Session.objects.get().state == "ended"
+    assert launcher.poll(started.state) is not None
+
+
+def test_the_token_between_relay_and_manager_is_stored_nowhere(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    session = Session.objects.get()
+    stored = " ".join(str(value) for value in session.__dict__.values())
+    assert actions.manager_token(session) not in stored
+    api.delete(f"sessions/{started['id']}")
+
+
+def test_a_project_that_is_not_there_has_no_session(api):
+    api.post("projects/00000000-0000-0000-0000-000000000000/session", expect=404)

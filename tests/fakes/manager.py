@@ -1,0 +1,76 @@
+"""A manager that does what its second argument says: the launcher's zoo of bad back ends.
+
+echo          listens; answers each message with itself, tells its path and token first
+flood         listens; sends frames as fast as the socket takes them, a byte in a file for each
+slow          listens after a second
+never         never reports that it is ready
+failing       ends at once with status 3
+stubborn      listens, has a child in a session of its own, ignores SIGTERM
+mute          says something else than its port
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from websockets.asyncio.server import ServerConnection, serve
+
+
+async def echo(socket: ServerConnection) -> None:
+    request = socket.request
+    assert request is not None
+    await socket.send(
+        json.dumps({"path": request.path, "authorization": request.headers.get("Authorization")})
+    )
+    async for message in socket:
+        if message == "close":
+            await socket.close(4321, "as asked")
+        elif message == "die":
+            os._exit(9)
+        else:
+            await socket.send(message)
+
+
+async def flood(socket: ServerConnection) -> None:
+    with Path(os.environ["FAKE_MANAGER_COUNTER"]).open("ab", buffering=0) as counter:
+        while True:
+            await socket.send(bytes(100_000))
+            counter.write(b".")
+
+
+async def listen(handler, ready_fd: int) -> None:
+    async with serve(handler, "127.0.0.1", 0, compression=None, max_queue=2, max_size=None) as server:
+        port = next(iter(server.sockets)).getsockname()[1]
+        os.write(ready_fd, json.dumps({"port": port}).encode() + b"\n")
+        os.close(ready_fd)
+        await asyncio.get_running_loop().create_future()
+
+
+def main() -> None:
+    kind, arguments = sys.argv[1], sys.argv[2:]
+    ready_fd = int(arguments[arguments.index("--ready-fd") + 1])
+    print("the fake manager starts", flush=True)
+    if kind == "failing":
+        sys.exit(3)
+    if kind == "never":
+        time.sleep(3600)
+    if kind == "slow":
+        time.sleep(1)
+    if kind == "mute":
+        os.write(ready_fd, b"hello\n")
+        time.sleep(3600)
+    if kind == "stubborn":
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        subprocess.Popen(["sleep", "3600"], start_new_session=True)
+    asyncio.run(listen(flood if kind == "flood" else echo, ready_fd))
+
+
+if __name__ == "__main__":
+    main()

@@ -109,7 +109,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   return (
     // The canvas is one stop of the Tab key: arrows walk inside, as in a tree widget.
-    // eslint-disable-next-line jsx-a11y/no-static-element-interactions
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       ref={root}
       className={classes['canvas']}

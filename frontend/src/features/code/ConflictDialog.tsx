@@ -68,7 +68,7 @@ function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left
         <Button variant="default" data-testid="keep-mine" onClick={() => choose(mine)}>
           {t('conflict.keepMine')}
         </Button>
-        <Button data-testid="save-merge" onClick={() => choose(merged.current)}>
+        <Button data-autofocus data-testid="save-merge" onClick={() => choose(merged.current)}>
           {t('conflict.saveMerge')}
         </Button>
       </Group>

@@ -93,9 +93,9 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunProgress />
       <Banner />
-      <div className={classes['dock']}>
+      <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
-      </div>
+      </main>
       <StatusBar />
       <CommandPalette />
       <ConflictDialog />

@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
 import { ActionButton } from '@/ui/ActionButton';
+import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
@@ -20,17 +21,20 @@ export function RunControls() {
   const isPaused = executor === 'paused';
   const hasApplication = isRunning || isPaused;
   const isViewer = useSessionStore((state) => state.introspection?.role === 'viewer');
+  const hasChanged = useHasChanged();
+  const help = hasApplication ? (hasChanged ? 'changedHelp' : 'runAgainHelp') : 'runHelp';
   const runLabel = t(hasApplication ? 'runAgain' : 'action.run');
 
   return (
     <Group gap={4} wrap="nowrap">
-      <Tooltip label={`${t(hasApplication ? 'runAgainHelp' : 'runHelp')} (${shortcutLabel('F5')})`}>
+      <Tooltip label={`${t(help)} (${shortcutLabel('F5')})`}>
         <Button
           className={classes['runButton']}
           size="xs"
           h={32}
           px={14}
           leftSection={<IconPlayerPlayFilled size={15} />}
+          variant={hasApplication && !hasChanged ? 'light' : 'filled'}
           loading={stage !== null}
           disabled={isViewer}
           data-testid="run"
@@ -55,4 +59,10 @@ export function RunControls() {
       <ExecutorState />
     </Group>
   );
+}
+
+/** Whether the project was edited since what runs was started. */
+function useHasChanged(): boolean {
+  const ranAt = useRunStore((state) => state.ranAt);
+  return useProjectStore((state) => state.changeCounter !== ranAt);
 }

@@ -17,6 +17,7 @@ export async function runProject(): Promise<boolean> {
   useSessionStore.setState({ isLaunching: true, progress: null });
   try {
     await saveNow();
+    useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
     enter('checking');
     const app = await api.app(projectId);
     enter('starting');

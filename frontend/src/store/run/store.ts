@@ -16,6 +16,8 @@ export interface LaunchFailure {
 interface RunData {
   stage: LaunchStage | null;
   failure: LaunchFailure | null;
+  /** The project's edits that the running application has. */
+  ranAt: number;
 }
 
-export const useRunStore = create<RunData>(() => ({ stage: null, failure: null }));
+export const useRunStore = create<RunData>(() => ({ stage: null, failure: null, ranAt: 0 }));

@@ -11,7 +11,7 @@ interface ChoiceRowProps {
 
 export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
   return (
-    <li id={id} role="option" aria-selected={isActive} className={classes['row']}>
+    <div id={id} role="option" tabIndex={-1} aria-selected={isActive} className={classes['row']}>
       <button
         type="button"
         tabIndex={-1}
@@ -28,6 +28,6 @@ export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
           <span className={classes['summary']}>{choice.spec.summary}</span>
         </span>
       </button>
-    </li>
+    </div>
   );
 }

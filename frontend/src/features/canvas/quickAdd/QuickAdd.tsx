@@ -36,7 +36,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const [search, setSearch] = useState(request.text);
   const [index, setIndex] = useState(0);
-  const list = useRef<HTMLUListElement>(null);
+  const list = useRef<HTMLDivElement>(null);
   const found = useMemo(() => {
     if (!diagram) return [];
     const purpose = purposeOf(request);
@@ -71,6 +71,8 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const left = Math.max(8, Math.min(request.x, window.innerWidth - WIDTH - 8));
   const top = Math.max(8, Math.min(request.y, window.innerHeight - HEIGHT - 8));
   return (
+    // Watching where the focus goes is no interaction.
+    // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
     <div
       className={classes['box']}
       style={{ left, top, width: WIDTH, maxHeight: HEIGHT }}
@@ -112,7 +114,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
           }
         }}
       />
-      <ul
+      <div
         className={classes['list']}
         id="quick-add-list"
         role="listbox"
@@ -131,9 +133,10 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
           />
         ))}
         {canCreate && (
-          <li
+          <div
             id={`quick-add-${found.length}`}
             role="option"
+            tabIndex={-1}
             aria-selected={active === found.length}
             className={classes['row']}
           >
@@ -151,10 +154,10 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
               </span>
               <span className={classes['label']}>{t('quickAdd.create', { name: search })}</span>
             </button>
-          </li>
+          </div>
         )}
-        {count === 0 && <li className={classes['nothing']}>{t('quickAdd.nothing')}</li>}
-      </ul>
+        {count === 0 && <div className={classes['nothing']}>{t('quickAdd.nothing')}</div>}
+      </div>
       <div className={classes['keys']} aria-hidden="true">
         {t('quickAdd.keys')}
       </div>

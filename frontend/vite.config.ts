@@ -33,6 +33,8 @@ export default defineConfig({
     setupFiles: ['./vitest.setup.ts'],
     css: false,
     maxWorkers: 2,
+    // Property tests on a busy machine: long, and never endless.
+    testTimeout: 60_000,
     restoreMocks: true,
   },
 });

@@ -33,20 +33,6 @@ const dark: MantineColorsTuple = [
   '#0e1015',
 ];
 
-/** Mantine's dark greys, in the hue of our tokens: it draws fields, menus and hovers with them. */
-const slate: MantineColorsTuple = [
-  '#e9ebf1',
-  '#c9cedb',
-  '#a1aabd',
-  '#7d879b',
-  '#3b4252',
-  '#303644',
-  '#1e222b',
-  '#181b22',
-  '#12141a',
-  '#0e1015',
-];
-
 export const theme = createTheme({
   primaryColor: 'indigo',
   primaryShade: { light: 6, dark: 5 },

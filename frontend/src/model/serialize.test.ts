@@ -1,0 +1,61 @@
+import { readFileSync } from 'node:fs';
+import { describe, expect, it } from 'vitest';
+import { DiagramError, parseDiagram, serializeDiagram } from './serialize';
+
+const base = {
+  format: 'bt-studio/diagram',
+  version: 1,
+  id: 'T',
+  root: null,
+  nodes: {},
+  drafts: [],
+  layout: 'vertical',
+};
+
+describe('parseDiagram', () => {
+  it.each([
+    ['not JSON', '{', /not JSON/],
+    ['a list', [], /object/],
+    ['another format', { ...base, format: 'x' }, /format/],
+    ['a newer version', { ...base, version: 9 }, /newer/],
+    ['a node without a type', { ...base, nodes: { a: {} } }, /nodes\.a/],
+    ['ports that are no texts', { ...base, nodes: { a: { type: 'A', ports: { p: {} } } } }, /ports\.p/],
+  ])('refuses %s with the place', (_what, value, message) => {
+    expect(() => parseDiagram(value)).toThrow(DiagramError);
+    expect(() => parseDiagram(value)).toThrow(message);
+  });
+
+  it('repairs links to nothing, second parents, rings and lost pieces', () => {
+    const diagram = parseDiagram({
+      ...base,
+      root: 'r',
+      nodes: {
+        r: { type: 'Sequence', children: ['a', 'gone', 'a'] },
+        a: { type: 'Sequence', children: ['r'] },
+        x: { type: 'Inverter', children: ['y'] },
+        y: { type: 'Inverter', children: ['x'] },
+        lost: { type: 'Turn' },
+      },
+    });
+    expect(diagram.nodes['r']?.children).toEqual(['a']);
+    expect(diagram.nodes['a']?.children).toEqual([]);
+    expect(diagram.drafts).toEqual(['lost', 'x']);
+  });
+
+  it('keeps what it does not know', () => {
+    const text = serializeDiagram(
+      parseDiagram({ ...base, nodes: { a: { type: 'A', future: [1] } }, drafts: ['a'], model: { x: 1 } }),
+    );
+    expect(JSON.parse(text)).toMatchObject({ nodes: { a: { future: [1] } }, model: { x: 1 } });
+  });
+});
+
+describe('serializeDiagram', () => {
+  it.each(['laser_bump_and_go', 'visual_follow_person'])(
+    'gives back the example %s byte for byte',
+    (name) => {
+      const text = readFileSync(`../examples/${name}/trees/MainTree.json`, 'utf8');
+      expect(serializeDiagram(parseDiagram(text))).toBe(text);
+    },
+  );
+});

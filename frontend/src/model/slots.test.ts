@@ -1,0 +1,67 @@
+import { describe, expect, it } from 'vitest';
+import { emptyDiagram, type Diagram } from './diagram';
+import { layoutTree, type Box } from './layout';
+import { isSamePlace, slotAt } from './slots';
+import { vocabulary } from './testing';
+
+const diagram = (layout: Diagram['layout']): Diagram => ({
+  ...emptyDiagram('MainTree'),
+  root: 'r',
+  layout,
+  nodes: {
+    r: { type: 'Sequence', children: ['a', 'b', 'i'] },
+    a: { type: 'Turn' },
+    b: { type: 'Fallback' },
+    i: { type: 'Inverter', children: ['c'] },
+    c: { type: 'Turn' },
+  },
+});
+
+const centre = (box: Box): [number, number] => [box.x + box.width / 2, box.y + box.height / 2];
+
+describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orientation) => {
+  const tree = diagram(orientation);
+  const layout = layoutTree(tree, vocabulary);
+  const at = (id: string) => layout.positions[id]!;
+  const find = (x: number, y: number, moving?: string) =>
+    slotAt({ diagram: tree, layout, vocabulary, moving }, x, y);
+
+  it('are between two siblings', () => {
+    const [ax, ay] = centre(at('a'));
+    const [bx, by] = centre(at('b'));
+    const slot =
+      orientation === 'vertical'
+        ? find((at('a').x + at('a').width + at('b').x) / 2, Math.min(ay, by))
+        : find(Math.min(ax, bx), (at('a').y + at('a').height + at('b').y) / 2);
+    expect(slot).toMatchObject({ parent: 'r', index: 1, kind: 'between' });
+  });
+
+  it('are onto a block that takes children', () => {
+    expect(find(...centre(at('b')))).toMatchObject({ parent: 'b', index: 0, kind: 'onto' });
+  });
+
+  it('are beside a decorator that is full', () => {
+    expect(find(...centre(at('i')))).toMatchObject({ parent: 'r', kind: 'between' });
+  });
+
+  it('are nowhere far from the tree', () => {
+    expect(find(9000, 9000)).toBeNull();
+  });
+
+  it('never are below the block that is moved', () => {
+    const slot = find(...centre(at('c')), 'i');
+    expect(slot?.parent).not.toBe('i');
+    expect(slot?.parent).not.toBe('c');
+  });
+});
+
+it('knows the place that a block already has', () => {
+  const slot = { parent: 'r', kind: 'between', mark: { x: 0, y: 0, width: 0, height: 0 } } as const;
+  const tree = diagram('vertical');
+  expect([0, 1, 2, 3].map((index) => isSamePlace(tree, 'b', { ...slot, index }))).toEqual([
+    false,
+    true,
+    true,
+    false,
+  ]);
+});

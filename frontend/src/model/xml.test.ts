@@ -1,0 +1,47 @@
+import { describe, expect, it } from 'vitest';
+import { fragmentOf } from './edits';
+import { parseDiagram } from './serialize';
+import { fragmentToXml, xmlToFragment } from './xml';
+
+const diagram = parseDiagram({
+  format: 'bt-studio/diagram',
+  version: 1,
+  id: 'T',
+  root: 'r',
+  nodes: {
+    r: { type: 'Sequence', name: 'a "quoted" <name> & more', children: ['a', 's'] },
+    a: {
+      type: 'Turn',
+      ports: { ang_speed: '0.5' },
+      conditions: { _skipIf: "x < 3 && y == 'a'" },
+      comment: 'two\nlines',
+      disabled: true,
+    },
+    s: { type: 'SubTree', tree: 'Other', ports: { goal: '{goal}' }, color: '#123456' },
+  },
+});
+
+describe('the clipboard', () => {
+  it('gives back what was copied, under new ids', () => {
+    const fragment = xmlToFragment(fragmentToXml(fragmentOf(diagram, ['r'])));
+    const read = Object.values(fragment!.nodes).map(({ children, ...node }) => ({
+      ...node,
+      count: children?.length ?? 0,
+    }));
+    const wanted = Object.values(diagram.nodes).map(({ children, ...node }) => ({
+      ...node,
+      count: children?.length ?? 0,
+    }));
+    expect(read).toEqual(wanted);
+  });
+  it('reads a whole document in explicit form', () => {
+    const fragment = xmlToFragment(
+      '<?xml version="1.0"?><root BTCPP_format="4"><BehaviorTree ID="M"><Control ID="Sequence"><Action ID="Turn" name="t" ang_speed="1"/></Control></BehaviorTree><TreeNodesModel><Action ID="Turn"/></TreeNodesModel></root>',
+    );
+    expect(fragment?.tops).toHaveLength(1);
+    expect(Object.values(fragment!.nodes).map((node) => node.type)).toEqual(['Sequence', 'Turn']);
+  });
+  it.each(['', 'hello', '<broken', '<!DOCTYPE x><a/>', '<root/>'])('refuses %j', (text) => {
+    expect(xmlToFragment(text)).toBeNull();
+  });
+});

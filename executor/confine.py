@@ -7,8 +7,9 @@ import os
 import signal
 from typing import Final
 
-__all__ = ["PARENT_VARIABLE", "adopt_orphans", "die_with_parent"]
+__all__ = ["INTERRUPT_SIGNAL", "PARENT_VARIABLE", "adopt_orphans", "die_with_parent"]
 
+INTERRUPT_SIGNAL: Final = signal.SIGUSR1
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
 _PR_SET_PDEATHSIG: Final = 1
 _PR_SET_CHILD_SUBREAPER: Final = 36

@@ -180,7 +180,7 @@ class ClientMessage(Struct):
 
     id: str
     command: str
-    data: msgspec.Raw | None = None
+    data: msgspec.Raw = msgspec.Raw(b"null")
 
 
 # --- events: what the server says ----------------------------------------------------------------

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 import psutil
 
 from executor.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
-from executor.confine import PARENT_VARIABLE
+from executor.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
 from executor.output import LineReader
 
 if TYPE_CHECKING:
@@ -27,7 +27,6 @@ MARK: Final = "BT_STUDIO_CHILD"
 DRAIN_TIMEOUT_S: Final = 0.5
 KILL_ROUNDS: Final = 200
 CLOSED_CHANNEL_GRACE_S: Final = 1.0
-INTERRUPT_SIGNAL: Final = signal.SIGUSR1
 
 
 @dataclass(frozen=True)

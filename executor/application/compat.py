@@ -1,0 +1,48 @@
+"""What actions take for granted: message modules that are imported, `cv_bridge`, `tree_tools`."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from importlib.util import find_spec
+from typing import Final
+
+__all__ = ["install", "warm_up"]
+
+MESSAGES: Final = (
+    "actionlib_msgs.msg",
+    "builtin_interfaces.msg",
+    "diagnostic_msgs.msg",
+    "geometry_msgs.msg",
+    "nav_msgs.msg",
+    "rosgraph_msgs.msg",
+    "sensor_msgs.msg",
+    "shape_msgs.msg",
+    "std_msgs.msg",
+    "std_srvs.srv",
+    "stereo_msgs.msg",
+    "tf2_msgs.msg",
+    "trajectory_msgs.msg",
+    "visualization_msgs.msg",
+)
+LIBRARIES: Final = ("rclpy.executors", "rclpy.qos", "py_trees", "numpy", "cv2")
+
+
+def warm_up() -> None:
+    """Imports what nearly every application uses.
+
+    Actions of JdeRobot BT Studio say `import geometry_msgs` and use `geometry_msgs.msg`, which only works
+    once somebody imported the submodule.
+    """
+    for name in (*MESSAGES, *LIBRARIES):
+        if find_spec(name.partition(".")[0]) is not None and find_spec(name) is not None:
+            importlib.import_module(name)
+
+
+def install() -> None:
+    """Makes `tree_tools` and `cv_bridge` importable where they are not installed."""
+    from tree_gardener import tree_tools  # noqa: PLC0415 - not before ROS has its environment
+
+    tree_tools.install()
+    if find_spec("cv_bridge") is None:
+        sys.modules["cv_bridge"] = importlib.import_module("executor.application.cv_bridge")

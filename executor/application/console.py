@@ -1,0 +1,104 @@
+"""Standard output and error of the actions, line by line, with the node that wrote."""
+
+from __future__ import annotations
+
+import io
+import sys
+import threading
+import time
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.channel import ChannelClosed
+from executor.output import LINE_CHARACTERS, RateLimit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.application.locate import Locator
+
+__all__ = ["Console"]
+
+_MAX_PENDING: Final = 1 << 16
+
+
+class Console(io.TextIOBase):
+    """Takes the place of `sys.stdout` or `sys.stderr`.
+
+    Args:
+        level: of the lines.
+        send: takes `log` messages.
+        locator: tells the node.
+        original: the stream whose place it takes; it gets the lines when the channel is gone, as it is in
+            a process that an action forked.
+    """
+
+    def __init__(
+        self, level: str, send: Callable[[dict[str, Any]], None], locator: Locator, original: Any
+    ) -> None:
+        self._level = level
+        self._send = send
+        self._locator = locator
+        self._original = original
+        self._pending = threading.local()
+        self._limit = RateLimit()
+        self._lock = threading.Lock()
+
+    @property
+    def encoding(self) -> str:  # type: ignore[override]
+        """The encoding of the stream below."""
+        return "utf-8"
+
+    @property
+    def buffer(self) -> Any:
+        """The binary stream below, for those who write bytes."""
+        return self._original.buffer
+
+    def fileno(self) -> int:
+        """The descriptor of the stream below."""
+        return int(self._original.fileno())
+
+    def writable(self) -> bool:
+        """It is."""
+        return True
+
+    def isatty(self) -> bool:
+        """It is not."""
+        return False
+
+    def write(self, text: str) -> int:
+        """Takes a piece of text; each whole line is sent."""
+        pending = getattr(self._pending, "text", "") + str(text)
+        *lines, rest = pending.split("\n")
+        if len(rest) > _MAX_PENDING:
+            lines.append(rest)
+            rest = ""
+        self._pending.text = rest
+        for line in lines:
+            self._say(line)
+        return len(text)
+
+    def flush(self) -> None:
+        """Sends an unfinished line of this thread."""
+        rest = getattr(self._pending, "text", "")
+        if rest:
+            self._pending.text = ""
+            self._say(rest)
+
+    def _say(self, line: str) -> None:
+        with self._lock:
+            if not self._limit.admits(time.monotonic()):
+                return
+            held_back = self._limit.take_held_back()
+        if held_back:
+            self._emit(f"… {held_back} lines were left out", None)
+        self._emit(line[:LINE_CHARACTERS], self._locator.node_of(sys._getframe(2)))
+
+    def _emit(self, line: str, node: Any) -> None:
+        message = {"type": "log", "level": self._level, "text": line}
+        if node is not None:
+            message |= {"node_id": node.node_id, "node_path": node.path}
+        try:
+            self._send(message)
+        except ChannelClosed:
+            self._original.write(line + "\n")
+            self._original.flush()

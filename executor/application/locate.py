@@ -1,0 +1,86 @@
+"""Which node of the tree, and which line of an action, a stack of frames belongs to."""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from tree_gardener import Tree
+
+__all__ = ["Locator", "Place"]
+
+DEPTH: Final = 200
+_NO_PLACE: Final = ("", 0)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A node and a line; empty where unknown."""
+
+    node_id: str = ""
+    tree_id: str = ""
+    node_path: str = ""
+    node_type: str = ""
+    file: str = ""
+    line: int = 0
+    traceback: str = ""
+
+    @property
+    def is_in_action(self) -> bool:
+        """Whether it is the user's code."""
+        return bool(self.file or self.node_path)
+
+    def __str__(self) -> str:
+        what = f"{self.node_type or 'an action'} '{self.node_path}'" if self.node_path else "an action"
+        return f"{what} ({self.file}:{self.line})" if self.file else what
+
+
+class Locator:
+    """Finds nodes by the behaviours that their methods run on."""
+
+    def __init__(self) -> None:
+        self._nodes: dict[int, Any] = {}
+
+    def learn(self, tree: Tree) -> None:
+        """Takes the nodes of a tree."""
+        for node in tree.nodes:
+            behaviour = getattr(node, "instance_behaviour", None)
+            if behaviour is not None:
+                self._nodes[id(behaviour)] = node
+
+    def node_of(self, frame: FrameType | None) -> Any:
+        """Returns the node on whose behaviour the innermost method runs, or None."""
+        for _ in range(DEPTH):
+            if frame is None:
+                return None
+            if frame.f_code.co_argcount:
+                owner = frame.f_locals.get(frame.f_code.co_varnames[0])
+                node = self._nodes.get(id(owner)) if owner is not None else None
+                if node is not None:
+                    return node
+            frame = frame.f_back
+        return None
+
+    def place_of(self, frame: FrameType | None) -> Place:
+        """Returns node, file and line of a stack, innermost user code first."""
+        node = self.node_of(frame)
+        stack = traceback.extract_stack(frame, limit=DEPTH) if frame is not None else []
+        first = next((i for i, entry in enumerate(stack) if is_action_file(entry.filename)), None)
+        if first is None:
+            return Place()
+        file, line = next(
+            ((e.filename, e.lineno or 0) for e in reversed(stack) if is_action_file(e.filename)), _NO_PLACE
+        )
+        text = "".join(traceback.format_list(stack[first:]))
+        if node is None:
+            return Place(file=file, line=line, traceback=text)
+        return Place(node.node_id, node.tree_id, node.path, node.type, file, line, text)
+
+
+def is_action_file(name: str) -> bool:
+    """Whether a file name is that of an action of the project."""
+    return name.startswith("actions/")

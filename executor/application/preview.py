@@ -1,0 +1,57 @@
+"""Values of the blackboard as JSON: as they are where small and plain, else as a short text."""
+
+from __future__ import annotations
+
+import math
+import reprlib
+from typing import Any, Final
+
+__all__ = ["preview"]
+
+TEXT_CHARACTERS: Final = 500
+ITEMS: Final = 50
+ARRAY_ITEMS: Final = 20
+
+_short = reprlib.Repr()
+_short.maxlist = _short.maxtuple = _short.maxdict = _short.maxset = _short.maxdeque = 10
+_short.maxstring = _short.maxother = 200
+_short.maxlevel = 3
+
+
+def preview(value: Any) -> tuple[Any, bool]:
+    """Returns something that JSON can carry, and whether it only stands for the value."""
+    if _is_plain(value, depth=3):
+        return value, False
+    try:
+        return _describe(value)[:TEXT_CHARACTERS], True
+    except Exception as error:
+        return f"<{type(value).__name__}; its repr raised {type(error).__name__}>", True
+
+
+def _is_plain(value: Any, depth: int) -> bool:
+    match value:
+        case None | bool():
+            return True
+        case int():
+            return -(2**53) < value < 2**53  # what a browser's numbers hold
+        case float():
+            return math.isfinite(value)
+        case str():
+            return len(value) <= TEXT_CHARACTERS
+        case list() | tuple() | dict() if depth and len(value) <= ITEMS:
+            values = value.values() if isinstance(value, dict) else value
+            return _has_text_keys(value) and all(_is_plain(item, depth - 1) for item in values)
+    return False
+
+
+def _has_text_keys(value: Any) -> bool:
+    return not isinstance(value, dict) or all(isinstance(key, str) for key in value)
+
+
+def _describe(value: Any) -> str:
+    shape, kind = getattr(value, "shape", None), getattr(value, "dtype", None)
+    if isinstance(shape, tuple) and kind is not None and math.prod(shape) > ARRAY_ITEMS:
+        return f"array {'×'.join(map(str, shape))} of {kind}"
+    if hasattr(value, "get_fields_and_field_types") and hasattr(value, "width") and hasattr(value, "height"):
+        return f"{type(value).__name__} {value.width}×{value.height}"
+    return _short.repr(value)

@@ -1,0 +1,289 @@
+"""The application as a process of its own: `python -m executor.application.process --channel-fd N`.
+
+It may be started ahead of its use: it imports what takes long, joins the ROS graph, and waits for
+``start``. The main thread loads, ticks and runs the actions' callbacks; a second one listens to the
+manager; a third one notices when the first does not come back.
+"""
+
+from __future__ import annotations
+
+import argparse
+import faulthandler
+import os
+import queue
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.channel import Channel, ChannelClosed
+from executor.confine import die_with_parent
+from executor.ros.environment import ros_environment
+
+if TYPE_CHECKING:
+    from executor.application.locate import Place
+    from executor.application.ros import Graph
+    from tree_gardener import Status, TickError, Tree
+    from tree_gardener.runner import Runner
+
+SPIN_S: Final = 0.05
+DISCOVERY_S: Final = 0.8
+GOODBYE_S: Final = 0.5
+
+
+class _Stop(Exception):  # noqa: N818 - the way out, not an error
+    """The run is over."""
+
+
+class Application:
+    """Loads one application, runs it, and says how it ended."""
+
+    def __init__(self, channel: Channel) -> None:
+        from executor.application.locate import Locator  # noqa: PLC0415 - after the environment is set
+        from executor.application.report import Reporter  # noqa: PLC0415 - dito
+        from executor.application.ros import Graph  # noqa: PLC0415 - dito
+        from executor.application.watchdog import Watchdog  # noqa: PLC0415 - dito
+
+        self._channel = channel
+        self._commands: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+        self._graph: Graph = Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
+        self._reporter = Reporter(channel.send, self._graph.now)
+        self._locator = Locator()
+        self._watchdog = Watchdog(self._locator, self._reporter.hangs, channel.send)
+        self._runner: Runner | None = None
+        self._connect_by_s: float | None = None
+        self._is_connected = False
+
+    def run(self) -> None:
+        """Works until the run is over or the manager is gone."""
+        threading.Thread(target=self._listen, name="listener", daemon=True).start()
+        start = self._wait_for_start()
+        if start is None:
+            return
+        self._redirect_output()
+        if not self._load(start):
+            return
+        self._channel.send({"type": "ready"})
+        self._watchdog.start()
+        try:
+            while True:
+                self._turn()
+        except _Stop:
+            pass
+        self._watchdog.stop()
+        self._say_goodbye()
+
+    def close(self) -> None:
+        """Leaves the ROS graph and lets the last messages out."""
+        self._channel.flush(GOODBYE_S)
+        self._graph.close()
+
+    # --- commands ---------------------------------------------------------------------------------
+
+    def _listen(self) -> None:
+        """Receives on a thread of its own, so that the main one can wait for ROS."""
+        try:
+            while True:
+                message = self._channel.receive()
+                if message is not None:
+                    self._commands.put(message)
+                    self._graph.wake()
+        except ChannelClosed:
+            os._exit(0)  # without a manager there is nobody to run for
+
+    def _wait_for_start(self) -> dict[str, Any] | None:
+        while True:
+            # Spinning lets the graph's discovery go on.
+            self._graph.spin_once(SPIN_S)
+            while not self._commands.empty():
+                message = self._commands.get()
+                if message["type"] == "stop":
+                    return None
+                if message["type"] == "start":
+                    return message
+
+    def _turn(self) -> None:
+        self._watchdog.alive()
+        if self._watchdog.is_interrupted:
+            raise _Stop
+        while not self._commands.empty():
+            self._obey(self._commands.get())
+        self._reporter.flush()
+        self._guarded(lambda: self._graph.spin_once(SPIN_S))
+
+    def _obey(self, message: dict[str, Any]) -> None:
+        runner = self._runner
+        assert runner is not None  # noqa: S101 - commands come after `ready`
+        match message["type"]:
+            case "stop":
+                runner.stop()
+                raise _Stop
+            case "pause":
+                runner.pause()
+                self._channel.send({"type": "paused"})
+            case "resume":
+                runner.resume()
+                self._channel.send({"type": "resumed"})
+            case "step":
+                runner.step()
+                self._guarded(lambda: runner.tick_due(self._graph.now()))
+                self._reporter.flush(now=True)
+                self._channel.send({"type": "stepped"})
+            case "set_tick_rate":
+                runner.set_tick_rate(float(message["tick_hz"]))
+            case "set_blackboard":
+                self._channel.send({"type": "blackboard_set", "error": self._set_blackboard(message)})
+
+    def _set_blackboard(self, message: dict[str, Any]) -> str:
+        assert self._runner is not None  # noqa: S101 - dito
+        tree, scope = self._runner.tree, str(message["scope"])
+        try:
+            board = tree.blackboard.scope(scope) if scope else tree.blackboard
+            board[str(message["key"])] = message["value"]
+        except KeyError:
+            return f"There is no subtree {scope!r}."
+        except Exception as error:
+            return f"{type(error).__name__}: {error}"
+        self._reporter.written(tree, scope, str(message["key"]))
+        return ""
+
+    # --- loading ----------------------------------------------------------------------------------
+
+    def _redirect_output(self) -> None:
+        from executor.application.console import Console  # noqa: PLC0415
+
+        sys.stdout = Console("info", self._channel.send, self._locator, sys.__stdout__)
+        sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__)
+
+    def _load(self, start: dict[str, Any]) -> bool:
+        from executor.application.locate import Place  # noqa: PLC0415
+
+        try:
+            tree = self._build(Path(start["app_dir"]))
+            self._locator.learn(tree)
+            self._reporter.tree(tree)
+            self._make_runner(tree, start)
+        except BaseException as error:
+            place = self._place_of(error) if not isinstance(error, SystemExit) else Place()
+            self._reporter.not_loaded(error, place)
+            return False
+        return True
+
+    def _build(self, folder: Path) -> Tree:
+        from executor.application.forks import limit_forks  # noqa: PLC0415
+        from tree_gardener import Tree  # noqa: PLC0415
+
+        os.chdir(folder)
+        # Modules of the project can be imported by name; ours and Python's come first.
+        sys.path += [str(folder), str(folder / "actions")]
+        limit_forks()
+        document = folder / "self_contained_tree.xml"
+        return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
+
+    def _make_runner(self, tree: Tree, start: dict[str, Any]) -> None:
+        from tree_gardener.runner import Runner  # noqa: PLC0415
+
+        tree.setup(node=self._graph.node)
+        self._runner = Runner(
+            tree,
+            tick_hz=float(start["tick_hz"]),
+            on_finish=start["on_finish"],
+            on_error=start["on_error"],
+            finished=self._on_finished,
+            fault=self._reporter.raised,
+        )
+        tree.observe(self._reporter.ticked)
+        self._runner.pause()
+
+    # --- running ----------------------------------------------------------------------------------
+
+    def _on_clock(self, now_s: float) -> None:
+        if self._runner is None:
+            return
+        if not self._is_connected:
+            self._is_connected = self._has_connected()
+        if self._is_connected:
+            self._runner.tick_due(now_s)
+
+    def _has_connected(self) -> bool:
+        """What the first tick publishes should be heard; but a topic that nobody hears is no error."""
+        if self._connect_by_s is None:
+            self._connect_by_s = time.monotonic() + DISCOVERY_S
+        return self._graph.is_connected() or time.monotonic() > self._connect_by_s
+
+    def _guarded(self, work: Any) -> None:
+        """Runs the actions' code; whatever it does, the manager hears of it."""
+        from executor.application.watchdog import Interrupted  # noqa: PLC0415
+
+        try:
+            work()
+        except _Stop:
+            raise
+        except Interrupted as interrupted:
+            self._reporter.hangs(f"{interrupted.place} did not return and was broken off", interrupted.place)
+            self._end_broken("The tick did not return.")
+        except BaseException as error:
+            self._reporter.broke_out("exception", error, self._place_of(error))
+            self._end_broken("An action broke out of its tick.")
+
+    def _end_broken(self, message: str) -> None:
+        self._reporter.finished(None, "action_raised", message)
+        raise _Stop
+
+    def _on_finished(self, status: Status) -> None:
+        assert self._runner is not None  # noqa: S101 - it is what calls us
+        error: TickError | None = self._runner.error
+        if error is not None:
+            self._reporter.finished(status, "action_raised", f"The run ended: {error.message}.")
+        else:
+            self._reporter.finished(status, "root_finished", f"The tree ended with {status.name}.")
+        raise _Stop
+
+    def _say_goodbye(self) -> None:
+        """Halts the tree, so that what the actions hold is let go."""
+        assert self._runner is not None  # noqa: S101 - it ran
+        try:
+            self._runner.shutdown()
+        except BaseException as error:
+            self._reporter.broke_out("exception", error, self._place_of(error))
+        for stream in (sys.stdout, sys.stderr):
+            stream.flush()
+
+    def _place_of(self, error: BaseException) -> Place:
+        trace = error.__traceback__
+        frame = None
+        while trace is not None:
+            frame, trace = trace.tb_frame, trace.tb_next
+        return self._locator.place_of(frame)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs an application for the manager at the other end of a channel."""
+    parser = argparse.ArgumentParser(prog="python -m executor.application.process", description=__doc__)
+    parser.add_argument("--channel-fd", type=int, required=True)
+    options = parser.parse_args(arguments)
+    die_with_parent()
+    faulthandler.enable()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
+    for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
+        os.environ.setdefault(name, value)
+    channel = Channel(options.channel_fd)
+
+    from executor.application import compat  # noqa: PLC0415 - ROS reads the environment when it is loaded
+
+    compat.warm_up()
+    compat.install()
+    application = Application(channel)
+    try:
+        application.run()
+        application.close()
+    except ChannelClosed:
+        pass
+    # Threads that actions started must not keep the process alive.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,186 @@
+"""Tells the manager what the tree does: nodes, ticks, blackboard, faults, the end."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.application.preview import preview
+from tree_gardener import BlackboardChange, LoadError, TickError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.application.locate import Place
+    from tree_gardener import Status, TickChanges, Tree
+
+__all__ = ["Reporter", "describe_tree"]
+
+BLACKBOARD_INTERVAL_S: Final = 0.1
+IDLE_TICK_INTERVAL_S: Final = 0.05
+SAME_FAULT_INTERVAL_S: Final = 1.0
+MAX_LOAD_FAULTS: Final = 20
+
+
+def describe_tree(tree: Tree) -> list[dict[str, Any]]:
+    """Returns the nodes in pre-order, as in `messages.TreeNode`."""
+    return [
+        {
+            "uid": node.uid,
+            "parent": node.parent.uid if node.parent is not None else 0,
+            "type": node.type,
+            "kind": node.KIND.value,
+            "name": node.name,
+            "path": node.path,
+            "node_id": node.node_id,
+            "tree_id": node.tree_id,
+        }
+        for node in tree.nodes
+    ]
+
+
+class Reporter:
+    """Makes messages of what happens; `send` takes them, `now_s` is simulated time."""
+
+    def __init__(self, send: Callable[[dict[str, Any]], None], now_s: Callable[[], float]) -> None:
+        self._send = send
+        self._now_s = now_s
+        self._entries: dict[tuple[str, str], BlackboardChange] = {}
+        self._entries_due_s = 0.0
+        self._ticks_due_s = 0.0
+        self._faults_s: dict[tuple[str, str], float] = {}
+
+    def tree(self, tree: Tree) -> None:
+        """The tree is built."""
+        self._send({"type": "tree", "nodes": describe_tree(tree)})
+
+    def ticked(self, changes: TickChanges) -> None:
+        """Observes the tree."""
+        now_s = time.monotonic()
+        for entry in changes.blackboard:
+            self._entries[entry.scope, entry.key] = entry
+        if changes.changed or changes.flashed or now_s >= self._ticks_due_s:
+            self._ticks_due_s = now_s + IDLE_TICK_INTERVAL_S
+            self._send(
+                {
+                    "type": "tick",
+                    "n": changes.tick,
+                    "t": self._now_s(),
+                    "changed": [(uid, status.name) for uid, status in changes.changed],
+                    "flashed": [(uid, status.name) for uid, status in changes.flashed],
+                    "duration_ms": changes.duration_s * 1000.0,
+                }
+            )
+        self.flush()
+
+    def written(self, tree: Tree, scope: str, key: str) -> None:
+        """An entry was written from outside, between two ticks."""
+        board = tree.blackboard.scope(scope) if scope else tree.blackboard
+        entry = board.find(key)
+        if entry is not None:
+            changed = BlackboardChange(scope, key, entry.type_name, entry.value, removed=False, writer_uid=0)
+            self._entries[scope, key] = changed
+        self.flush(now=True)
+
+    def flush(self, *, now: bool = False) -> None:
+        """Sends the blackboard's changes, not too often."""
+        if not self._entries or (time.monotonic() < self._entries_due_s and not now):
+            return
+        self._entries_due_s = time.monotonic() + BLACKBOARD_INTERVAL_S
+        entries, self._entries = self._entries, {}
+        self._send({"type": "blackboard", "entries": [_entry(change) for change in entries.values()]})
+
+    def raised(self, error: TickError) -> None:
+        """An action raised. The same fault again and again is told once a second."""
+        key, now_s = (error.path, error.message), time.monotonic()
+        if now_s < self._faults_s.get(key, 0.0):
+            return
+        self._faults_s[key] = now_s + SAME_FAULT_INTERVAL_S
+        self._fault(
+            "exception",
+            error.message,
+            hint=_hint(error.cause),
+            node_id=error.node_id,
+            tree_id=error.tree_id,
+            node_path=error.path,
+            file=error.file,
+            line=error.line,
+            traceback=error.traceback_text,
+        )
+
+    def not_loaded(self, error: BaseException, place: Place) -> None:
+        """The application cannot be loaded."""
+        if isinstance(error, TickError):
+            self.raised(error)
+        elif isinstance(error, LoadError):
+            for diagnostic in error.diagnostics[:MAX_LOAD_FAULTS]:
+                self._fault(
+                    "load",
+                    f"{diagnostic.message}",
+                    hint=diagnostic.hint,
+                    node_id=diagnostic.node_id,
+                    tree_id=diagnostic.tree,
+                    file=diagnostic.file,
+                    line=diagnostic.line,
+                    traceback=_cause_text(error),
+                )
+        else:
+            self.broke_out("load", error, place)
+
+    def broke_out(self, kind: str, error: BaseException, place: Place) -> None:
+        """Something that is no ordinary exception of an action: sys.exit, or a fault of ours."""
+        message = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        if isinstance(error, SystemExit):
+            message = f"the action called sys.exit({error.code!r})"
+        text = "".join(traceback.format_exception(error))
+        self._fault(kind, message, **_place(place) | {"traceback": text})
+
+    def hangs(self, message: str, place: Place) -> None:
+        """A tick does not return."""
+        hint = "update() must return soon: let it return RUNNING while work goes on."
+        self._fault("timeout", message, hint=hint, **_place(place))
+
+    def finished(self, status: Status | None, reason: str, message: str) -> None:
+        """The run ended by itself."""
+        self.flush(now=True)
+        name = status.name if status is not None else "FAILURE"
+        self._send({"type": "finished", "status": name, "reason": reason, "message": message})
+
+    def _fault(self, kind: str, message: str, **fields: Any) -> None:
+        self._send({"type": "fault", "kind": kind, "message": message, **fields})
+
+
+def _entry(change: BlackboardChange) -> dict[str, Any]:
+    value, is_preview = (None, False) if change.removed else preview(change.value)
+    return {
+        "scope": change.scope,
+        "key": change.key,
+        "type": change.type,
+        "value": value,
+        "preview": is_preview,
+        "removed": change.removed,
+    }
+
+
+def _place(place: Place) -> dict[str, Any]:
+    return {
+        "node_id": place.node_id,
+        "tree_id": place.tree_id,
+        "node_path": place.node_path,
+        "file": place.file,
+        "line": place.line,
+        "traceback": place.traceback,
+    }
+
+
+def _cause_text(error: BaseException) -> str:
+    return "".join(traceback.format_exception(error.__cause__)) if error.__cause__ else ""
+
+
+def _hint(cause: BaseException | None) -> str:
+    if isinstance(cause, ModuleNotFoundError):
+        return f"Install the package that provides '{cause.name}', or correct the import."
+    if isinstance(cause, MemoryError):
+        return "The application reached its limit of memory."
+    return ""

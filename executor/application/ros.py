@@ -1,0 +1,83 @@
+"""The application's place in the ROS graph: a node under simulated time, spun by the main thread."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["Graph"]
+
+NODE_NAME: Final = "bt_application"
+_CLOCK_QOS: Final = QoSProfile(
+    depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
+)
+_OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
+
+
+class Graph:
+    """Context, node and executor. It is also the clock of the tree: the time of the last `/clock`."""
+
+    def __init__(self, domain_id: int, on_clock: Callable[[float], None]) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain_id)
+        self.node = Node(
+            NODE_NAME,
+            context=self._context,
+            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, True)],  # noqa: FBT003
+        )
+        self._time_s = 0.0
+        self.has_time = False
+        self._on_clock = on_clock
+        self.node.create_subscription(Clock, "/clock", self._take_clock, _CLOCK_QOS)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def now(self) -> float:
+        """Simulated seconds."""
+        return self._time_s
+
+    def sleep(self, duration_s: float) -> None:
+        """Lets simulated time pass."""
+        end_s = self._time_s + duration_s
+        while self._time_s < end_s:
+            self.spin_once(0.05)
+
+    def spin_once(self, timeout_s: float) -> None:
+        """Lets one callback run, or waits."""
+        try:
+            self._executor.spin_once(timeout_sec=timeout_s)
+        except ExternalShutdownException:
+            return
+
+    def wake(self) -> None:
+        """Ends a wait of `spin_once`; may be called from any thread."""
+        self._executor.wake()
+
+    def is_connected(self) -> bool:
+        """Whether all that the actions publish is heard, and all that they listen to is said."""
+        said: list[Any] = [s for s in self.node.subscriptions if s.topic_name not in _OWN_TOPICS]
+        heard: list[Any] = [p for p in self.node.publishers if p.topic_name not in _OWN_TOPICS]
+        return all(self.node.count_publishers(s.topic_name) for s in said) and all(
+            p.get_subscription_count() for p in heard
+        )
+
+    def close(self) -> None:
+        """Leaves the graph."""
+        self._executor.shutdown(timeout_sec=0.2)
+        self.node.destroy_node()
+        self._context.try_shutdown()
+
+    def _take_clock(self, message: Any) -> None:
+        self._time_s = message.clock.sec + message.clock.nanosec * 1e-9
+        self.has_time = True
+        self._on_clock(self._time_s)

@@ -1,0 +1,88 @@
+"""Unpacks archives from outside: nothing lands outside the folder, and nothing grows without bounds."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import stat
+import zipfile
+import zlib
+from pathlib import Path, PurePosixPath
+from typing import Final
+
+__all__ = ["ArchiveError", "unpack"]
+
+MAX_FILES: Final = 5000
+MAX_FILE_BYTES: Final = 100 << 20
+MAX_TOTAL_BYTES: Final = 300 << 20
+MAX_PATH_CHARACTERS: Final = 240
+_CHUNK: Final = 1 << 20
+
+
+class ArchiveError(Exception):
+    """The archive is refused; the text says why."""
+
+
+def unpack(archive_base64: str, folder: Path) -> None:
+    """Unpacks a zip, given as base64, into an existing folder.
+
+    Raises:
+        ArchiveError: it is no zip, is damaged, too large, or names a place outside the folder.
+    """
+    try:
+        data = base64.b64decode(archive_base64, validate=True)
+    except (binascii.Error, ValueError) as error:
+        raise ArchiveError(f"it is not base64: {error}") from error
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            _unpack_all(archive, folder)
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
+        raise ArchiveError(f"it is not a readable zip: {error}") from error
+    except (OSError, ValueError) as error:
+        raise ArchiveError(f"it cannot be unpacked: {error}") from error
+
+
+def _unpack_all(archive: zipfile.ZipFile, folder: Path) -> None:
+    entries = archive.infolist()
+    if len(entries) > MAX_FILES:
+        raise ArchiveError(f"it has {len(entries)} files, more than {MAX_FILES}")
+    left = MAX_TOTAL_BYTES
+    seen: set[str] = set()
+    for entry in entries:
+        path = _safe_path(entry)
+        if str(path).casefold() in seen:
+            raise ArchiveError(f"it has {entry.filename!r} twice")
+        seen.add(str(path).casefold())
+        target = folder / path
+        if entry.is_dir():
+            target.mkdir(parents=True, exist_ok=True)
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        left -= _extract(archive, entry, target, min(MAX_FILE_BYTES, left))
+
+
+def _safe_path(entry: zipfile.ZipInfo) -> PurePosixPath:
+    name = entry.filename
+    path = PurePosixPath(name)
+    kind = stat.S_IFMT(entry.external_attr >> 16)
+    if kind not in {0, stat.S_IFREG, stat.S_IFDIR}:
+        raise ArchiveError(f"{name!r} is neither a file nor a folder")
+    if entry.flag_bits & 0x1:
+        raise ArchiveError(f"{name!r} is encrypted")
+    is_odd = "\\" in name or "\0" in name or ":" in name or len(name) > MAX_PATH_CHARACTERS
+    if is_odd or path.is_absolute() or ".." in path.parts or not path.parts:
+        raise ArchiveError(f"{name!r} is not a path inside the archive")
+    return path
+
+
+def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, limit: int) -> int:
+    """Writes one file; counts what really comes out, whatever the directory of the zip says."""
+    written = 0
+    with archive.open(entry) as source, target.open("xb") as sink:
+        while chunk := source.read(_CHUNK):
+            written += len(chunk)
+            if written > limit:
+                raise ArchiveError(f"it is too large at {entry.filename!r}")
+            sink.write(chunk)
+    return written

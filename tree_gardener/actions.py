@@ -1,4 +1,4 @@
-"""Makes classes of the sources of actions: from a folder, or from the ``<Code>`` of a self-contained document."""
+"""Makes classes of the sources of actions, from a folder or from a document's ``<Code>``."""
 
 import linecache
 import pathlib
@@ -16,8 +16,9 @@ PACKAGE: Final = "actions"
 def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, type[Any]]:
     """Runs the sources of actions and gives their classes by name.
 
-    Each source is compiled as ``actions/<Name>.py``, whatever it came from, so that tracebacks name the file that the
-    user knows. A source of a folder may import its neighbours as ``actions.<Name>`` or by their bare name.
+    Each source is compiled as ``actions/<Name>.py``, whatever it came from, so that tracebacks name the file
+    that the user knows. A source of a folder may import its neighbours as ``actions.<Name>`` or by their bare
+    name.
 
     Args:
         sources: Python source by action, or a folder with one ``<Name>.py`` for each action.
@@ -78,7 +79,9 @@ class _Loader:
         except (SyntaxError, ValueError) as error:
             line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
             message = getattr(error, "msg", None) or str(error)
-            raise LoadError([_problem(name, "TG612", f"Python cannot read it: {message}", "", line, column)]) from None
+            raise LoadError(
+                [_problem(name, "TG612", f"Python cannot read it: {message}", "", line, column)]
+            ) from None
         sys.modules[module.__name__] = module
         setattr(self.package, name, module)
         try:
@@ -89,7 +92,9 @@ class _Loader:
         return module
 
 
-def _problem(name: str, code: str, message: str, hint: str, line: int = 1, column: int = 1) -> Diagnostic:
+def _problem(  # noqa: PLR0913 - one diagnostic
+    name: str, code: str, message: str, hint: str, line: int = 1, column: int = 1
+) -> Diagnostic:
     return Diagnostic(code, message, hint, file=f"{PACKAGE}/{name}.py", line=line, column=column, node=name)
 
 

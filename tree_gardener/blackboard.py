@@ -1,7 +1,8 @@
 """The blackboard: typed entries in a hierarchy of scopes, one scope for each SubTree.
 
-A name is looked up in its own scope first; if it is not there, the SubTree's remapping (or ``_autoremap``) leads to
-another name in the caller's scope. This happens at every access, so that the outer entry may appear later.
+A name is looked up in its own scope first; if it is not there, the SubTree's remapping (or ``_autoremap``)
+leads to another name in the caller's scope. This happens at every access, so that the outer entry may appear
+later.
 """
 
 from collections.abc import Callable, Iterator, MutableMapping
@@ -170,7 +171,7 @@ class Blackboard(MutableMapping[str, Any]):
             _assign(entry, value, kind, writer)
 
     def unset(self, key: str, writer: int = 0) -> None:
-        """Removes an entry of this very scope, if there is one; names that lead elsewhere are not followed."""
+        """Removes an entry of this very scope, if there is one; remapped names are not followed."""
         entry = self.entries.pop(key, None)
         if entry is not None and self.journal is not None:
             self.journal(entry, writer)

@@ -1,4 +1,4 @@
-"""The table of the built-in nodes, `catalog.json`, which engine, checks, documentation and front end share."""
+"""The table of the built-in nodes, `catalog.json`, which all parts share."""
 
 import dataclasses
 import functools
@@ -6,7 +6,7 @@ import json
 import pathlib
 from typing import Any, Final
 
-from tree_gardener.ports import INOUT, NO_DEFAULT, OUTPUT, PortSpec
+from tree_gardener.ports import NO_DEFAULT, PortSpec
 from tree_gardener.values import value_type
 
 PATH: Final = pathlib.Path(__file__).with_name("catalog.json")
@@ -69,5 +69,3 @@ def _node(node: dict[str, Any]) -> CatalogNode:
         summary=node["summary"],
         since=node["since"],
     )
-
-

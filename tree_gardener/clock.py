@@ -61,35 +61,33 @@ class Timer:
 
 
 class Timers:
-    """The timers of one tree. They fire when the tree looks at them: before each tick, and while it sleeps."""
+    """The timers of one tree. They fire when it looks at them: before each tick, and while it sleeps."""
 
-    __slots__ = ("_heap", "_order", "clock")
+    __slots__ = ("_order", "clock", "heap")
 
     def __init__(self, clock: Clock) -> None:
         self.clock = clock
-        self._heap: list[tuple[float, int, Timer]] = []
+        # Public, so that a tree can see in no time that there is nothing to do.
+        self.heap: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
-
-    def __bool__(self) -> bool:
-        return bool(self._heap)
 
     def start(self, delay_s: float, callback: Callable[[], None]) -> Timer:
         """Lets `callback` be called when `delay_s` is over."""
         timer = Timer(self.clock.now() + delay_s, callback)
-        heapq.heappush(self._heap, (timer.deadline_s, next(self._order), timer))
+        heapq.heappush(self.heap, (timer.deadline_s, next(self._order), timer))
         return timer
 
     def fire(self) -> None:
         """Makes the calls that are due, in the order of their deadlines."""
-        # A tolerance, because seconds in floats do not add up: three ticks of 0.1 s are 0.30000000000000004 s.
+        # A tolerance, because seconds in floats do not add up: three times 0.1 s is 0.30000000000000004 s.
         now_s = self.clock.now() + 1e-9
-        while self._heap and self._heap[0][0] <= now_s:
-            callback = heapq.heappop(self._heap)[2].callback
+        while self.heap and self.heap[0][0] <= now_s:
+            callback = heapq.heappop(self.heap)[2].callback
             if callback is not None:
                 callback()
 
     def next_s(self) -> float | None:
         """When the next call is due, or None."""
-        while self._heap and self._heap[0][2].callback is None:
-            heapq.heappop(self._heap)
-        return self._heap[0][0] if self._heap else None
+        while self.heap and self.heap[0][2].callback is None:
+            heapq.heappop(self.heap)
+        return self.heap[0][0] if self.heap else None

@@ -1,11 +1,11 @@
 """Pre- and post-conditions: the scripts that any node can have as attributes.
 
-Before a tick, in this order whatever that of the attributes: ``_failureIf``, ``_successIf`` and ``_skipIf`` are tested
-while the node is IDLE, and a true one decides without ticking it; ``_while`` is tested at every tick, and when it is
-false the node is SKIPPED, after it was halted if it was RUNNING.
+Before a tick, in this order whatever that of the attributes: ``_failureIf``, ``_successIf`` and ``_skipIf``
+are tested while the node is IDLE, and a true one decides without ticking it; ``_while`` is tested at every
+tick, and when it is false the node is SKIPPED, after it was halted if it was RUNNING.
 
-After a result, also one that a pre-condition decided: ``_onSuccess`` or ``_onFailure``, then ``_post``. ``_onHalted``
-runs whenever the node is halted.
+After a result, also one that a pre-condition decided: ``_onSuccess`` or ``_onFailure``, then ``_post``.
+``_onHalted`` runs whenever the node is halted.
 """
 
 from collections.abc import Mapping
@@ -40,7 +40,7 @@ class Guard:
         self.on_halted = scripts.get("_onHalted")
 
     def before(self, node: Node) -> Status | None:
-        """Tests the pre-conditions; gives the result that they decide, or None if the node is to be ticked."""
+        """Tests the pre-conditions; gives the result that they decide, or None to tick the node."""
         status = node.status
         if status is IDLE:
             for script, result in self.deciding:

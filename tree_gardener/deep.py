@@ -8,6 +8,9 @@ from typing import Any, Final, TypeVar
 DEEP: Final = 150
 """Trees up to this depth are ticked directly: the limit that Python starts with leaves room enough."""
 
+CALLS_ARE_FREE: Final[bool] = sys.version_info >= (3, 11)
+"""Whether calls between Python functions take no room on the machine's stack."""
+
 _FRAMES_PER_LEVEL: Final = 6
 _STACK_BYTES_PER_LEVEL: Final = 16 * 1024
 
@@ -17,16 +20,14 @@ T = TypeVar("T")
 def call_deep(function: Callable[[], T], depth: int) -> T:
     """Calls a function that recurses once or more for each level of a tree.
 
-    From Python 3.11 on, calls between Python functions take no room on the machine's stack, so that a higher limit is
-    enough; before, the call is made on a thread with a large stack.
+    From Python 3.11 on, calls between Python functions take no room on the machine's stack, so that a higher
+    limit is enough; before, the call is made on a thread with a large stack.
     """
     before = sys.getrecursionlimit()
     needed = before + depth * _FRAMES_PER_LEVEL
     sys.setrecursionlimit(needed)
     try:
-        if sys.version_info >= (3, 11):
-            return function()
-        return _on_large_stack(function, depth)
+        return function() if CALLS_ARE_FREE else _on_large_stack(function, depth)
     finally:
         sys.setrecursionlimit(before)
 
@@ -38,7 +39,7 @@ def _on_large_stack(function: Callable[[], T], depth: int) -> T:
     def run() -> None:
         try:
             result.append(function())
-        except BaseException as raised:  # noqa: BLE001 - it is raised again where it belongs
+        except BaseException as raised:
             error.append(raised)
 
     size_before = threading.stack_size(16 * 1024 * 1024 + depth * _STACK_BYTES_PER_LEVEL)

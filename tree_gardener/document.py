@@ -22,7 +22,7 @@ _HINTS: Final = {
     "not well-formed (invalid token)": "attribute values need quotes; write '<' as &lt; and '&' as &amp;",
     "duplicate attribute": "give each attribute once",
     "junk after document element": "a document has one root element",
-    "no element found": "a document begins with <root BTCPP_format=\"4\">",
+    "no element found": 'a document begins with <root BTCPP_format="4">',
     "undefined entity": "known are &lt; &gt; &amp; &quot; and &apos;",
 }
 
@@ -82,7 +82,7 @@ class Document:
         match = pattern.search(self.data, element.offset)
         return element.offset if match is None else match.end()
 
-    def diagnostic(
+    def diagnostic(  # noqa: PLR0913 - one diagnostic
         self,
         element: Element,
         code: str,

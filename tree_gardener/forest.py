@@ -31,7 +31,9 @@ class Forest:
         """Parses a document and those that it includes; the last one read is the main one."""
         self.main = self._read(text, name, base_path, [])
 
-    def _read(self, text: str | bytes, name: str, base_path: pathlib.Path | None, above: list[pathlib.Path]) -> Document:
+    def _read(
+        self, text: str | bytes, name: str, base_path: pathlib.Path | None, above: list[pathlib.Path]
+    ) -> Document:
         document = parse_document(text, name)
         self.sources.update(embedded_sources(document))
         for element in document.root.children:
@@ -54,14 +56,18 @@ class Forest:
             if base_path is None:
                 raise fail(f"the ROS package '{element.attributes['ros_pkg']}' is not installed here", "")
         if base_path is None:
-            raise fail(f"'{given}' cannot be found from here", "load the document from a file, or give base_path")
+            raise fail(
+                f"'{given}' cannot be found from here", "load the document from a file, or give base_path"
+            )
         path = (base_path / given).resolve()
         if path in above:
             raise fail(f"'{given}' includes itself", "remove one of the <include>s")
         try:
             data = path.read_bytes()
         except OSError as error:
-            raise fail(f"'{path}' cannot be read: {error.strerror}", "paths are relative to the file") from None
+            raise fail(
+                f"'{path}' cannot be read: {error.strerror}", "paths are relative to the file"
+            ) from None
         self._read(data, str(path), path.parent, [*above, path])
 
     def check(self, registry: Mapping[str, NodeType]) -> list[Diagnostic]:
@@ -97,7 +103,7 @@ class Forest:
         )
 
     def check_cycles(self, main: Definition) -> list[Diagnostic]:
-        """Finds trees that contain themselves, and SubTrees of trees that do not exist, from the main tree on."""
+        """Finds trees that contain themselves and SubTrees without a tree, from the main tree on."""
         problems: list[Diagnostic] = []
         done: set[str] = set()
         above: list[str] = [main.tree_id]
@@ -115,12 +121,16 @@ class Forest:
             if target is None:
                 known = ", ".join(tree for tree in self.definitions if tree) or "none"
                 message, hint = f"there is no tree '{name}'", f"the trees are: {known}"
-                problems.append(report(element, "TG222", message, hint, attribute="ID", tree=definition.tree_id))
+                problems.append(
+                    report(element, "TG222", message, hint, attribute="ID", tree=definition.tree_id)
+                )
             elif name in above:
                 way = " → ".join([*above[above.index(name) :], name])
                 hint = "use Repeat or KeepRunningUntilFailure to do something again"
                 message = f"the tree '{name}' contains itself: {way}"
-                problems.append(report(element, "TG223", message, hint, attribute="ID", tree=definition.tree_id))
+                problems.append(
+                    report(element, "TG223", message, hint, attribute="ID", tree=definition.tree_id)
+                )
             elif name not in done:
                 above.append(name)
                 stack.append((target, iter(_subtrees(target))))
@@ -129,7 +139,9 @@ class Forest:
 
 def _subtrees(definition: Definition) -> Sequence[Element]:
     return [
-        element for element in definition.body.walk() if type_of(element) == "SubTree" and "ID" in element.attributes
+        element
+        for element in definition.body.walk()
+        if type_of(element) == "SubTree" and "ID" in element.attributes
     ]
 
 

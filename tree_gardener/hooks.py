@@ -1,7 +1,7 @@
 """Hooks before and after the ticks of nodes: for debuggers, tests and time keeping.
 
-A hook before a node may return a result, which then stands for the tick: the node is not ticked. A hook after it may
-return another result. Nodes without hooks are ticked exactly as if there were none in the tree.
+A hook before a node may return a result, which then stands for the tick: the node is not ticked. A hook after
+it may return another result. Nodes without hooks are ticked exactly as if there were none in the tree.
 """
 
 import dataclasses

@@ -1,7 +1,8 @@
 """Builds the nodes of a tree from checked documents.
 
-Nodes are made in pre-order, each SubTree node before its body, without recursion; on the way their ports declare
-entries on the blackboard, as in BehaviorTree.CPP, so that contradictory types are found before the first tick.
+Nodes are made in pre-order, each SubTree node before its body, without recursion; on the way their ports
+declare entries on the blackboard, as in BehaviorTree.CPP, so that contradictory types are found before the
+first tick.
 """
 
 import logging
@@ -17,7 +18,7 @@ from tree_gardener.forest import Forest
 from tree_gardener.leaves.behaviour import BehaviourLeaf
 from tree_gardener.leaves.test_node import TestConfig, TestNode
 from tree_gardener.node import NO_PORTS, Instance, Node
-from tree_gardener.ports import INPUT, NO_DEFAULT, OUTPUT, Manifest, PortSpec, pointer_key
+from tree_gardener.ports import NO_DEFAULT, OUTPUT, Manifest, PortSpec, pointer_key
 from tree_gardener.rebind import rebind
 from tree_gardener.registry import NodeType
 from tree_gardener.script import Environment, compile_script
@@ -64,8 +65,14 @@ class Builder:
         self.names: set[tuple[int, str]] = set()
         self.depths: list[int] = []
 
-    def report(
-        self, element: Element, code: str, message: str, hint: str = "", attribute: str = "", span_start: int = 0
+    def report(  # noqa: PLR0913 - one diagnostic
+        self,
+        element: Element,
+        code: str,
+        message: str,
+        hint: str = "",
+        attribute: str = "",
+        span_start: int = 0,
     ) -> None:
         """Adds a problem of the tree that is being built."""
         self.problems.append(
@@ -80,7 +87,9 @@ class Builder:
     def build(self, main: Definition) -> list[Node]:
         """Makes all nodes of the tree, in pre-order; `problems` says what is wrong."""
         instance = Instance(main.tree_id, self.tree.blackboard, None)
-        stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [(main, main.body, instance, None, 1)]
+        stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [
+            (main, main.body, instance, None, 1)
+        ]
         children: dict[int, list[Node]] = {}
         while stack and len(self.problems) < MAX_PROBLEMS:
             definition, element, instance, parent, depth = stack.pop()
@@ -94,19 +103,23 @@ class Builder:
                 inner = Instance(target.tree_id, self.scope(node, instance), node)
                 stack.append((target, target.body, inner, node, depth + 1))
             elif not isinstance(node, TestNode):
-                stack.extend([(definition, child, instance, node, depth + 1) for child in reversed(element.children)])
+                stack.extend(
+                    [(definition, child, instance, node, depth + 1) for child in reversed(element.children)]
+                )
         for node in self.nodes:
             node.children = tuple(children.get(node.uid, ()))
         return self.nodes
 
-    # -- one node --------------------------------------------------------------------------------------------------
+    # -- one node -----------------------------------------------------------------------------------
 
     def make(self, element: Element, instance: Instance, parent: Node | None) -> Node:
         """Makes one node."""
         attributes = element.attributes
         kind = self.registry[type_of(element)]
         uid = len(self.nodes) + 1
-        name = attributes.get("name", attributes.get("ID", kind.name) if element.tag == "SubTree" else kind.name)
+        name = attributes.get(
+            "name", attributes.get("ID", kind.name) if element.tag == "SubTree" else kind.name
+        )
         config = None
         type_name = kind.name
         if self.rules:
@@ -147,7 +160,9 @@ class Builder:
                 return self.registry["TestNode"], rule.config
             if rule.type in self.registry:
                 return self.registry[rule.type], None
-            self.report(element, "TG603", f"the substitution rule '{rule.pattern}' names no node: '{rule.type}'")
+            self.report(
+                element, "TG603", f"the substitution rule '{rule.pattern}' names no node: '{rule.type}'"
+            )
         return kind, None
 
     def ports(self, element: Element, kind: NodeType) -> Mapping[str, str]:
@@ -169,7 +184,9 @@ class Builder:
                 self.check_value(element, kind, spec, value)
             elif kind.name != "TestNode" and name[0].isalpha():
                 known = ", ".join(manifest) or "it has none"
-                self.report(element, "TG301", f"{kind.name} has no port '{name}'", f"its ports: {known}", name)
+                self.report(
+                    element, "TG301", f"{kind.name} has no port '{name}'", f"its ports: {known}", name
+                )
         for spec in manifest.values():
             if spec.required and spec.name not in given and spec.default is NO_DEFAULT:
                 hint = f'write {spec.name}="…"'
@@ -236,7 +253,9 @@ class Builder:
                 and entry.type is not kind_of_port
                 and entry.type is not STRING
             ):
-                message = f"the entry '{key}' is of type {entry.type.name} elsewhere and {kind_of_port.name} here"
+                message = (
+                    f"the entry '{key}' is of type {entry.type.name} elsewhere and {kind_of_port.name} here"
+                )
                 self.report(element, "TG306", message, "use two entries, or ports of one type", name)
 
     def guard(self, node: Node) -> None:
@@ -270,7 +289,7 @@ class Builder:
             hint = "look at its __init__: it is called with the node's name"
             self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}", hint)
 
-    # -- SubTrees --------------------------------------------------------------------------------------------------
+    # -- SubTrees -----------------------------------------------------------------------------------
 
     def scope(self, node: Node, instance: Instance) -> Blackboard:
         """Makes the blackboard of a SubTree's body."""
@@ -322,7 +341,9 @@ class Builder:
                 continue
             if default is None:
                 message = f"the SubTree '{element.attributes['ID']}' needs a value for its port '{name}'"
-                self.report(element, "TG503", message, f'write {name}="…", or give it a default in TreeNodesModel')
+                self.report(
+                    element, "TG503", message, f'write {name}="…", or give it a default in TreeNodesModel'
+                )
             else:
                 given[name] = default
         return given
@@ -351,7 +372,11 @@ class PortText(str):
 
 def bound_ports(node: Node) -> dict[str, str]:
     """What the constructor of an action gets as ``ports``: port name to text."""
-    texts = {spec.name: str(spec.default) for spec in (node.manifest or {}).values() if spec.default is not NO_DEFAULT}
+    texts = {
+        spec.name: str(spec.default)
+        for spec in (node.manifest or {}).values()
+        if spec.default is not NO_DEFAULT
+    }
     texts.update(node.ports)
     ports: dict[str, str] = {}
     for name, text in texts.items():
@@ -359,5 +384,3 @@ def bound_ports(node: Node) -> dict[str, str]:
         bound.board, bound.port, bound.writer = node.board, name, node.uid
         ports[name] = bound
     return ports
-
-

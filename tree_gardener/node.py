@@ -1,10 +1,13 @@
 """The nodes of a running tree: what all of them share.
 
-A node's `execute` is its whole tick: it applies the node's rule, sets the node's own status and returns the result.
-Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a plain node costs
-one call, and only nodes with conditions or hooks take a longer way.
+A node's `execute` is its whole tick: it applies the node's rule, sets the node's own status and returns the
+result. Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a
+plain node costs one call, and only nodes with conditions or hooks take a longer way.
 
-While somebody observes the tree, `journal` takes every node whose status may have changed; else it is None.
+While somebody observes the tree, `journal` is the recorder, and `last` what the node returned in this tick,
+as one of its `marks`, which are made once. A node tells of itself when it starts; of its results its parent
+tells, either when it resets its children (they flashed), or with `note_children` when it lets them keep their
+results. When nobody observes, `journal` is None, and to test that is all it costs.
 """
 
 import enum
@@ -19,9 +22,12 @@ if TYPE_CHECKING:
     from tree_gardener.blackboard import Blackboard
     from tree_gardener.conditions import Guard
     from tree_gardener.document import Element
+    from tree_gardener.observe import Recorder
     from tree_gardener.tree import Tree
 
 Execute = Callable[[], Status]
+Mark = tuple[int, Status]
+Marks = tuple[Mark, Mark, Mark]
 NO_PORTS: Final[Mapping[str, str]] = {}
 
 
@@ -66,8 +72,19 @@ class Node:
     """
 
     __slots__ = (
-        *("board", "children", "element", "guard", "inputs", "instance", "journal", "last", "manifest", "name"),
-        *("parent", "ports", "reported", "status", "ticks", "tree", "type", "uid", "view"),
+        *(
+            "board",
+            "children",
+            "element",
+            "guard",
+            "inputs",
+            "instance",
+            "journal",
+            "last",
+            "manifest",
+            "marks",
+        ),
+        *("name", "parent", "ports", "reported", "status", "ticks", "tree", "type", "uid", "view"),
     )
 
     KIND: ClassVar[Kind]
@@ -89,15 +106,16 @@ class Node:
         self.ticks: tuple[Execute, ...] = ()
         self.status = IDLE
         self.guard: Guard | None = None
-        self.journal: Callable[[Node], None] | None = None
+        self.journal: Recorder | None = None
         self.reported = IDLE
-        self.last = IDLE
+        self.last: Mark | None = None
+        self.marks: Marks
         self.view: Any = None
         self.board: Blackboard
         self.instance: Instance
         self.element: Element
 
-    # -- identity ------------------------------------------------------------------------------------------------
+    # -- identity -----------------------------------------------------------------------------------
 
     @property
     def local_path(self) -> str:
@@ -144,7 +162,7 @@ class Node:
     def __repr__(self) -> str:
         return f"<{self.type} '{self.path}' {self.status.name}>"
 
-    # -- ticking -------------------------------------------------------------------------------------------------
+    # -- ticking ------------------------------------------------------------------------------------
 
     def execute(self) -> Status:
         """Ticks the node: applies its rule, sets its status, returns the result."""
@@ -173,28 +191,26 @@ class Node:
         if self.guard is not None:
             self.guard.halted(self)
         if self.journal is not None and self.reported is not IDLE:
-            self.journal(self)
+            self.journal.touch(self)
 
     def complete(self, status: Status) -> Status:
         """Sets the node's own status to a result."""
         self.status = status
         if self.journal is not None:
-            self.last = status
-            self.journal(self)
+            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
         return status
 
     def skipped(self) -> Status:
         """Returns SKIPPED, which leaves the node's status as it is."""
         if self.journal is not None:
-            self.last = SKIPPED
-            self.journal(self)
+            self.last = self.marks[2]
         return SKIPPED
 
     def start(self) -> None:
         """Makes the node RUNNING."""
         self.status = RUNNING
         if self.journal is not None:
-            self.journal(self)
+            self.journal.touch(self)
 
     def _execute_guarded(self) -> Status:
         """Ticks a node that has pre- or post-conditions."""
@@ -221,7 +237,7 @@ class Node:
         inner = self.execute if self.guard is None else self._execute_guarded
         return self.tree.run_hooks(self, inner)
 
-    # -- ports and errors ----------------------------------------------------------------------------------------
+    # -- ports and errors ---------------------------------------------------------------------------
 
     def get(self, port: str) -> Any:
         """Reads one of its own ports.
@@ -254,40 +270,40 @@ class Control(Node):
 
     def reset_children(self) -> None:
         """Halts the children that are RUNNING and makes all of them IDLE."""
+        if self.journal is not None:
+            self.journal.reset(self.children)
+            return
         for child in self.children:
             if child.status is RUNNING:
                 child.stop()
             child.status = IDLE
-        if self.journal is not None:
-            self._journal_children()
 
     def reset_child(self, index: int) -> None:
         """Halts one child if it is RUNNING, and makes it IDLE."""
         child = self.children[index]
+        if self.journal is not None:
+            self.journal.reset((child,))
+            return
         if child.status is RUNNING:
             child.stop()
         child.status = IDLE
-        if self.journal is not None and child.reported is not IDLE:
-            self.journal(child)
 
-    def _journal_children(self) -> None:
-        journal = self.journal
-        assert journal is not None
-        for child in self.children:
-            if child.reported is not IDLE:
-                journal(child)
+    def note_children(self) -> None:
+        """Tells the observer, if there is one, of children that have results and are not reset."""
+        if self.journal is not None:
+            self.journal.note(self.children)
 
     def finish(self, status: Status) -> Status:
         """Resets all children and takes a result for the node's own status."""
-        for child in self.children:
-            if child.status is RUNNING:
-                child.stop()
-            child.status = IDLE
-        self.status = status
         if self.journal is not None:
-            self._journal_children()
-            self.last = status
-            self.journal(self)
+            self.journal.reset(self.children)
+            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
+        else:
+            for child in self.children:
+                if child.status is RUNNING:
+                    child.stop()
+                child.status = IDLE
+        self.status = status
         return status
 
     def finish_skipped(self) -> Status:
@@ -295,7 +311,15 @@ class Control(Node):
         self.reset_children()
         return self.skipped()
 
+    def skipped(self) -> Status:
+        """Returns SKIPPED, which leaves the status as it is; tells of the children."""
+        if self.journal is not None:
+            self.journal.note(self.children)
+            self.last = self.marks[2]
+        return SKIPPED
+
     def halt(self) -> None:
+        """Halts all children and makes itself IDLE."""
         self.reset_children()
         self.status = IDLE
 
@@ -307,31 +331,31 @@ class Decorator(Control):
     KIND = Kind.DECORATOR
 
     def link(self) -> None:
+        """Looks up how the child is ticked."""
         self.child = self.children[0]
         self.tick_child = self.child.entry()
 
     def reset(self) -> None:
         """Halts the child if it is RUNNING, and makes it IDLE."""
+        if self.journal is not None:
+            self.journal.reset(self.children)
+            return
         child = self.child
         if child.status is RUNNING:
             child.stop()
         child.status = IDLE
-        if self.journal is not None and child.reported is not IDLE:
-            self.journal(child)
-
-    def reset_children(self) -> None:
-        self.reset()
 
     def finish(self, status: Status) -> Status:
-        child = self.child
-        if child.status is RUNNING:
-            child.stop()
-        child.status = IDLE
-        self.status = status
+        """Resets the child and takes a result."""
         if self.journal is not None:
-            self._journal_children()
-            self.last = status
-            self.journal(self)
+            self.journal.reset(self.children)
+            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
+        else:
+            child = self.child
+            if child.status is RUNNING:
+                child.stop()
+            child.status = IDLE
+        self.status = status
         return status
 
 
@@ -343,6 +367,7 @@ class Leaf(Node):
     MARKS_RUNNING = False
 
     def halt(self) -> None:
+        """Makes itself IDLE."""
         self.status = IDLE
 
 
@@ -352,6 +377,7 @@ class SyncLeaf(Leaf):
     __slots__ = ()
 
     def execute(self) -> Status:
+        """Does the work and takes its result."""
         return self.complete(self.run())
 
     def run(self) -> Status:

@@ -2,15 +2,17 @@
 
 import dataclasses
 import time
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.node import Node
-from tree_gardener.status import IDLE, Status
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
     from tree_gardener.tree import Tree
+
+T = TypeVar("T")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,11 +39,10 @@ class BlackboardChange:
 class TickChanges:
     """What changed in one tick.
 
-    Attributes:
-        tick: number of the tick, from 1.
-        changed: nodes whose status differs from that after the tick before, with the new one.
-        flashed: nodes that returned a status within the tick and do not have it any more after it: a SUCCESS or
-            FAILURE that the parent reset, or SKIPPED.
+    Attributes: tick: number of the tick, from 1. changed: nodes whose status differs from that after the tick
+        before, with the new one. flashed: nodes that returned a status within the tick and do not have it any
+        more after it: a SUCCESS or
+            FAILURE that the parent reset, or SKIPPED. A node that was ticked again may be here again.
         blackboard: entries that were written, also since the tick before.
         duration_s: of the tick.
         node_times_s: seconds that each node took, with all below it, by uid; empty unless asked for.
@@ -72,22 +73,34 @@ Observer = Callable[[TickChanges], None]
 
 
 class Recorder:
-    """Collects the changes of a tree while it is observed."""
+    """Collects the changes of a tree while it is observed.
+
+    Attributes:
+        touched: nodes whose status may differ from what was reported.
+        touch: adds one of them.
+        flashed: results that nodes do not have any more.
+    """
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
         self.observers: list[Observer] = []
         self.touched: list[Node] = []
+        self.touch = self.touched.append
+        self.flashed: list[tuple[int, Status]] = []
         self.entries: dict[int, tuple[Entry, int]] = {}
 
     def attach(self) -> None:
         """Begins to record. All that is not IDLE, and all entries, count as changed."""
-        self.touched = []
+        self.touched.clear()
+        self.flashed = []
         for node in self.tree.nodes:
-            node.reported = node.last = IDLE
-            node.journal = self.touched.append
+            uid = node.uid
+            node.marks = ((uid, SUCCESS), (uid, FAILURE), (uid, SKIPPED))
+            node.reported = IDLE
+            node.last = None
+            node.journal = self
             if node.status is not IDLE:
-                self.touched.append(node)
+                self.touch(node)
         for board in self.tree.boards:
             board.journal = self.written
             for entry in board.entries.values():
@@ -99,20 +112,44 @@ class Recorder:
             node.journal = None
         for board in self.tree.boards:
             board.journal = None
-        self.touched = []
+        self.touched.clear()
         self.entries = {}
+
+    def reset(self, children: Iterable[Node]) -> None:
+        """Halts the children that are RUNNING and makes all of them IDLE, as `Control.reset_children`."""
+        flashed = [child.last for child in children if child.last is not None]
+        if flashed:
+            self.flashed += flashed
+        for child in children:
+            if child.status is RUNNING:
+                child.stop()
+            child.status = IDLE
+            child.last = None
+            if child.reported is not IDLE:
+                self.touch(child)
+
+    def note(self, children: Iterable[Node]) -> None:
+        """Takes the children that have a new status or result."""
+        self.touched += [
+            child for child in children if child.status is not child.reported or child.last is not None
+        ]
 
     def written(self, entry: Entry, writer: int) -> None:
         """An entry was written or removed."""
         self.entries[id(entry)] = (entry, writer)
 
-    def tick(self, function: Callable[[], Status]) -> Status:
+    def tick(self, function: Callable[[], T]) -> T:
         """Ticks the tree and tells the observers, also when the tick raises."""
         start_s = time.perf_counter()
         try:
-            return function()
-        finally:
+            status = function()
+        except BaseException:
+            # Parents did not come to tell of their children.
+            self.note(self.tree.nodes)
             self.tell(time.perf_counter() - start_s)
+            raise
+        self.tell(time.perf_counter() - start_s)
+        return status
 
     def tell(self, duration_s: float) -> None:
         """Tells the observers what changed since the last time."""
@@ -123,20 +160,19 @@ class Recorder:
     def collect(self, duration_s: float) -> TickChanges:
         """Makes the changes of what was recorded."""
         touched = self.touched
+        touched.append(self.tree.nodes[0])
         changed: list[tuple[int, Status]] = []
-        flashed: list[tuple[int, Status]] = []
-        if touched:
-            for node in touched:
-                status = node.status
-                last = node.last
-                if last is not IDLE:
-                    if last is not status:
-                        flashed.append((node.uid, last))
-                    node.last = IDLE
-                if status is not node.reported:
-                    node.reported = status
-                    changed.append((node.uid, status))
-            touched.clear()
+        flashed, self.flashed = self.flashed, []
+        for node in touched:
+            last, status = node.last, node.status
+            if last is not None:
+                if last[1] is not status:
+                    flashed.append(last)
+                node.last = None
+            if status is not node.reported:
+                node.reported = status
+                changed.append((node.uid, status))
+        touched.clear()
         entries: list[BlackboardChange] = []
         if self.entries:
             entries = [change(entry, writer) for entry, writer in self.entries.values()]

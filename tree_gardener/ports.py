@@ -95,7 +95,7 @@ def pointer_key(text: str, port: str) -> str | None:
 
 
 def manifest_of(cls: type) -> dict[str, PortSpec] | None:
-    """The ports that a behaviour class declares, or None if it declares none and accepts any (an *open* class)."""
+    """The ports that a behaviour class declares; None if it is *open*: it declares none and accepts any."""
     specs: dict[str, PortSpec] = {}
     is_open = True
     for attribute, direction in (("INPUT_PORTS", INPUT), ("OUTPUT_PORTS", OUTPUT), ("INOUT_PORTS", INOUT)):
@@ -165,7 +165,9 @@ def _bind(node: "Node", name: str) -> InputBinding:
     manifest = node.manifest
     spec = PortSpec(name, INOUT, ANY) if manifest is None else manifest.get(name)
     if spec is None:
-        raise PortError(f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}")
+        raise PortError(
+            f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}"
+        )
     given = node.ports.get(name, spec.default)
     if given is NO_DEFAULT:
         raise PortError(f"port '{name}' was given no value and has no default")
@@ -190,7 +192,9 @@ def write_port(node: "Node", name: str, value: Any) -> None:
     manifest = node.manifest
     spec = PortSpec(name, INOUT, ANY) if manifest is None else manifest.get(name)
     if spec is None:
-        raise PortError(f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}")
+        raise PortError(
+            f"'{name}' is not a port of {node.type}; declared are: {', '.join(manifest or ()) or 'none'}"
+        )
     if spec.direction == INPUT:
         raise PortError(f"port '{name}' is an input: it can be read, not written")
     given = node.ports.get(name, spec.default)

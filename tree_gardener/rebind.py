@@ -7,7 +7,7 @@ from tree_gardener.ports import get_input, set_output
 
 
 def rebind(behaviour: Any) -> None:
-    """Lets a behaviour with py_trees' ``PortsMixin`` use the ports of the tree; others are left as they are."""
+    """Lets a behaviour with py_trees' ``PortsMixin`` use the tree's ports; others are left alone."""
     if not hasattr(behaviour, "setup_ports") or not hasattr(behaviour, "_set_output"):
         return
 
@@ -23,5 +23,5 @@ def rebind(behaviour: Any) -> None:
         set_output(behaviour, port_name, value)
 
     behaviour.get_input = read
-    behaviour._set_output = write  # noqa: SLF001 - the name is py_trees'
+    behaviour._set_output = write
     behaviour.setup_ports = lambda *_args, **_kwargs: None

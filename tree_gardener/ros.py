@@ -32,7 +32,7 @@ class RosClock:
 class RosRunner:
     """Ticks a tree from a timer of an rclpy node, once per period of ROS time.
 
-    All publishers and subscriptions of the actions live on that one node, so that spinning it runs everything.
+    All publishers and subscriptions of the actions live on that node, so that spinning it runs everything.
 
     Args:
         tree: made with ``clock=RosClock(node)``.
@@ -75,7 +75,11 @@ class RosRunner:
 
     def _log_overrun(self, overrun: Overrun) -> None:
         tree = self.runner.tree
-        slow = f", of which {tree.nodes[overrun.slow_uid - 1].path} {overrun.slow_s:.3f} s" if overrun.slow_uid else ""
+        slow = (
+            f", of which {tree.nodes[overrun.slow_uid - 1].path} {overrun.slow_s:.3f} s"
+            if overrun.slow_uid
+            else ""
+        )
         self._log.warning(
             f"tick {overrun.tick} took {overrun.duration_s:.3f} s of {overrun.period_s:.3f} s{slow}"
         )

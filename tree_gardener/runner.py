@@ -1,7 +1,7 @@
 """Ticks a tree at a fixed rate.
 
-The runner owns no thread and no clock: whoever drives it calls `tick_due` with the time, as often as he likes. All
-commands take effect at the boundary between two ticks.
+The runner owns no thread and no clock: whoever drives it calls `tick_due` with the time, as often as he
+likes. All commands take effect at the boundary between two ticks.
 """
 
 import dataclasses
@@ -77,7 +77,7 @@ class Runner:
         measure: seconds, for the length of ticks; not the time that ticks are due by.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - all by keyword
         self,
         tree: Tree,
         *,
@@ -118,7 +118,7 @@ class Runner:
         """Whether the run is over."""
         return self.state is RunnerState.FINISHED
 
-    # -- commands --------------------------------------------------------------------------------------------------
+    # -- commands -----------------------------------------------------------------------------------
 
     def pause(self) -> None:
         """Ticks no more until `resume` or `step`."""
@@ -144,7 +144,7 @@ class Runner:
         self._stop_wanted = True
         self._settle()
 
-    # -- driving ---------------------------------------------------------------------------------------------------
+    # -- driving ------------------------------------------------------------------------------------
 
     def tick_due(self, now_s: float) -> Status | None:
         """Ticks the tree once if a tick is due; gives the root's status, or None if there was no tick.

@@ -8,7 +8,7 @@ from py_trees.common import Status as PyTreesStatus
 class Status(enum.Enum):
     """What a node is, or what its tick returned.
 
-    A node *is* IDLE, RUNNING, SUCCESS or FAILURE; SKIPPED is only ever returned, it is never a node's own status.
+    A node *is* IDLE, RUNNING, SUCCESS or FAILURE; SKIPPED is only ever returned.
     """
 
     IDLE = "IDLE"

@@ -7,12 +7,14 @@ import dataclasses
 import difflib
 import re
 from collections.abc import Iterator, Mapping
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from tree_gardener.document import Document, Element
-from tree_gardener.errors import Diagnostic
 from tree_gardener.node import Kind
 from tree_gardener.registry import OLD_NAMES, NodeType
+
+if TYPE_CHECKING:
+    from tree_gardener.errors import Diagnostic
 
 EXPLICIT: Final = frozenset(("Action", "Condition", "Control", "Decorator"))
 MAX_DEPTH: Final = 256
@@ -78,7 +80,9 @@ class StructureCheck:
         """Checks the document."""
         root = self.document.root
         if root.tag not in ("root", "Root"):
-            self.report(root, "TG201", f"the document element is <{root.tag}>, not <root>", "rename it to <root>")
+            self.report(
+                root, "TG201", f"the document element is <{root.tag}>, not <root>", "rename it to <root>"
+            )
             return
         trees = [element for element in root.children if element.tag == "BehaviorTree"]
         models = [element for element in root.children if element.tag == "TreeNodesModel"]
@@ -98,9 +102,13 @@ class StructureCheck:
             if not is_alone:
                 self.report(element, "TG203", "a <BehaviorTree> has no ID", 'name it: <BehaviorTree ID="…">')
         elif problem := name_problem(tree_id):
-            self.report(element, "TG204", f"the ID '{tree_id}' {problem}", "use letters, digits and '_'", "ID")
+            self.report(
+                element, "TG204", f"the ID '{tree_id}' {problem}", "use letters, digits and '_'", "ID"
+            )
         if len(element.children) != 1:
-            message = f"the tree '{self.tree}' has {len(element.children)} nodes at its root and needs exactly 1"
+            message = (
+                f"the tree '{self.tree}' has {len(element.children)} nodes at its root and needs exactly 1"
+            )
             self.report(element, "TG205", message, "put them under one control node, such as a Sequence")
         for child in element.children:
             self.check_nodes(child)
@@ -135,7 +143,7 @@ class StructureCheck:
         else:
             name = tag
             if "ID" in element.attributes:
-                hint = f"leave it out, or use an explicit form such as <Action ID=\"{tag}\">"
+                hint = f'leave it out, or use an explicit form such as <Action ID="{tag}">'
                 self.report(element, "TG208", f"<{tag}> must not have an ID", hint, "ID")
         kind = self.registry.get(name)
         if kind is None:
@@ -154,12 +162,14 @@ class StructureCheck:
         return f"did you mean {near[0]}?" if near else f"the actions known are: {known or 'none'}"
 
     def check_count(self, element: Element, name: str, kind: NodeType) -> None:
-        """Checks the number of children; IfThenElse, Switch and the like check theirs when they are ticked."""
+        """Checks the number of children; Switch and the like check theirs when they are ticked."""
         count = len(element.children)
         if kind.kind is Kind.CONTROL:
             least = 2 if name == "TryCatch" else 1
             if count < least:
-                self.report(element, "TG210", f"{name} has {count} children and needs {least} or more", "add some")
+                self.report(
+                    element, "TG210", f"{name} has {count} children and needs {least} or more", "add some"
+                )
         elif kind.kind is Kind.DECORATOR:
             if count != 1:
                 hint = "put the children under a Sequence" if count else "add one"
@@ -178,7 +188,9 @@ class StructureCheck:
             hint = "rename the tree" if tree_id in self.definitions else f"write <{tree_id}> instead"
             self.report(element, "TG214", f"the SubTree's ID '{tree_id}' is the name of a node", hint, "ID")
         if element.children:
-            self.report(element, "TG212", "a SubTree can have no children here", f"put them into tree '{tree_id}'")
+            self.report(
+                element, "TG212", "a SubTree can have no children here", f"put them into tree '{tree_id}'"
+            )
 
     def check_reactive(self, element: Element) -> None:
         """BT.CPP looks at the children of a ReactiveSequence by their tags."""
@@ -186,7 +198,7 @@ class StructureCheck:
         for child in element.children:
             if child.tag in EXPLICIT:
                 name = child.attributes.get("ID", "")
-                message = f"under a ReactiveSequence BehaviorTree.CPP does not take <{child.tag} ID=\"{name}\">"
+                message = f'under a ReactiveSequence BehaviorTree.CPP does not take <{child.tag} ID="{name}">'
                 self.report(child, "TG215", message, f"write <{name}>")
             asynchronous += child.tag == _ASYNC_IN_REACTIVE
         if asynchronous > 1:

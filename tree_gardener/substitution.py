@@ -1,7 +1,7 @@
 """Substitution rules: nodes that are replaced by others when a tree is built, for tests.
 
-The JSON form is BehaviorTree.CPP's: ``TestNodeConfigs`` by name, and ``SubstitutionRules`` from a node's name, type or
-path (``*`` and ``?`` are wildcards) to the name of a config or of a node type.
+The JSON form is BehaviorTree.CPP's: ``TestNodeConfigs`` by name, and ``SubstitutionRules`` from a node's
+name, type or path (``*`` and ``?`` are wildcards) to the name of a config or of a node type.
 """
 
 import dataclasses

@@ -3,7 +3,7 @@
 import pathlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from tree_gardener import tree_tools
 from tree_gardener.actions import load_actions
@@ -21,21 +21,20 @@ from tree_gardener.registry import build_registry
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 from tree_gardener.substitution import parse_rules
 
+T = TypeVar("T")
+
 
 class Tree:
     """A tree of nodes, its blackboard, and the functions that tick it.
 
-    Make one with `from_xml` or `from_file`; call `setup` once, then one of the tick functions again and again, and
-    `shutdown` at the end.
+    Make one with `from_xml` or `from_file`; call `setup` once, then one of the tick functions again and
+    again, and `shutdown` at the end.
 
-    Attributes:
-        nodes: all nodes in pre-order; ``nodes[0]`` is the root node.
-        blackboard: the root blackboard.
-        boards: all scopes of the blackboard.
-        clock: tells the time to Delay, Timeout and Sleep.
-        enums: constants that scripts and Switch know by name.
-        wake_up: set by nodes that want the tree to be ticked again soon.
-        on_error: called with the error when an action raises, which then counts as FAILURE of its node; if None, the
+    Attributes: nodes: all nodes in pre-order; ``nodes[0]`` is the root node. blackboard: the root blackboard.
+        boards: all scopes of the blackboard. clock: tells the time to Delay, Timeout and Sleep. enums:
+        constants that scripts and Switch know by name. wake_up: set by nodes that want the tree to be ticked
+        again soon. on_error: called with the error when an action raises, which then counts as FAILURE of its
+        node; if None, the
             error is raised out of the tick.
         tick_number: how many ticks there were.
         current_uid: the action that is being ticked, while leaves are timed; else 0.
@@ -46,6 +45,7 @@ class Tree:
     def __init__(self, clock: Clock | None, blackboard: Blackboard | None, enums: Mapping[str, int]) -> None:
         self.clock: Clock = clock or SystemClock()
         self.timers = Timers(self.clock)
+        self._timer_heap = self.timers.heap
         self.blackboard = blackboard if blackboard is not None else Blackboard()
         self.enums = dict(enums)
         self.nodes: list[Node] = []
@@ -63,10 +63,10 @@ class Tree:
         self._tick_root: Execute
         self._signal = threading.Event()
 
-    # -- making ----------------------------------------------------------------------------------------------------
+    # -- making -------------------------------------------------------------------------------------
 
     @classmethod
-    def from_xml(
+    def from_xml(  # noqa: PLR0913 - most are rare
         cls,
         text: str | bytes,
         nodes: Mapping[str, Any] | None = None,
@@ -124,7 +124,11 @@ class Tree:
 
     @classmethod
     def from_file(
-        cls, path: str | pathlib.Path, nodes: Mapping[str, Any] | None = None, clock: Clock | None = None, **more: Any
+        cls,
+        path: str | pathlib.Path,
+        nodes: Mapping[str, Any] | None = None,
+        clock: Clock | None = None,
+        **more: Any,
     ) -> "Tree":
         """Builds a tree from a file; ``<include>`` is relative to it. Arguments as for `from_xml`."""
         path = pathlib.Path(path)
@@ -153,7 +157,11 @@ class Tree:
         """The tree as py_trees sees it: its tools, visitors and ``BehaviourTree`` work on it."""
         return self.nodes[0].behaviour
 
-    # -- life ------------------------------------------------------------------------------------------------------
+    def use_clock(self, clock: Clock) -> None:
+        """Takes another clock, before the first tick: one that needs an rclpy node, say."""
+        self.clock = self.timers.clock = clock
+
+    # -- life ---------------------------------------------------------------------------------------
 
     def setup(self, node: Any = None, **kwargs: Any) -> None:
         """Calls ``setup(node=…)`` of each behaviour once, in pre-order.
@@ -173,7 +181,7 @@ class Tree:
 
     def halt(self) -> None:
         """Halts the whole tree, as BT.CPP's ``haltTree``: the root, and then every node once more."""
-        self._guarded(self._halt)
+        self._guarded_without_telling(self._halt)
         if self._recorder.observers:
             self._recorder.tell(0.0)
 
@@ -217,7 +225,7 @@ class Tree:
     def _leaves(self) -> list[BehaviourLeaf]:
         return [node for node in self.nodes if isinstance(node, BehaviourLeaf)]
 
-    # -- ticking ---------------------------------------------------------------------------------------------------
+    # -- ticking ------------------------------------------------------------------------------------
 
     def tick_exactly_once(self) -> Status:
         """Ticks the root once.
@@ -227,7 +235,7 @@ class Tree:
         """
         if self._is_plain:
             self.tick_number += 1
-            if self.timers:
+            if self._timer_heap:
                 self.timers.fire()
             status = self._tick_root()
             if status is SUCCESS or status is FAILURE:
@@ -298,12 +306,12 @@ class Tree:
     def _begin(self) -> None:
         self.tick_number += 1
         self.slowest = (0.0, 0)
-        if self.timers:
+        if self.timers.heap:
             self.timers.fire()
 
     def _woken(self) -> bool:
         """Tests and clears the wake-up flag."""
-        if self.timers:
+        if self.timers.heap:
             self.timers.fire()
         woken, self.wake_up = self.wake_up, False
         self._signal.clear()
@@ -314,22 +322,22 @@ class Tree:
             self.nodes[0].status = IDLE
         return status
 
-    def _guarded(self, function: Callable[[], Any]) -> Any:
+    def _guarded(self, function: Callable[[], T]) -> T:
         """Calls what ticks or halts nodes, with room for deep trees, and tells the observers."""
-        if function != self._halt and self._recorder.observers:
+        if self._recorder.observers:
             return self._recorder.tick(lambda: self._guarded_without_telling(function))
         return self._guarded_without_telling(function)
 
-    def _guarded_without_telling(self, function: Callable[[], Any]) -> Any:
+    def _guarded_without_telling(self, function: Callable[[], T]) -> T:
         return call_deep(function, self.depth) if self.depth > DEEP else function()
 
-    # -- observation and hooks -------------------------------------------------------------------------------------
+    # -- observation and hooks ----------------------------------------------------------------------
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
         """Lets `callback` be called after each tick with what changed; gives the function that ends it.
 
-        Args:
-            callback: is called with a `TickChanges`, also when the tick raised. The first one has all nodes that are
+        Args: callback: is called with a `TickChanges`, also when the tick raised. The first one has all nodes
+            that are
                 not IDLE and all entries.
             node_times: also measure each node.
         """

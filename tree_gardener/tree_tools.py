@@ -1,4 +1,4 @@
-"""The functions by which actions of JdeRobot BT Studio use their ports; importable as top-level ``tree_tools`` too.
+"""How actions of JdeRobot BT Studio use their ports; importable as top-level ``tree_tools`` too.
 
 New actions use `tree_gardener.ports` instead.
 """

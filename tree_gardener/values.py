@@ -1,7 +1,7 @@
 """Types of ports and blackboard entries, with the conversions that BehaviorTree.CPP makes between them.
 
-A value is a plain Python object. Numbers, strings and booleans convert as BT.CPP's ``Any`` does; everything else
-passes by reference.
+A value is a plain Python object. Numbers, strings and booleans convert as BT.CPP's ``Any`` does; everything
+else passes by reference.
 """
 
 import collections
@@ -157,7 +157,9 @@ def parse_status(text: str) -> Status:
     try:
         return Status[text]
     except KeyError:
-        raise ConversionError(f"'{text}' is not a status: IDLE, RUNNING, SUCCESS, FAILURE or SKIPPED") from None
+        raise ConversionError(
+            f"'{text}' is not a status: IDLE, RUNNING, SUCCESS, FAILURE or SKIPPED"
+        ) from None
 
 
 def _convert_status(value: Any) -> Status:
@@ -225,8 +227,8 @@ _BY_CLASS: dict[Any, ValueType] = {
 def value_type(annotation: Any) -> ValueType:
     """The type that a Python annotation stands for, as in ``Port(list[float])``.
 
-    A name out of ``catalog.json`` stands for itself. A class of one's own is a type of its own: its values pass by
-    reference, and it has no literals, except for an Enum, whose members are written by name.
+    A name out of ``catalog.json`` stands for itself. A class of one's own is a type of its own: its values
+    pass by reference, and it has no literals, except for an Enum, whose members are written by name.
     """
     if isinstance(annotation, ValueType):
         return annotation

@@ -1,8 +1,8 @@
 """What py_trees' tools see of a tree: composites and decorators of py_trees that stand for our nodes.
 
-They are made when somebody asks, so that a tree that nobody looks at does not pay for them. Actions are seen as
-themselves. The root's `tick` is a generator, as py_trees wants it: it ticks the tree and then yields every node that
-took part, with the status that it returned, children before their parents.
+They are made when somebody asks, so that a tree that nobody looks at does not pay for them. Actions are seen
+as themselves. The root's `tick` is a generator, as py_trees wants it: it ticks the tree and then yields every
+node that took part, with the status that it returned, children before their parents.
 """
 
 from collections.abc import Iterator
@@ -14,7 +14,9 @@ from tree_gardener.node import Kind, Node
 from tree_gardener.observe import TickChanges
 from tree_gardener.status import IDLE, Status, to_py_trees
 
-_SEQUENCES: Final = frozenset(("Sequence", "AsyncSequence", "SequenceWithMemory", "ReactiveSequence", "TryCatch"))
+_SEQUENCES: Final = frozenset(
+    ("Sequence", "AsyncSequence", "SequenceWithMemory", "ReactiveSequence", "TryCatch")
+)
 _PARALLELS: Final = frozenset(("Parallel", "ParallelAll"))
 
 
@@ -58,23 +60,23 @@ class _View:
             sync(self.node)
 
 
-class SequenceView(_View, py_trees.composites.Sequence):  # type: ignore[misc]
+class SequenceView(_View, py_trees.composites.Sequence):
     """A node that goes on while its children succeed."""
 
 
-class SelectorView(_View, py_trees.composites.Selector):  # type: ignore[misc]
+class SelectorView(_View, py_trees.composites.Selector):
     """A node that chooses among its children."""
 
 
-class ParallelView(_View, py_trees.composites.Parallel):  # type: ignore[misc]
+class ParallelView(_View, py_trees.composites.Parallel):
     """A node that ticks its children together."""
 
 
-class DecoratorView(_View, py_trees.decorators.Decorator):  # type: ignore[misc]
+class DecoratorView(_View, py_trees.decorators.Decorator):
     """A node with one child."""
 
 
-class LeafView(_View, py_trees.behaviour.Behaviour):  # type: ignore[misc]
+class LeafView(_View, py_trees.behaviour.Behaviour):
     """A built-in node without children."""
 
 

@@ -117,14 +117,17 @@ class _Run:
         for index, expected in enumerate(self.case["expected"]):
             self.before(index)
             place = f"tick {index}"
-            yield from _compare(f"{place}: events before", expected.get("before_events", []), self.trace.take())
+            yield from _compare(
+                f"{place}: events before", expected.get("before_events", []), self.trace.take()
+            )
             raised = None
             try:
                 root = self.tick()
             except TickError as error:
                 raised = error
             if (raised is not None) != ("exception" in expected):
-                yield f"{place}: expected {expected.get('exception', 'no exception')}, got {raised or root.name}"
+                wanted = expected.get("exception", "no exception")
+                yield f"{place}: expected {wanted}, got {raised or root.name}"
                 return
             if raised is None:
                 yield from _compare(f"{place}: root", expected["root"], root.name)
@@ -234,7 +237,7 @@ def _comparable(board: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
     }
 
 
-# -- the table of scripts ------------------------------------------------------------------------------------------
+# -- the table of scripts ---------------------------------------------------------------------------
 
 _TABLE_SCRIPT = "i:=3; j:=2; d:=2.5; s:='abc'; n:='42'; t:=true"
 
@@ -243,7 +246,9 @@ def run_expression(row: dict[str, Any]) -> Outcome:
     """Compares an expression's value, and its result as a condition, with the table's."""
     text = row["expr"]
     differences = [
-        *_compare("value", row["value"][:4] if row["value"][:4] in ("EXC:", "LOAD") else _table(row), _evaluate(row)),
+        *_compare(
+            "value", row["value"][:4] if row["value"][:4] in ("EXC:", "LOAD") else _table(row), _evaluate(row)
+        ),
         *_compare("as condition", row["as_condition"].split(":")[0], _condition(text)),
     ]
     return Outcome(text, tuple(differences))

@@ -31,7 +31,7 @@ class Trace:
         return events
 
 
-class Traced(Behaviour):  # type: ignore[misc]
+class Traced(Behaviour):
     """A leaf that writes to a trace."""
 
     trace: ClassVar[Trace]

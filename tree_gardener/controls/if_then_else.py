@@ -8,9 +8,9 @@ from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 class IfThenElse(Control):
     """Ticks its first child as a condition, then one of the others.
 
-    When the condition succeeds the second child is chosen, when it fails the third; without a third child it fails.
-    The choice holds until that child is done: the condition is not ticked again while it is RUNNING. A condition that
-    is SKIPPED is an error.
+    When the condition succeeds the second child is chosen, when it fails the third; without a third child it
+    fails. The choice holds until that child is done: the condition is not ticked again while it is RUNNING. A
+    condition that is SKIPPED is an error.
     """
 
     __slots__ = ("chosen",)
@@ -36,9 +36,11 @@ class IfThenElse(Control):
             elif count == 3:
                 self.chosen = 2
             else:
+                self.note_children()
                 return self.complete(FAILURE)
         status = self.ticks[self.chosen]()
         if status is RUNNING:
+            self.note_children()
             return RUNNING
         self.chosen = 0
         return self.finish_skipped() if status is SKIPPED else self.finish(status)

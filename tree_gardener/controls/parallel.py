@@ -32,11 +32,12 @@ class _Parallel(Control):
 class Parallel(_Parallel):
     """Ticks all its children at every tick until enough of them succeeded or failed.
 
-    After each child it is tested whether `success_count` children succeeded, then whether that became impossible or
-    exactly `failure_count` failed; the result comes at once, later children are not ticked and all are reset. Negative
-    counts are from the end: -1 means all. With a negative `success_count` children skipped in this tick count as
-    successes. Children that are done are not ticked again. If all are skipped and the success threshold is not met, it
-    is SKIPPED. A threshold larger than the number of children is an error when it is ticked.
+    After each child it is tested whether `success_count` children succeeded, then whether that became
+    impossible or exactly `failure_count` failed; the result comes at once, later children are not ticked and
+    all are reset. Negative counts are from the end: -1 means all. With a negative `success_count` children
+    skipped in this tick count as successes. Children that are done are not ticked again. If all are skipped
+    and the success threshold is not met, it is SKIPPED. A threshold larger than the number of children is an
+    error when it is ticked.
     """
 
     __slots__ = ()
@@ -76,15 +77,18 @@ class Parallel(_Parallel):
                 self.forget()
                 return self.finish(FAILURE)
             undecided = True
-        return self.skipped() if skips == count else RUNNING
+        if skips == count:
+            return self.skipped()
+        self.note_children()
+        return RUNNING
 
 
 class ParallelAll(_Parallel):
     """Ticks all its children until every one is done, then decides.
 
-    Every child that is not done is ticked at every tick. When each was skipped in this tick or is done, it fails if at
-    least `max_failures` failed, else it succeeds. If all were skipped in this tick, it is SKIPPED. A negative
-    `max_failures` counts from the end, 0 always fails.
+    Every child that is not done is ticked at every tick. When each was skipped in this tick or is done, it
+    fails if at least `max_failures` failed, else it succeeds. If all were skipped in this tick, it is
+    SKIPPED. A negative `max_failures` counts from the end, 0 always fails.
     """
 
     __slots__ = ()
@@ -112,6 +116,7 @@ class ParallelAll(_Parallel):
         if skips == count:
             return self.skipped()
         if skips + len(done) < count:
+            self.note_children()
             return RUNNING
         failed = self.failures >= fatal
         self.forget()

@@ -11,29 +11,31 @@ class _Reactive(Control):
 
     def running_at(self, index: int) -> Status:
         """A child is RUNNING: all others are halted, the earlier ones too, so that they start afresh."""
-        journal = self.journal
+        if self.journal is not None:
+            self.journal.reset([child for position, child in enumerate(self.children) if position != index])
+            return RUNNING
         for position, child in enumerate(self.children):
             if position != index and child.status is not IDLE:
                 if child.status is RUNNING:
                     child.stop()
                 child.status = IDLE
-                if journal is not None and child.reported is not IDLE:
-                    journal(child)
         return RUNNING
 
 
 class ReactiveSequence(_Reactive):
     """A Sequence that ticks all its children from the first at every tick.
 
-    When one is RUNNING, all others are halted and it is RUNNING. When one fails, all are reset and it fails. A SKIPPED
-    child is halted at once; if all were skipped in this tick, it is SKIPPED, else SUCCESS.
+    When one is RUNNING, all others are halted and it is RUNNING. When one fails, all are reset and it fails.
+    A SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else SUCCESS.
     """
 
     __slots__ = ()
 
     def execute(self) -> Status:
         if self.status is not RUNNING:
-            self.start()
+            self.status = RUNNING
+            if self.journal is not None:
+                self.journal.touch(self)
         all_skipped = True
         for index, tick in enumerate(self.ticks):
             status = tick()
@@ -51,15 +53,18 @@ class ReactiveSequence(_Reactive):
 class ReactiveFallback(_Reactive):
     """A Fallback that tries all its children from the first at every tick.
 
-    When one is RUNNING, all others are halted and it is RUNNING. When one succeeds, all are reset and it succeeds. A
-    SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else FAILURE.
+    When one is RUNNING, all others are halted and it is RUNNING. When one succeeds, all are reset and it
+    succeeds. A SKIPPED child is halted at once; if all were skipped in this tick, it is SKIPPED, else
+    FAILURE.
     """
 
     __slots__ = ()
 
     def execute(self) -> Status:
         if self.status is not RUNNING:
-            self.start()
+            self.status = RUNNING
+            if self.journal is not None:
+                self.journal.touch(self)
         all_skipped = True
         for index, tick in enumerate(self.ticks):
             status = tick()

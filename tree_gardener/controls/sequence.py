@@ -9,9 +9,9 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 class Sequence(Control):
     """Ticks its children in order.
 
-    A RUNNING child is resumed at the next tick. When a child fails, all are reset and it fails; the next tick starts
-    at the first child. SKIPPED children are passed over; if all of them were, over all ticks of this activation, it is
-    SKIPPED, else SUCCESS.
+    A RUNNING child is resumed at the next tick. When a child fails, all are reset and it fails; the next tick
+    starts at the first child. SKIPPED children are passed over; if all of them were, over all ticks of this
+    activation, it is SKIPPED, else SUCCESS.
     """
 
     __slots__ = ("index", "skips")
@@ -22,22 +22,36 @@ class Sequence(Control):
         self.skips = 0
 
     def execute(self) -> Status:
-        if self.status is not RUNNING:
+        ticks, index = self.ticks, self.index
+        if self.status is RUNNING:
+            status = ticks[index]()
+            if status is RUNNING:
+                return RUNNING
+        else:
             if self.status is IDLE:
                 self.skips = 0
-            self.start()
-        ticks = self.ticks
-        for index in range(self.index, len(ticks)):
+            self.status = RUNNING
+            if self.journal is not None:
+                self.journal.touch(self)
             status = ticks[index]()
+        count = len(ticks)
+        while True:
             if status is SUCCESS:
-                continue
-            if status is RUNNING:
+                pass
+            elif status is RUNNING:
                 self.index = index
+                if self.journal is not None:
+                    self.journal.note(self.children)
                 return RUNNING
-            if status is FAILURE:
+            elif status is FAILURE:
                 self.index = 0
                 return self.finish(FAILURE)
-            self.skips += 1
+            else:
+                self.skips += 1
+            index += 1
+            if index == count:
+                break
+            status = ticks[index]()
         self.index = 0
         if self.skips:
             return self.end_with_skips()
@@ -56,7 +70,7 @@ class Sequence(Control):
 
 
 class YieldingSequence(Sequence):
-    """A Sequence that yields: after a child that succeeded within one tick it wakes the tree and returns RUNNING."""
+    """A Sequence that yields: after a child that succeeded at once it wakes the tree and is RUNNING."""
 
     __slots__ = ()
     KEEPS_INDEX: ClassVar[bool] = False
@@ -72,6 +86,7 @@ class YieldingSequence(Sequence):
             before = children[self.index].status
             status = ticks[self.index]()
             if status is RUNNING:
+                self.note_children()
                 return RUNNING
             if status is FAILURE:
                 return self.fail()
@@ -79,6 +94,7 @@ class YieldingSequence(Sequence):
             if status is SUCCESS:
                 if before is IDLE and self.index < count:
                     self.tree.wake_up = True
+                    self.note_children()
                     return RUNNING
             else:
                 self.skips += 1
@@ -94,9 +110,9 @@ class YieldingSequence(Sequence):
 class AsyncSequence(YieldingSequence):
     """A Sequence that returns RUNNING between its children.
 
-    After each child that succeeded within the tick and is not the last, it wakes the tree up and returns RUNNING, so
-    that the tree stays responsive; under ``tick_once`` it still runs through. It does not yield after a child that was
-    RUNNING before, nor after a skipped one.
+    After each child that succeeded within the tick and is not the last, it wakes the tree up and returns
+    RUNNING, so that the tree stays responsive; under ``tick_once`` it still runs through. It does not yield
+    after a child that was RUNNING before, nor after a skipped one.
     """
 
     __slots__ = ()
@@ -105,8 +121,9 @@ class AsyncSequence(YieldingSequence):
 class SequenceWithMemory(YieldingSequence):
     """A Sequence that starts again at the child that failed.
 
-    It yields between children as AsyncSequence does. When a child fails, that child and those after it are halted and
-    the position is kept, also when the node itself is halted; children that succeeded keep their SUCCESS.
+    It yields between children as AsyncSequence does. When a child fails, that child and those after it are
+    halted and the position is kept, also when the node itself is halted; children that succeeded keep their
+    SUCCESS.
     """
 
     __slots__ = ()
@@ -114,6 +131,7 @@ class SequenceWithMemory(YieldingSequence):
     def fail(self) -> Status:
         for index in range(self.index, len(self.children)):
             self.reset_child(index)
+        self.note_children()
         return self.complete(FAILURE)
 
     def halt(self) -> None:

@@ -7,9 +7,9 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 class TryCatch(Control):
     """Ticks all but its last child as a Sequence; when one fails, ticks the last, then fails.
 
-    The last child is ticked in the same tick and until it is not RUNNING; the result is FAILURE whatever it returned.
-    If all the others were skipped, it is SKIPPED. With `catch_on_halt`, halting it during the first children halts
-    them and ticks the last child once.
+    The last child is ticked in the same tick and until it is not RUNNING; the result is FAILURE whatever it
+    returned. If all the others were skipped, it is SKIPPED. With `catch_on_halt`, halting it during the first
+    children halts them and ticks the last child once.
     """
 
     __slots__ = ("catching", "index", "skips")
@@ -35,6 +35,7 @@ class TryCatch(Control):
         while self.index < last:
             status = self.ticks[self.index]()
             if status is RUNNING:
+                self.note_children()
                 return RUNNING
             if status is FAILURE:
                 for index in range(last):

@@ -8,9 +8,9 @@ from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 class WhileDoElse(Control):
     """Ticks its first child as a condition at every tick, then one of the others.
 
-    While the condition succeeds the second child is ticked, when it fails the third, and the other one is halted;
-    without a third child it fails. While the condition itself is RUNNING, a RUNNING branch is neither ticked nor
-    halted. A condition that is SKIPPED is an error.
+    While the condition succeeds the second child is ticked, when it fails the third, and the other one is
+    halted; without a third child it fails. While the condition itself is RUNNING, a RUNNING branch is neither
+    ticked nor halted. A condition that is SKIPPED is an error.
     """
 
     __slots__ = ()
@@ -37,5 +37,6 @@ class WhileDoElse(Control):
         else:
             status = FAILURE
         if status is RUNNING:
+            self.note_children()
             return RUNNING
         return self.finish_skipped() if status is SKIPPED else self.finish(status)

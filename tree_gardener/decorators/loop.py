@@ -14,10 +14,11 @@ from tree_gardener.values import ConversionError
 class Loop(Decorator):
     """Ticks its child once for each element of a queue.
 
-    When the child is not RUNNING, one element is taken from `queue` and written to `value`; then the child is ticked.
-    FAILURE of the child ends the loop, all other results return RUNNING. When the queue is empty, `if_empty` is
-    returned, on the tick after the last element. A constant queue is copied when the loop starts, and so are lists and
-    texts on the blackboard; a ``collections.deque`` on the blackboard is consumed in place.
+    When the child is not RUNNING, one element is taken from `queue` and written to `value`; then the child is
+    ticked. FAILURE of the child ends the loop, all other results return RUNNING. When the queue is empty,
+    `if_empty` is returned, on the tick after the last element. A constant queue is copied when the loop
+    starts, and so are lists and texts on the blackboard; a ``collections.deque`` on the blackboard is
+    consumed in place.
     """
 
     __slots__ = ("busy", "queue")
@@ -44,6 +45,8 @@ class Loop(Decorator):
             return self.finish(FAILURE)
         if status is SUCCESS:
             self.reset()
+        elif status is SKIPPED:
+            self.note_children()
         return RUNNING
 
     def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule

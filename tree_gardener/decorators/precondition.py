@@ -9,8 +9,8 @@ from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status
 class Precondition(Decorator):
     """Ticks its child only if the script `if` is true, else returns `else`.
 
-    Once true, the script is not evaluated again until the child succeeded or failed; a skipped or halted child does
-    not change that.
+    Once true, the script is not evaluated again until the child succeeded or failed; a skipped or halted
+    child does not change that.
     """
 
     __slots__ = ("environment", "open")

@@ -29,11 +29,12 @@ class _Counting(Decorator):
 
 
 class Repeat(_Counting):
-    """Ticks its child again each time it succeeds, `num_cycles` times; -1 repeats for ever, 0 succeeds at once.
+    """Ticks its child again each time it succeeds, `num_cycles` times.
 
-    Between two cycles it wakes the tree up and returns RUNNING if the child succeeded within one tick; a child that
-    was RUNNING before starts its next cycle in the same tick. A failure ends it. A skipped child makes it SKIPPED and
-    keeps the count. The port is read at every tick.
+    -1 repeats for ever, 0 succeeds at once. Between two cycles it wakes the tree up and returns RUNNING if
+    the child succeeded within one tick; a child that was RUNNING before starts its next cycle in the same
+    tick. A failure ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every
+    tick.
     """
 
     __slots__ = ()
@@ -60,11 +61,12 @@ class Repeat(_Counting):
 
 
 class RetryUntilSuccessful(_Counting):
-    """Ticks its child again each time it fails, `num_attempts` times; -1 retries for ever, 0 fails at once.
+    """Ticks its child again each time it fails, `num_attempts` times.
 
-    Between two attempts it wakes the tree up and returns RUNNING if the child failed within one tick; a child that was
-    RUNNING before starts its next attempt in the same tick. A success ends it. A skipped child makes it SKIPPED and
-    keeps the count. The port is read at every tick and after every failure.
+    -1 retries for ever, 0 fails at once. Between two attempts it wakes the tree up and returns RUNNING if the
+    child failed within one tick; a child that was RUNNING before starts its next attempt in the same tick. A
+    success ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every tick and
+    after every failure.
     """
 
     __slots__ = ()

@@ -51,7 +51,10 @@ class ForceFailure(Decorator):
 
 
 class KeepRunningUntilFailure(Decorator):
-    """Returns RUNNING until its child fails, then fails. A child that succeeded starts again at the next tick."""
+    """Returns RUNNING until its child fails, then fails.
+
+    A child that succeeded starts again at the next tick.
+    """
 
     __slots__ = ()
 
@@ -63,4 +66,6 @@ class KeepRunningUntilFailure(Decorator):
             return self.finish(FAILURE)
         if status is SUCCESS:
             self.reset()
+        else:
+            self.note_children()
         return RUNNING

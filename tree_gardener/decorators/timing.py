@@ -1,15 +1,19 @@
 """Delay and Timeout."""
 
-from tree_gardener.clock import Timer
+from typing import TYPE_CHECKING
+
 from tree_gardener.node import Decorator
 from tree_gardener.status import FAILURE, RUNNING, SKIPPED, Status
+
+if TYPE_CHECKING:
+    from tree_gardener.clock import Timer
 
 
 class Delay(Decorator):
     """Waits for `delay_msec` milliseconds, then ticks its child.
 
-    It is RUNNING until the time is over, which wakes the tree up. A new delay begins after the child succeeded or
-    failed, or after a halt, but not after the child was skipped.
+    It is RUNNING until the time is over, which wakes the tree up. A new delay begins after the child
+    succeeded or failed, or after a halt, but not after the child was skipped.
     """
 
     __slots__ = ("is_over", "timer")
@@ -53,8 +57,8 @@ class Delay(Decorator):
 class Timeout(Decorator):
     """Halts its child and fails when it is RUNNING for longer than `msec` milliseconds; 0 means no limit.
 
-    When the time is over a RUNNING child is halted at once, the tree is woken up, and the next tick returns FAILURE.
-    The time is measured from the first tick; a skipped child does not stop it.
+    When the time is over a RUNNING child is halted at once, the tree is woken up, and the next tick returns
+    FAILURE. The time is measured from the first tick; a skipped child does not stop it.
     """
 
     __slots__ = ("expired", "started", "timer")

@@ -21,7 +21,7 @@ PY_FAILURE, PY_INVALID = PyTreesStatus.FAILURE, PyTreesStatus.INVALID
 class BehaviourLeaf(Leaf):
     """Ticks a py_trees behaviour.
 
-    `initialise` and `terminate` are None where the class does not override those of py_trees, which do nothing.
+    `initialise` and `terminate` are None where the class does not override py_trees' own, which do nothing.
     """
 
     __slots__ = ("initialise", "instance_behaviour", "terminate", "update")
@@ -74,7 +74,9 @@ class BehaviourLeaf(Leaf):
             return returned
         name = self.type
         if returned is None:
-            raise TickError(self, f"{name}.update() returned nothing; it must return a py_trees.common.Status")
+            raise TickError(
+                self, f"{name}.update() returned nothing; it must return a py_trees.common.Status"
+            )
         raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
 
     def failed(self, error: Exception) -> Status:
@@ -94,8 +96,9 @@ class BehaviourLeaf(Leaf):
 class StatefulLeaf(BehaviourLeaf):
     """A StatefulAction: ``initialise()`` and ``update()`` to start, ``update()`` while RUNNING.
 
-    ``terminate(status)`` is called after SUCCESS or FAILURE, ``terminate(INVALID)`` when it is halted. A leaf that
-    rests in SUCCESS or FAILURE, because its parent did not reset it, returns that again without any call.
+    ``terminate(status)`` is called after SUCCESS or FAILURE, ``terminate(INVALID)`` when it is halted. A leaf
+    that rests in SUCCESS or FAILURE, because its parent did not reset it, returns that again without any
+    call.
     """
 
     __slots__ = ()
@@ -115,8 +118,7 @@ class StatefulLeaf(BehaviourLeaf):
                 self.instance_behaviour.status = PY_SUCCESS
                 self.status = SUCCESS
                 if self.journal is not None:
-                    self.last = SUCCESS
-                    self.journal(self)
+                    self.last = self.marks[0]
                 return SUCCESS
             if returned is PY_RUNNING:
                 if before is not RUNNING:
@@ -180,4 +182,4 @@ LEAF_KINDS: Final[Mapping[str, type[BehaviourLeaf]]] = {
 
 def _overridden(behaviour: Any, method: str) -> Callable[..., Any] | None:
     bound = getattr(behaviour, method)
-    return None if getattr(bound, "__func__", None) is getattr(Behaviour, method) else bound  # type: ignore[no-any-return]
+    return None if getattr(bound, "__func__", None) is getattr(Behaviour, method) else bound

@@ -1,20 +1,22 @@
 """SetBlackboard, UnsetBlackboard and WasEntryUpdated."""
 
+from typing import Any
+
 from tree_gardener.blackboard import EMPTY
 from tree_gardener.errors import PortError, TickError
 from tree_gardener.node import SyncLeaf
 from tree_gardener.ports import pointer_key
 from tree_gardener.status import FAILURE, SUCCESS, Status
-from tree_gardener.values import ANY, STRING, ConversionError, to_text, value_type
+from tree_gardener.values import ANY, STRING, ConversionError, ValueType, to_text
 
 
 class SetBlackboard(SyncLeaf):
     """Writes a value, or a copy of an entry, to the blackboard.
 
-    A literal is stored as a string if the entry is new, and converted if the entry has a type. ``value="{source}"``
-    copies value and type; a source without a value makes it fail. `output_key` is the entry's name; ``"{key}"`` there
-    means the entry whose name is stored in `key`. A literal written to an entry that a script made leaves that entry
-    without a value, as in BehaviorTree.CPP.
+    A literal is stored as a string if the entry is new, and converted if the entry has a type.
+    ``value="{source}"`` copies value and type; a source without a value makes it fail. `output_key` is the
+    entry's name; ``"{key}"`` there means the entry whose name is stored in `key`. A literal written to an
+    entry that a script made leaves that entry without a value, as in BehaviorTree.CPP.
     """
 
     __slots__ = ()
@@ -30,31 +32,26 @@ class SetBlackboard(SyncLeaf):
         given = self.ports.get("value")
         if given is None:
             raise TickError(self, "port 'value' was given no value")
-        target = self.board.find(key)
         pointer = pointer_key(given, "value")
-        if pointer is None:
-            value, kind = given, STRING
-            if target is None:
-                target = self.board.create(key, STRING)
-        else:
+        value: Any = given
+        kind: ValueType | None = STRING
+        if pointer is not None:
             source = self.board.find(pointer)
             if source is None:
                 raise TickError(self, f"port 'value': the entry '{pointer}' does not exist")
-            if target is None:
-                target = self.board.create(key, source.type)
-            value = source.value
-            kind = source.type or (value_type(type(value)) if isinstance(value, (int, float, str)) else ANY)
-            if value is EMPTY:
-                return FAILURE
+            value, kind = source.value, source.type
+        target = self.board.find(key) or self.board.create(key, kind)
+        if value is EMPTY:
+            return FAILURE
         if isinstance(value, str) and target.type is not STRING:
-            value = EMPTY if target.type is None else self.parsed(value, target.type)
-        del kind
+            value = self.parsed(value, target.type)
         self.board.set(key, value, None, self.uid)
         return SUCCESS
 
-    def parsed(self, text: str, kind: object) -> object:
-        """The literal as a value of the entry's type."""
-        assert hasattr(kind, "parse")
+    def parsed(self, text: str, kind: ValueType | None) -> Any:
+        """A text as a value of the entry's type."""
+        if kind is None:
+            return EMPTY
         if kind is ANY:
             raise TickError(self, f"'{text}' cannot be converted to an entry without a type")
         try:

@@ -1,8 +1,12 @@
 """Sleep."""
 
-from tree_gardener.clock import Timer
+from typing import TYPE_CHECKING
+
 from tree_gardener.node import Leaf
 from tree_gardener.status import IDLE, RUNNING, SUCCESS, Status
+
+if TYPE_CHECKING:
+    from tree_gardener.clock import Timer
 
 
 class Sleep(Leaf):

@@ -1,13 +1,16 @@
 """TestNode, which substitution rules put in the place of other nodes."""
 
 import dataclasses
+from typing import TYPE_CHECKING
 
-from tree_gardener.clock import Timer
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.node import Leaf
 from tree_gardener.script import Environment, compile_script
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 from tree_gardener.values import as_number
+
+if TYPE_CHECKING:
+    from tree_gardener.clock import Timer
 
 _BY_NUMBER = (IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED)
 
@@ -16,13 +19,10 @@ _BY_NUMBER = (IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED)
 class TestConfig:
     """What a TestNode does.
 
-    Attributes:
-        return_status: its result.
-        return_status_script: a script whose value is the result, by name or number; goes before `return_status`.
-        async_delay_s: how long it is RUNNING before.
-        success_script: runs when the result is SUCCESS.
-        failure_script: runs when the result is FAILURE.
-        post_script: runs in either case.
+    Attributes: return_status: its result. return_status_script: a script whose value is the result, by name
+        or number; goes before `return_status`. async_delay_s: how long it is RUNNING before. success_script:
+        runs when the result is SUCCESS. failure_script: runs when the result is FAILURE. post_script: runs in
+        either case.
     """
 
     __test__ = False  # the name is BehaviorTree.CPP's; pytest shall not collect it
@@ -104,7 +104,7 @@ class TestNode(Leaf):
         if not text:
             return None
         try:
-            return compile_script(text).run(self.environment)  # type: ignore[no-any-return]
+            return compile_script(text).run(self.environment)
         except (ScriptError, PortError) as error:
             raise TickError(self, f"in the script '{text}': {error}") from None
 

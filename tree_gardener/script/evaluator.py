@@ -1,7 +1,7 @@
 """Evaluates scripts: each expression becomes a closure once, which then runs on a blackboard.
 
-The rules are those of BehaviorTree.CPP 4.10: all arithmetic is in doubles, ``&&`` and ``||`` evaluate both sides,
-``==`` has a tolerance, and an assignment keeps the type of an existing entry.
+The rules are those of BehaviorTree.CPP 4.10: all arithmetic is in doubles, ``&&`` and ``||`` evaluate both
+sides, ``==`` has a tolerance, and an assignment keeps the type of an existing entry.
 """
 
 import functools
@@ -245,7 +245,7 @@ _COMBINE: Final[dict[str, Callable[[Span, Any, Any], Any]]] = {
 def _equal(left: Any, right: Any) -> bool:
     if isinstance(left, str):
         return bool(left == right)
-    return left == right or abs(left - right) <= TOLERANCE
+    return bool(left == right or abs(left - right) <= TOLERANCE)
 
 
 _COMPARE: Final[dict[str, Callable[[Any, Any], bool]]] = {
@@ -375,7 +375,9 @@ def _copied(entry: Entry, value: Any, span: Span) -> Any:
         return value
     if target is None or number is None:
         raise ScriptError(
-            span, f"{_kind(value)} cannot be assigned to '{entry.key}', which is {_kind(old)}", "use another entry"
+            span,
+            f"{_kind(value)} cannot be assigned to '{entry.key}', which is {_kind(old)}",
+            "use another entry",
         )
     if isinstance(target, float):
         return float(number)

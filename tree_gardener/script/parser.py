@@ -28,8 +28,16 @@ PREFIXES: Final = frozenset("-~!")
 
 _ASSIGNMENT, _TERNARY, _COMPARISON = 1, 2, 5
 _BINARY: Final = {
-    **{"||": 3, "&&": 4, "|": 6, "^": 6, "&": 7},
-    **{"+": 8, "-": 8, "..": 8, "*": 9, "/": 9},
+    "||": 3,
+    "&&": 4,
+    "|": 6,
+    "^": 6,
+    "&": 7,
+    "+": 8,
+    "-": 8,
+    "..": 8,
+    "*": 9,
+    "/": 9,
 }
 
 MAX_NESTING: Final = 100
@@ -59,7 +67,9 @@ class _Parser:
 
     def program(self) -> Program:
         if self.token.kind == "end":
-            raise ScriptError((0, len(self.text)), "the script is empty", "write an expression such as x := 1")
+            raise ScriptError(
+                (0, len(self.text)), "the script is empty", "write an expression such as x := 1"
+            )
         statements = []
         while self.token.kind != "end":
             statements.append(self.expression(_ASSIGNMENT))
@@ -81,7 +91,7 @@ class _Parser:
         return left
 
     def extend(self, left: Expression, level: int) -> Expression | None:
-        """Continues an expression with the operator that follows, unless it binds less tightly than `level`."""
+        """Continues an expression with the next operator, unless that binds less tightly than `level`."""
         operator = self.token.text if self.token.kind == "operator" else ""
         if operator in _BINARY and _BINARY[operator] >= level:
             self.index += 1

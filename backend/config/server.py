@@ -30,12 +30,8 @@ def data_folder(folder: Path) -> Iterator[None]:
     Raises:
         ServeError: it cannot be written, or another server holds it.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        _make_secret_key(folder / "secret_key")
-        lock = (folder / "serve.lock").open("a+", encoding="utf-8")
-    except OSError as error:
-        raise ServeError(f"The data folder {folder} cannot be used: {error.strerror}.") from error
+    make_data_folder(folder)
+    lock = (folder / "serve.lock").open("a+", encoding="utf-8")
     with lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -49,6 +45,19 @@ def data_folder(folder: Path) -> Iterator[None]:
         lock.write(str(os.getpid()))
         lock.flush()
         yield
+
+
+def make_data_folder(folder: Path) -> None:
+    """Makes the folder with its secret key, for its owner alone.
+
+    Raises:
+        ServeError: it cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        _make_secret_key(folder / "secret_key")
+    except OSError as error:
+        raise ServeError(f"The data folder {folder} cannot be used: {error.strerror}.") from error
 
 
 def _make_secret_key(path: Path) -> None:

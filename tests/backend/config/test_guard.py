@@ -23,9 +23,17 @@ def test_loopback_names_pass_on_any_port(host):
 
 @pytest.mark.parametrize(
     "host",
-    ["evil.example", "evil.example:8000", "127.0.0.1.evil.example:8000", "", "localhost.:8000", "0.0.0.0:8000",
-     "localhost@evil.example", "127.0.0.1:8000.evil.example"],
-)  # fmt: skip
+    [
+        "evil.example",
+        "evil.example:8000",
+        "127.0.0.1.evil.example:8000",
+        "",
+        "localhost.:8000",
+        "0.0.0.0:8000",
+        "localhost@evil.example",
+        "127.0.0.1:8000.evil.example",
+    ],
+)
 def test_a_rebound_name_gets_nothing_even_with_the_cookie(host):
     assert refused(host=host) == "host_refused"
 
@@ -38,8 +46,16 @@ def test_a_host_can_be_allowed():
 @pytest.mark.parametrize("method", ["POST", "PUT", "PATCH", "DELETE", "GET"])
 @pytest.mark.parametrize(
     "origin",
-    ["http://evil.example", "null", "http://127.0.0.1:9000", "http://localhost:8000", "https://127.0.0.1", "", "file://"],
-)  # fmt: skip
+    [
+        "http://evil.example",
+        "null",
+        "http://127.0.0.1:9000",
+        "http://localhost:8000",
+        "https://127.0.0.1",
+        "",
+        "file://",
+    ],
+)
 def test_a_foreign_origin_gets_nothing(method, origin):
     assert refused(method=method, origin=origin) == "origin_refused"
 

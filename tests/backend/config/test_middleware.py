@@ -26,7 +26,9 @@ def test_the_link_becomes_a_cookie_that_scripts_and_other_sites_cannot_use(stran
     response = stranger.get("/", {"token": guard.keys().token})
     cookie = response.cookies[guard.cookie_name(HOST)]
     assert (response.status_code, response.headers["Location"]) == (302, "/")
-    assert cookie["httponly"] and cookie["samesite"] == "Strict" and cookie["path"] == "/"
+    assert cookie["httponly"]
+    assert cookie["samesite"] == "Strict"
+    assert cookie["path"] == "/"
     assert guard.keys().token not in cookie.value
     assert stranger.get("/api/v1/me").status_code == 200
 
@@ -103,7 +105,8 @@ def test_every_answer_carries_the_security_headers(browser, path):
     headers = browser.get(path).headers
     policy = dict(part.split(" ", 1) for part in headers["Content-Security-Policy"].split("; "))
     assert policy["script-src"] == policy["connect-src"] == "'self'"
-    assert policy["frame-ancestors"] == "'none'" and policy["object-src"] == "'none'"
+    assert policy["frame-ancestors"] == "'none'"
+    assert policy["object-src"] == "'none'"
     assert headers["X-Content-Type-Options"] == "nosniff"
     assert headers["Referrer-Policy"] == "no-referrer"
 

@@ -36,7 +36,8 @@ def test_saving_what_is_there_is_neither_a_conflict_nor_a_change():
 
 def test_one_conflict_keeps_the_whole_change_from_happening():
     result = plan(existing(("a", 3)), [FileChange("b", 0, ONE), FileChange("a", 1, TWO)])
-    assert result.is_empty and len(result.conflicts) == 1
+    assert result.is_empty
+    assert len(result.conflicts) == 1
 
 
 def test_writing_a_file_that_is_gone_is_a_conflict_but_deleting_it_is_done():

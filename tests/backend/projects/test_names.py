@@ -14,18 +14,59 @@ from backend.projects import names
 
 @pytest.mark.parametrize(
     "path",
-    ["project.json", "actions/Forward.py", "assets/карта.png", "a b/c d.txt", ".env", "x/.hidden", "日本/語.md", "می‌خواهم.py"],
-)  # fmt: skip
+    [
+        "project.json",
+        "actions/Forward.py",
+        "assets/карта.png",
+        "a b/c d.txt",
+        ".env",
+        "x/.hidden",
+        "日本/語.md",
+        "می‌خواهم.py",
+    ],
+)
 def test_good_paths(path):
     assert names.file_path(path) == unicodedata.normalize("NFC", path)
 
 
 @pytest.mark.parametrize(
     "path",
-    ["", "/etc/passwd", "../x", "a/../b", "a//b", "a/./b", "a/", "C:/x", "C:\\x", "a\\b", "a\0b", "a\nb", "con", "CON.txt",
-     "a/nul", "ＣＯＮ", "lpt1.py", "a.", "a ", " a", "a/ b", "x\u202ey", "\ufeffx", "\ud800", "a" * 201, "a/" * 20 + "b",
-     "x" * 401, "a*b", "a?b", 'a"b', "<x>", "a|b", "COM1 .txt"],
-)  # fmt: skip
+    [
+        "",
+        "/etc/passwd",
+        "../x",
+        "a/../b",
+        "a//b",
+        "a/./b",
+        "a/",
+        "C:/x",
+        "C:\\x",
+        "a\\b",
+        "a\0b",
+        "a\nb",
+        "con",
+        "CON.txt",
+        "a/nul",
+        "ＣＯＮ",
+        "lpt1.py",
+        "a.",
+        "a ",
+        " a",
+        "a/ b",
+        "x\u202ey",
+        "\ufeffx",
+        "\ud800",
+        "a" * 201,
+        "a/" * 20 + "b",
+        "x" * 401,
+        "a*b",
+        "a?b",
+        'a"b',
+        "<x>",
+        "a|b",
+        "COM1 .txt",
+    ],
+)
 def test_bad_paths(path):
     with pytest.raises(InvalidInputError) as caught:
         names.file_path(path)
@@ -40,7 +81,9 @@ def test_an_accepted_path_stays_below_its_folder_and_is_stable(text):
     except InvalidInputError:
         return
     assert names.file_path(path) == path
-    assert not path.startswith("/") and ".." not in path.split("/") and "\\" not in path
+    assert not path.startswith("/")
+    assert ".." not in path.split("/")
+    assert "\\" not in path
     path.encode()
 
 
@@ -67,4 +110,5 @@ def test_a_free_name_counts_up_and_keeps_its_length():
     assert names.free_name("Robot", {"robot", "robot 2"}) == "Robot 3"
     long = "x" * names.MAX_NAME_LENGTH
     free = names.free_name(long, {names.key(long)})
-    assert len(free) <= names.MAX_NAME_LENGTH and free.endswith(" 2")
+    assert len(free) <= names.MAX_NAME_LENGTH
+    assert free.endswith(" 2")

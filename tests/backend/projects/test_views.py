@@ -35,7 +35,8 @@ def test_a_template_without_a_name_gets_a_free_one(api):
 def test_a_taken_name_is_refused_where_case_does_not_count(api, project):
     problem = api.post("projects", {"name": "ROBOT"}, expect=409)
     assert (problem["code"], problem["field"]) == ("name_taken", "name")
-    assert problem["hint"] and "Robot" not in problem["type"]
+    assert problem["hint"]
+    assert "Robot" not in problem["type"]
 
 
 def test_every_template_makes_a_project_that_can_be_checked(api):
@@ -46,7 +47,8 @@ def test_every_template_makes_a_project_that_can_be_checked(api):
 
 def test_an_unknown_template_lists_those_that_exist(api):
     problem = api.post("projects", {"template": "../backend"}, expect=422)
-    assert problem["field"] == "template" and "laser_bump_and_go" in problem["hint"]
+    assert problem["field"] == "template"
+    assert "laser_bump_and_go" in problem["hint"]
 
 
 def test_a_list_is_searched_and_sorted(api):
@@ -100,7 +102,8 @@ def test_a_stale_save_changes_nothing_and_shows_both_versions(api, project):
     assert problem["code"] == "revision_conflict"
     (conflict,) = problem["conflicts"]
     assert (conflict["path"], conflict["base_revision"]) == ("a.txt", 2)
-    assert conflict["theirs"]["content"] == "theirs" and conflict["theirs"]["revision"] == 3
+    assert conflict["theirs"]["content"] == "theirs"
+    assert conflict["theirs"]["revision"] == 3
     assert conflict["mine"]["content"] == "mine"
     assert [f["path"] for f in api.get(f"projects/{pid}")["files"]] == [
         "a.txt",
@@ -165,7 +168,8 @@ def test_paths_that_climb_are_refused_everywhere(api, project, path):
 )
 def test_malformed_changes_are_named(api, project, body):
     problem = api.post(f"projects/{project['id']}/changes", body, expect=422)
-    assert problem["code"] == "invalid_input" and problem["detail"]
+    assert problem["code"] == "invalid_input"
+    assert problem["detail"]
 
 
 @pytest.mark.parametrize("raw", ["{", "NaN", '{"name": NaN}', '{"name": "\\ud800"}', "[" * 100_000, "\xff"])
@@ -249,7 +253,8 @@ def test_xml_and_app_of_a_sound_project(api):
 
 def test_an_app_with_errors_says_which(api, project):
     problem = api.get(f"projects/{project['id']}/app", expect=422)
-    assert problem["code"] == "check_failed" and problem["diagnostics"][0]["code"]
+    assert problem["code"] == "check_failed"
+    assert problem["diagnostics"][0]["code"]
     assert api.get(f"projects/{project['id']}/xml", expect=422)["diagnostics"]
 
 
@@ -257,7 +262,8 @@ def test_a_universe_of_the_project_goes_along(api):
     pid = api.post("projects", {"template": "laser_bump_and_go"}, expect=201)["id"]
     api.save(pid, file("universes/walled_room.yaml", 0, "name: mine\n"), file("assets/x.obj", 0, "o"))
     universe = api.get(f"projects/{pid}/app")["universe"]
-    assert universe["document"] == "name: mine\n" and universe["assets_zip_base64"]
+    assert universe["document"] == "name: mine\n"
+    assert universe["assets_zip_base64"]
 
 
 def test_etags_save_traffic_and_guard_writes(api, project):
@@ -277,7 +283,8 @@ def test_an_idempotency_key_makes_a_create_safe_to_repeat(api):
     key = {"Idempotency-Key": "k1"}
     one = api.post("projects", {"name": "Once"}, expect=201, **key)
     again = api.post("projects", {"name": "Once"}, expect=201, **key)
-    assert again["id"] == one["id"] and api.response.headers["Idempotency-Replayed"] == "true"
+    assert again["id"] == one["id"]
+    assert api.response.headers["Idempotency-Replayed"] == "true"
     assert len(api.get("projects")["items"]) == 1
     assert api.post("projects", {"name": "Else"}, expect=422, **key)["code"] == "idempotency_key_reused"
     api.post("projects", {"name": "Once"}, expect=409, **{"Idempotency-Key": "k2"})

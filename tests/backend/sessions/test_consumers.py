@@ -104,7 +104,8 @@ def test_a_session_that_failed_is_told(relay, session):
     launched(started["id"])
     with opened(relay, started["control_url"]) as socket, pytest.raises(ConnectionClosed):
         socket.recv()
-    assert socket.close_code == EXECUTOR_FAILED and "exit status 3" in socket.close_reason
+    assert socket.close_code == EXECUTOR_FAILED
+    assert "exit status 3" in socket.close_reason
 
 
 def test_a_session_that_is_not_there_is_told(relay, db):
@@ -162,7 +163,7 @@ def test_a_program_may_show_the_token(relay, session):
 
 
 def when_it_stops_growing(file, *, limit):
-    """The file's size, once it has not changed for a while; what is under way fits into a few sockets' buffers."""
+    """The size of the file once it has not changed for a while: all buffers on the way are full."""
     size = -1
     while (now := file.stat().st_size) != size:
         assert now <= limit, "the relay takes what its browser does not"

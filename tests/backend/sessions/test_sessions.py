@@ -53,7 +53,8 @@ def test_a_failed_start_says_why_and_another_may_follow(api, project, fake_manag
     launched(started["id"])
     failed = api.get(f"sessions/{started['id']}")
     assert failed["state"] == "failed"
-    assert "exit status 3" in failed["error"] and "the fake manager starts" in failed["error"]
+    assert "exit status 3" in failed["error"]
+    assert "the fake manager starts" in failed["error"]
     fake_manager("echo")
     again = api.post(f"projects/{project['id']}/session")
     assert again["id"] != started["id"]
@@ -79,7 +80,8 @@ def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
         pid = api.post("projects", {"name": name}, expect=201)["id"]
         api.post(f"projects/{pid}/session")
     domains = set(Session.objects.values_list("ros_domain_id", flat=True))
-    assert len(domains) == 2 and domains <= set(actions.ROS_DOMAINS)
+    assert len(domains) == 2
+    assert domains <= set(actions.ROS_DOMAINS)
     actions.end_all_sessions()
     assert set(Session.objects.values_list("state", flat=True)) == {"ended"}
     assert psutil.Process().children(recursive=True) == []

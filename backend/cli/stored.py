@@ -1,0 +1,56 @@
+"""What the verbs share that work on stored projects."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator  # noqa: TC003
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from backend.cli.errors import BAD_ARGUMENTS, CliError
+
+if TYPE_CHECKING:
+    from backend.projects.models import Project
+
+
+@contextmanager
+def stored_projects() -> Iterator[None]:
+    """Opens the data folder (`BT_STUDIO_DATA_DIR`) and turns the errors of projects into lines.
+
+    A server may run at the same time: the database sees to it that both write in turn.
+    """
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
+    from backend.config.environment import InvalidEnvironmentError, environment
+    from backend.config.server import ServeError, make_data_folder, migrate
+
+    try:
+        make_data_folder(environment().data_dir)
+        migrate()
+    except InvalidEnvironmentError as error:
+        raise CliError(str(error), status=BAD_ARGUMENTS) from error
+    except ServeError as error:
+        raise CliError(str(error)) from error
+    from backend.config.problems import StudioError
+
+    try:
+        yield
+    except StudioError as error:
+        raise CliError(
+            f"{error.code}: {error.detail}" + (f" ({error.hint})" if error.hint else "")
+        ) from error
+    except OSError as error:
+        raise CliError(f"{error.filename}: {error.strerror}") from error
+
+
+def find_project(name_or_id: str) -> Project:
+    """The stored project of this name or id."""
+    from uuid import UUID
+
+    from backend.accounts.actions import local_user
+    from backend.projects import queries
+
+    try:
+        project_id = UUID(name_or_id)
+    except ValueError:
+        return queries.project_named(name_or_id, user=local_user())
+    return queries.project(project_id, user=local_user())

@@ -1,0 +1,106 @@
+"""`bt-studio serve`, as a process."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import sqlite3
+import stat
+
+import psutil
+import pytest
+import requests
+
+from tests.backend.serving import serving, start
+
+
+def failed(process):
+    """Exit status and stderr of a server that did not start."""
+    _, said = process.communicate(timeout=60)
+    return process.returncode, said
+
+
+@pytest.fixture(scope="module")
+def running(tmp_path_factory):
+    """A server that several tests look at, with its data folder."""
+    folder = tmp_path_factory.mktemp("served")
+    with serving(folder) as server:
+        yield folder, server
+
+
+def test_a_server_serves_and_ends_cleanly(tmp_path, running):
+    with serving(tmp_path) as server:
+        assert server.token != running[1].token
+        me = requests.get(f"{server.base}/api/v1/me", headers=server.headers, timeout=10)
+        assert me.json()["mode"] == "local"
+        browser = requests.Session()
+        page = browser.get(f"{server.base}/?token={server.token}", timeout=10)
+        assert "token" not in page.url
+        assert browser.get(f"{server.base}/api/v1/projects", timeout=10).json()["items"] == []
+        made = browser.post(
+            f"{server.base}/api/v1/projects", json={"name": "P"}, headers={"Origin": server.base}, timeout=10
+        )
+        assert made.status_code == 201
+        session = browser.post(
+            f"{server.base}/api/v1/projects/{made.json()['id']}/session", timeout=10
+        ).json()
+        assert session["state"] in {"starting", "ready"}
+        family = psutil.Process(server.process.pid).children(recursive=True)
+        assert server.end(signal.SIGINT) == 0
+        out, err = server.output
+        assert server.token in out
+        assert "Traceback" not in err
+        assert not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in family)
+
+
+def test_the_database_is_in_wal_and_files_are_private(running):
+    folder, server = running
+    database = sqlite3.connect(folder / "bt-studio.sqlite3")
+    assert database.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+    database.close()
+    ready = folder / "ready.json"
+    for private in (folder / "secret_key", ready):
+        assert stat.S_IMODE(private.stat().st_mode) == 0o600
+    assert json.loads(ready.read_text())["pid"] == server.process.pid
+
+
+def test_a_second_server_on_the_same_data_is_refused(running):
+    folder, server = running
+    status, said = failed(start(folder, "--port", "0"))
+    assert status == 1
+    assert str(server.process.pid) in said
+    assert "--data-dir" in said
+
+
+def test_a_port_in_use_is_one_sentence_with_the_remedy(tmp_path):
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        status, said = failed(start(tmp_path, "--port", port))
+    assert status == 1
+    assert (
+        said
+        == f"Port {port} is already in use: end the program that uses it, or choose another with --port.\n"
+    )
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "192.168.0.7", "::", "example.org"])  # noqa: S104
+def test_other_machines_are_not_served_without_accounts(tmp_path, host):
+    status, said = failed(start(tmp_path, "--host", host, "--port", "0"))
+    assert status == 1
+    assert host in said
+    assert said.count("\n") == 1
+
+
+def test_a_wrong_setting_is_named(tmp_path):
+    status, said = failed(start(tmp_path, BT_STUDIO_SESSION_START_TIMEOUT_S="soon"))
+    assert status == 2
+    assert "BT_STUDIO_SESSION_START_TIMEOUT_S" in said
+    assert "Traceback" not in said
+
+
+def test_a_data_folder_that_cannot_be_written_is_told(tmp_path):
+    (tmp_path / "file").write_text("")
+    status, said = failed(start(tmp_path / "file", "--port", "0"))
+    assert status == 1
+    assert said.count("\n") == 1

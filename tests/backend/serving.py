@@ -1,0 +1,69 @@
+"""Starts the real server for a test."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+REPOSITORY = Path(__file__).parents[2]
+TIMEOUT_S = 60
+
+
+class Served:
+    """A running server: its process, address and token."""
+
+    def __init__(self, process, ready):
+        self.process = process
+        self.port = ready["port"]
+        self.token = ready["url"].partition("token=")[2]
+        self.base = ready["url"].partition("/?")[0]
+        self.headers = {"Authorization": f"Bearer {self.token}"}
+
+    def end(self, how=signal.SIGTERM):
+        self.process.send_signal(how)
+        self.output = self.process.communicate(timeout=TIMEOUT_S)
+        return self.process.returncode
+
+
+def start(folder, *arguments, **environment):
+    """A process that serves, or tries to."""
+    clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
+    command = [sys.executable, "-m", "backend.cli.main", "serve", "--no-browser", "--data-dir", str(folder)]
+    return subprocess.Popen(
+        [*command, *arguments],
+        cwd=REPOSITORY,
+        env=clean | environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def await_ready(process, ready_file):
+    """What the server writes when it can be used."""
+    deadline = time.monotonic() + TIMEOUT_S
+    while not ready_file.exists():
+        assert process.poll() is None, process.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    return json.loads(ready_file.read_text())
+
+
+@contextmanager
+def serving(folder, *arguments, **environment):
+    """A server on a free port, ended in the end."""
+    ready_file = Path(folder) / "ready.json"
+    ready_file.unlink(missing_ok=True)
+    process = start(folder, "--port", "0", "--ready-file", str(ready_file), *arguments, **environment)
+    try:
+        yield Served(process, await_ready(process, ready_file))
+    finally:
+        if process.poll() is None:
+            process.terminate()
+            process.communicate(timeout=TIMEOUT_S)

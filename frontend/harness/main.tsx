@@ -37,7 +37,7 @@ createRoot(document.getElementById('root')!).render(
       <div
         style={{
           display: 'grid',
-          gridTemplateRows: '1fr 260px',
+          gridTemplateRows: 'minmax(0, 1fr) 260px',
           height: '100vh',
           borderRight: '1px solid var(--bts-border)',
         }}

@@ -139,7 +139,7 @@ function itemsFor(): Item[][] {
       ...when(hasChildren, {
         key: node.collapsed ? 'unfold' : 'fold',
         icon: IconFold,
-        keys: '␣',
+        keys: 'Space',
         run: () => {
           change(node.collapsed ? 'unfold' : 'fold', [setCollapsed(id, !node.collapsed)]);
         },

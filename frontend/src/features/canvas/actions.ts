@@ -40,7 +40,7 @@ const selectedOnCanvas = () => onCanvas() && hasSelection();
 
 const rows: readonly UserAction[] = [
   {
-    id: 'edit.undo',
+    id: 'canvas.undo',
     group: 'edit',
     labelKey: 'canvas:action.undo',
     icon: IconArrowBackUp,
@@ -51,7 +51,7 @@ const rows: readonly UserAction[] = [
     },
   },
   {
-    id: 'edit.redo',
+    id: 'canvas.redo',
     group: 'edit',
     labelKey: 'canvas:action.redo',
     icon: IconArrowForwardUp,
@@ -62,7 +62,7 @@ const rows: readonly UserAction[] = [
     },
   },
   {
-    id: 'edit.redoShift',
+    id: 'canvas.redoShift',
     group: 'edit',
     labelKey: 'canvas:action.redo',
     shortcut: '$mod+Shift+KeyZ',

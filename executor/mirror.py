@@ -31,6 +31,7 @@ __all__ = ["Mirror"]
 LOG_LINES: Final = 500
 FAULTS: Final = 50
 ENTRIES: Final = 5000
+SMOOTHING: Final = 0.1
 
 
 class Mirror:
@@ -44,6 +45,7 @@ class Mirror:
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
         self.faults: deque[Fault] = deque(maxlen=FAULTS)
         self.tick = 0
+        self.tick_ms = 0.0
         self.tick_hz = 0.0
         self.speed = 1.0
         self.universe = ""
@@ -55,6 +57,7 @@ class Mirror:
         self.blackboard.clear()
         self.faults.clear()
         self.tick = 0
+        self.tick_ms = 0.0
         self.tick_hz = tick_hz
 
     def apply(self, event: Struct) -> None:
@@ -67,6 +70,7 @@ class Mirror:
                 self.statuses = {node.uid: "IDLE" for node in event.nodes}
             case Tick():
                 self.tick = event.n
+                self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
                 self.statuses.update(event.changed)
             case Blackboard():
                 self._apply_entries(event.entries)
@@ -78,6 +82,10 @@ class Mirror:
                 self.speed = event.speed
             case _:
                 pass
+
+    def tick_load(self) -> dict[str, float]:
+        """How long a tick takes of late, and how long it may take, in ms."""
+        return {"tick_ms": self.tick_ms, "tick_budget_ms": 1000.0 / self.tick_hz if self.tick_hz else 0.0}
 
     def snapshot(self) -> Snapshot:
         """Returns everything that a client needs before it can follow the deltas."""

@@ -285,11 +285,16 @@ class Session:
                 self._after_forward(child, event.message)
 
     def _forward(self, event: ChildSaid) -> None:
-        kind = _FORWARDED[event.kind].get(event.message["type"])
+        message, kind = event.message, _FORWARDED[event.kind].get(event.message["type"])
         if kind is None:
             return
-        source = "action" if event.kind == "application" else "world"
-        self._forward_as(kind, {"source": source, **event.message} if kind is messages.Log else event.message)
+        if kind is messages.Log:
+            source = "action" if event.kind == "application" else "world"
+            message = {"source": source, "time": self.sim_time_s, **message}
+        elif kind is messages.Sim:
+            # The world does not know how long ticks take.
+            message = {**message, **self.mirror.tick_load()}
+        self._forward_as(kind, message)
 
     def _forward_as(self, kind: type[Struct], message: dict[str, Any]) -> None:
         if isinstance(t := message.get("t"), float | int):

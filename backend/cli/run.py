@@ -1,0 +1,118 @@
+"""`bt-studio run`: a project with its simulated world, from the terminal."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from executor.report import Report
+    from translator import Project
+
+LOCKSTEP_DURATION_S = 60.0
+
+
+def run(  # noqa: PLR0913, PLR0917 - one an option
+    project: Annotated[str, typer.Argument(help="A project folder, zip or name.")],
+    universe: Annotated[str | None, typer.Option(help="Universe in place of the project's.")] = None,
+    duration: Annotated[
+        float | None, typer.Option(min=0.0, help="Simulated seconds; 60 in lock-step, else until it ends.")
+    ] = None,
+    lockstep: Annotated[
+        bool, typer.Option("--lockstep", help="As fast as the machine can, and always the same.")
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Of everything random in the universe.")] = 0,
+    report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
+) -> None:
+    """Runs a project; exit status 1 if it cannot be run or an action raised."""
+    from backend.cli import _translation as cli
+    from backend.cli.errors import CliError
+    from translator import TranslatorError
+
+    try:
+        opened = cli.open_project(project)
+        done = (
+            _in_lockstep(opened, universe, seed, duration)
+            if lockstep
+            else _in_real_time(opened, universe, seed, duration)
+        )
+    except TranslatorError as error:
+        raise cli.fail(error.diagnostics, as_json=as_json) from error
+    document = json.dumps(done.to_json(), ensure_ascii=False, indent=2) + "\n"
+    if report is not None:
+        cli.write_file(report, document.encode())
+    if as_json:
+        sys.stdout.write(document)
+    else:
+        print(_summary(done))
+    if done.errors:
+        raise CliError(*(_fault_line(fault) for fault in done.errors))
+
+
+def _in_lockstep(project: Project, universe: str | None, seed: int, duration: float | None) -> Report:
+    from backend.cli.errors import CliError
+    from executor.lockstep import LockstepOptions, run_lockstep
+    from executor.universes.document import DocumentError
+    from tree_gardener import LoadError, TickError
+
+    wanted = LOCKSTEP_DURATION_S if duration is None else duration
+    options = LockstepOptions(universe=universe, seed=seed, duration_s=wanted)
+    try:
+        return run_lockstep(project, options, progress=lambda t: _progress(f"{t:6.1f} s of {wanted:g} s"))
+    except DocumentError as error:
+        raise CliError(str(error)) from error
+    except LoadError as error:
+        raise CliError(*map(str, error.diagnostics)) from error
+    except TickError as error:
+        raise CliError(f"{error.file or 'tree'}:{error.line or 1}:1: {error}") from error
+    finally:
+        _progress("")
+
+
+def _in_real_time(project: Project, universe: str | None, seed: int, duration: float | None) -> Report:
+    from backend.cli.errors import CliError
+    from executor.headless import HeadlessError, HeadlessOptions, run_headless
+    from translator import to_app_zip
+
+    def progress(so_far: Report) -> None:
+        _progress(f"{so_far.sim_time_s:6.1f} s, {so_far.ticks} ticks, {so_far.distance_m:.2f} m")
+
+    def say(line: str) -> None:
+        _progress("")
+        print(line, flush=True)
+
+    options = HeadlessOptions(universe, seed, duration)
+    try:
+        return run_headless(project, to_app_zip(project), options, progress=progress, say=say)
+    except HeadlessError as error:
+        raise CliError(str(error)) from error
+    finally:
+        _progress("")
+
+
+def _progress(text: str) -> None:
+    """Rewrites the progress line, where somebody looks at it."""
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r\x1b[K{text}")
+        sys.stderr.flush()
+
+
+def _summary(done: Report) -> str:
+    nearest = "" if done.min_range_m is None else f", nearest {done.min_range_m:.2f} m"
+    return (
+        f"{done.root_status} after {done.ticks} ticks, {done.sim_time_s:.1f} s simulated in "
+        f"{done.wall_time_s:.1f} s ({done.real_time_factor:.1f}× real time); "
+        f"{done.distance_m:.2f} m, {done.collisions} collisions{nearest}"
+    )
+
+
+def _fault_line(fault: dict[str, object]) -> str:
+    code = f"{fault.get('kind') or fault.get('code') or 'exception'}"
+    file = fault.get("file") or fault.get("node_path") or fault.get("path") or "tree"
+    place = f"{file}:{fault.get('line') or 1}:1"
+    return f"{place}: {code} {fault.get('message')}"

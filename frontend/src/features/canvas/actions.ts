@@ -40,7 +40,7 @@ const selectedOnCanvas = () => onCanvas() && hasSelection();
 
 const rows: readonly UserAction[] = [
   {
-    id: 'canvas.undo',
+    id: 'edit.undo',
     group: 'edit',
     labelKey: 'canvas:action.undo',
     icon: IconArrowBackUp,
@@ -51,7 +51,7 @@ const rows: readonly UserAction[] = [
     },
   },
   {
-    id: 'canvas.redo',
+    id: 'edit.redo',
     group: 'edit',
     labelKey: 'canvas:action.redo',
     icon: IconArrowForwardUp,
@@ -62,7 +62,7 @@ const rows: readonly UserAction[] = [
     },
   },
   {
-    id: 'canvas.redoShift',
+    id: 'edit.redoShift',
     group: 'edit',
     labelKey: 'canvas:action.redo',
     shortcut: '$mod+Shift+KeyZ',

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from translator.tree import Tree
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Project:
     """Everything that a translation needs. `diagnostics` are those of reading; `check` adds its own."""
 

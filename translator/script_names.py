@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from tree_gardener.script import Program
 
 MAX_LENGTH = 20_000
 
@@ -24,21 +27,36 @@ class ScriptNames(NamedTuple):
     problem: Problem | None = None
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=32768)
 def script_names(code: str) -> ScriptNames:
     """Returns what is to be known about a script without running it."""
     # Only here, since the engine brings py_trees, which reading and writing trees does without.
-    from tree_gardener.script import ScriptError, names_read, names_written, parse  # noqa: PLC0415
+    from tree_gardener.script import ScriptError, parse  # noqa: PLC0415
 
     if len(code) > MAX_LENGTH:
         return ScriptNames(problem=Problem(0, f"it is longer than {MAX_LENGTH} characters", ""))
     try:
-        program = parse(code)
-        read, written = names_read(program), names_written(program)
+        read, written = _names(parse(code))
     except ScriptError as error:
         return ScriptNames(problem=Problem(error.span[0], error.message, error.hint))
     except RecursionError:
         return ScriptNames(problem=Problem(0, "it is nested too deeply", ""))
-    return ScriptNames(
-        tuple(dict.fromkeys(name.name for name in read)), tuple(dict.fromkeys(name.name for name in written))
-    )
+    return ScriptNames(tuple(dict.fromkeys(read)), tuple(dict.fromkeys(written)))
+
+
+def _names(program: Program) -> tuple[list[str], list[str]]:
+    """Returns the names read and assigned, in one walk; a name that `:=` creates counts as read by none."""
+    from tree_gardener.script.syntax import Assignment, Name, walk  # noqa: PLC0415
+
+    names: list[Name] = []
+    written: list[str] = []
+    created: set[int] = set()
+    for statement in program.statements:
+        for part in walk(statement):
+            if isinstance(part, Name):
+                names.append(part)
+            elif isinstance(part, Assignment) and isinstance(part.target, Name):
+                written.append(part.target.name)
+                if part.operator == ":=":
+                    created.add(id(part.target))
+    return [name.name for name in names if id(name) not in created], written

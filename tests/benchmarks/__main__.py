@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 
-BENCHMARKS = ("engine", "world", "session")
+BENCHMARKS = ("engine", "translator", "world", "session")
 
 
 def main(names: list[str]) -> None:

@@ -1,4 +1,4 @@
-"""Properties: diagram → XML → diagram and XML → diagram → XML change nothing; every tree loads in both engines."""
+"""Properties: diagram → XML → diagram → XML changes nothing; every tree loads in both engines."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 from translator.check.action import check_actions
 from translator.check.context import Context, located
@@ -24,6 +25,17 @@ def check(project: Project) -> tuple[Diagnostic, ...]:
     Each finding has a place: a file, and in it a node or a line. Only findings of severity
     *error* keep the project from being translated.
     """
+    # Exporting asks for the checks again; a project never changes, so once is enough.
+    found = _found.get(project)
+    if found is None:
+        found = _found[project] = _check(project)
+    return found
+
+
+_found: WeakKeyDictionary[Project, tuple[Diagnostic, ...]] = WeakKeyDictionary()
+
+
+def _check(project: Project) -> tuple[Diagnostic, ...]:
     context = Context(project, list(project.diagnostics))
     check_structure(context)
     check_actions(context)

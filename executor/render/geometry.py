@@ -12,9 +12,27 @@ if TYPE_CHECKING:
 
     Vertices = NDArray[np.float32]
 
-SEGMENTS: Final = 28
+SEGMENTS: Final = 24
 RINGS: Final = 12
-CAPSULE_RINGS: Final = 6
+CAPSULE_RINGS: Final = 5
+
+
+def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
+    """Returns each vertex once, and the order in which they make the triangles."""
+    unique, order = np.unique(np.round(vertices, 6), axis=0, return_inverse=True)
+    return unique.astype(np.float32), order.ravel().astype(np.uint32)
+
+
+def grid(count: int) -> Vertices:
+    """The square, in `count` by `count` pieces."""
+    whole, pieces = square(), []
+    for i in range(count):
+        for j in range(count):
+            piece = whole.copy()
+            piece[:, 0] = (piece[:, 0] + 0.5 + i) / count - 0.5
+            piece[:, 1] = (piece[:, 1] + 0.5 + j) / count - 0.5
+            pieces.append(piece)
+    return np.concatenate(pieces)
 
 
 def box() -> Vertices:

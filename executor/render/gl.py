@@ -20,6 +20,7 @@ SAMPLES: Final = 4
 SHADOW_SIZE: Final = 1024
 SHADOW_REACH_M: Final = 14.0
 INSTANCE_BYTES: Final = 80
+SKY_PIECES: Final = 12
 
 
 @dataclass(frozen=True)
@@ -44,11 +45,10 @@ class GlRenderer:
         self.name = f"moderngl on {self._context.info['GL_RENDERER']}"
         self._samples = min(samples, int(self._context.max_samples))
         self._programs = self._compile()
-        self._square = self._context.buffer(geometry.square().tobytes())
-        self._ground = self._vertex_array("ground")
-        self._sky = self._vertex_array("sky")
+        self._ground = self._vertex_array("ground", geometry.square())
+        self._sky = self._vertex_array("sky", geometry.grid(SKY_PIECES))
         self._shadow_map, self._shadow_target = self._make_shadow()
-        self._targets: dict[tuple[int, int], tuple[Any, Any]] = {}
+        self._targets: dict[tuple[int, int, bool], tuple[Any, Any]] = {}
         self._batches: list[_Batch] = []
         self._buffers: list[Any] = []
         self._instances: Instances | None = None
@@ -59,16 +59,19 @@ class GlRenderer:
         self._release_scene()
         self._instances = Instances(scene)
         for group in self._instances.groups:
-            vertices = self._context.buffer(group.vertices.tobytes())
+            points, order = geometry.indexed(group.vertices)
+            vertices, indices = self._context.buffer(points.tobytes()), self._context.buffer(order.tobytes())
             rows = self._context.buffer(reserve=group.count * INSTANCE_BYTES, dynamic=True)
-            self._buffers += [vertices, rows]
-            self._batches.append(self._batch(vertices, rows, group))
+            self._buffers += [vertices, indices, rows]
+            self._batches.append(self._batch(vertices, indices, rows, group))
         self._set_light(scene)
 
-    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
+    def draw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
+    ) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
         self._place(poses)
-        shown, resolved = self._target(width, height)
+        shown, resolved = self._target(width, height, smooth=smooth)
         # Upside down, so that the rows come out of the buffer from top to bottom.
         projection = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
         matrix = view.view_matrix()
@@ -78,9 +81,9 @@ class GlRenderer:
         self._paint(projection @ matrix, view)
         if resolved is not shown:
             self._context.copy_framebuffer(resolved, shown)
-        picture = np.empty((height, width, 4), np.uint8)
-        resolved.read_into(picture, components=4, alignment=1)
-        return np.ascontiguousarray(picture[:, :, :3])
+        picture = np.empty((height, width, 3), np.uint8)
+        resolved.read_into(picture, components=3, alignment=1)
+        return picture
 
     def close(self) -> None:
         """Frees the context and all that was made in it."""
@@ -102,15 +105,16 @@ class GlRenderer:
             for name, (vertex, fragment) in sources.items()
         }
 
-    def _vertex_array(self, program: str) -> Any:
-        return self._context.vertex_array(self._programs[program], [(self._square, "3f 3x4", "in_position")])
+    def _vertex_array(self, program: str, vertices: NDArray[np.float32]) -> Any:
+        buffer = self._context.buffer(vertices.tobytes())
+        return self._context.vertex_array(self._programs[program], [(buffer, "3f 3x4", "in_position")])
 
-    def _batch(self, vertices: Any, rows: Any, group: Group) -> _Batch:
+    def _batch(self, vertices: Any, indices: Any, rows: Any, group: Group) -> _Batch:
         shown = [(vertices, "3f 3f", "in_position", "in_normal"), (rows, "16f 4f/i", "in_model", "in_color")]
         shadow = [(vertices, "3f 3x4", "in_position"), (rows, "16f 4x4/i", "in_model")]
         return _Batch(
-            self._context.vertex_array(self._programs["object"], shown),
-            self._context.vertex_array(self._programs["shadow"], shadow),
+            self._context.vertex_array(self._programs["object"], shown, indices),
+            self._context.vertex_array(self._programs["shadow"], shadow, indices),
             rows,
             group,
         )
@@ -121,14 +125,14 @@ class GlRenderer:
         depth.repeat_x = depth.repeat_y = False
         return depth, self._context.framebuffer(depth_attachment=depth)
 
-    def _target(self, width: int, height: int) -> tuple[Any, Any]:
+    def _target(self, width: int, height: int, *, smooth: bool) -> tuple[Any, Any]:
         """Returns the framebuffer to draw into and the one to read from."""
-        size = (width, height)
-        if size not in self._targets:
+        key = (width, height, smooth and self._samples > 1)
+        if key not in self._targets:
+            size = (width, height)
             resolved = self._framebuffer(size, 0)
-            shown = self._framebuffer(size, self._samples) if self._samples > 1 else resolved
-            self._targets[size] = (shown, resolved)
-        return self._targets[size]
+            self._targets[key] = (self._framebuffer(size, self._samples) if key[2] else resolved, resolved)
+        return self._targets[key]
 
     def _framebuffer(self, size: tuple[int, int], samples: int) -> Any:
         color = self._context.renderbuffer(size, 4, samples=samples)
@@ -170,7 +174,7 @@ class GlRenderer:
         self._shadow_map.use(0)
         for name in ("object", "ground"):
             programs[name]["view_projection"].write(_bytes(matrix))
-            programs[name]["eye"].value = view.eye
+        programs["ground"]["eye"].value = view.eye
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
         context.front_face = "cw"  # the picture is upside down
         for batch in self._batches:

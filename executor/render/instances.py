@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from executor.messages import Scene, Shape
 
-GAMMA: Final = 2.2
+GAMMA: Final = 2.0  # as in the shaders
 
 
 @dataclass(frozen=True)

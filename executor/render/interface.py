@@ -88,11 +88,14 @@ class Renderer(Protocol):
     def load(self, scene: Scene) -> None:
         """Takes a scene in place of the last one."""
 
-    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
+    def draw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
+    ) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first.
 
         Args:
             poses: one row [x, y, z, qx, qy, qz, qw] for each object of the scene.
+            smooth: with antialiasing, where the renderer has it; it costs as much again.
         """
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""The GL renderer's shader programs. Colours are linear inside and sRGB in the picture."""
+"""The GL renderer's shader programs. Colours are linear inside and (nearly) sRGB in the picture."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ uniform vec3 sun_direction;
 uniform vec3 sun_color;
 uniform mat4 light;
 uniform sampler2DShadow shadow_map;
-uniform vec3 eye;
 
 float lit(vec3 place, vec3 normal) {
     vec4 at = light * vec4(place + normal * 0.015, 1.0);
@@ -38,9 +37,10 @@ vec3 shade(vec3 color, vec3 place, vec3 normal) {
     return color * (sky + sun * sun_color);
 }
 
-vec3 finish(vec3 color, vec3 place) {
-    float haze = smoothstep(18.0, 60.0, distance(place, eye));
-    return pow(mix(color, vec3(0.62, 0.71, 0.80), haze), vec3(1.0 / 2.2));
+vec3 finish(vec3 color) {
+    // 1 / gl_FragCoord.w is how far ahead it is. A gamma of 2 for 2.2: powers are what a CPU is slow at.
+    float haze = clamp((1.0 / gl_FragCoord.w - 18.0) / 40.0, 0.0, 1.0);
+    return sqrt(mix(color, vec3(0.62, 0.71, 0.80), haze));
 }
 """
 
@@ -75,7 +75,7 @@ out vec4 picture;
 void main() {{
     vec3 n = normalize(normal);
     vec3 shaded = shade(color, place, n);
-    picture = vec4(finish(shaded, place), 1.0);
+    picture = vec4(finish(shaded), 1.0);
 }}
 """
 
@@ -100,13 +100,13 @@ out vec4 picture;
 float line(vec2 at, float width) {{
     vec2 wide = fwidth(at) + width;
     vec2 away = abs(fract(at - 0.5) - 0.5);
-    vec2 on = 1.0 - smoothstep(wide * 0.5, wide * 1.5, away);
+    vec2 on = clamp(1.5 - away / wide, 0.0, 1.0);
     return max(on.x, on.y) * clamp(0.35 / max(wide.x, wide.y), 0.0, 1.0);
 }}
 void main() {{
     float tiles = line(place.xy, 0.012);
     vec3 color = ground_color * (1.0 - 0.16 * tiles);
-    picture = vec4(finish(shade(color, place, vec3(0.0, 0.0, 1.0)), place), 1.0);
+    picture = vec4(finish(shade(color, place, vec3(0.0, 0.0, 1.0))), 1.0);
 }}
 """
 
@@ -114,22 +114,19 @@ SKY_VERTEX: Final = """
 #version 330
 uniform mat4 to_world;
 in vec3 in_position;
-out vec3 ray;
+out vec3 color;
 void main() {
     vec2 at = in_position.xy * 2.0;
     vec4 far = to_world * vec4(at, 1.0, 1.0);
-    ray = far.xyz / far.w;
+    float up = clamp(normalize(far.xyz / far.w).z, 0.0, 1.0);
+    color = sqrt(mix(vec3(0.62, 0.71, 0.80), vec3(0.27, 0.45, 0.70), sqrt(up)));
     gl_Position = vec4(at, 1.0, 1.0);
 }
 """
 
 SKY_FRAGMENT: Final = """
 #version 330
-in vec3 ray;
+in vec3 color;
 out vec4 picture;
-void main() {
-    float up = clamp(normalize(ray).z, 0.0, 1.0);
-    vec3 color = mix(vec3(0.62, 0.71, 0.80), vec3(0.27, 0.45, 0.70), sqrt(up));
-    picture = vec4(pow(color, vec3(1.0 / 2.2)), 1.0);
-}
+void main() { picture = vec4(color, 1.0); }
 """

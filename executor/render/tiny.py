@@ -39,8 +39,11 @@ class TinyRenderer:
         self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
         self._sun = [-value for value in scene.lights[0].direction]
 
-    def draw(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> NDArray[np.uint8]:
+    def draw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
+    ) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
+        del smooth  # it has no antialiasing
         picture = self._shoot(poses, view, width, height)[2]
         return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
 

@@ -57,12 +57,12 @@ class Sensors:
         key = ("picture", robot.id, camera.name, wide)
         if key not in self._kept:
             view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
-            self._kept[key] = self._draw(view, wide, high)
+            self._kept[key] = self._draw(view, wide, high, smooth=False)
         return self._kept[key]  # type: ignore[return-value]
 
     def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:
         """Returns the world seen from anywhere."""
-        return self._draw(viewpoint, width, height)
+        return self._draw(viewpoint, width, height, smooth=True)
 
     def close(self) -> None:
         """Frees the renderer."""
@@ -70,8 +70,8 @@ class Sensors:
             self._renderer.close()
             self._renderer = None
 
-    def _draw(self, view: Viewpoint, width: int, height: int) -> Picture:
+    def _draw(self, view: Viewpoint, width: int, height: int, *, smooth: bool) -> Picture:
         if self._renderer is None:
             self._renderer = self._make_renderer()
             self._renderer.load(self._world.scene)
-        return self._renderer.draw(self._world.poses(), view, width, height)
+        return self._renderer.draw(self._world.poses(), view, width, height, smooth=smooth)

@@ -4,8 +4,8 @@ from geometry_msgs.msg import Twist
 from tree_gardener.ports import Port, get_input
 
 TURN_GAIN = 1.2  # rad/s when the person is at the picture's edge
-DISTANCE_GAIN = 2.5  # m/s for a person that looks too small by the picture's whole height
-WANTED_HEIGHT = 0.6  # a person this tall in the picture is about 2 m away
+DISTANCE_GAIN = 4.0  # m/s for a person that looks too small by the picture's whole height
+WANTED_HEIGHT = 0.72  # a person this tall in the picture is about 2 m away
 FASTEST = 0.7  # m/s
 
 

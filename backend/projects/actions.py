@@ -286,6 +286,8 @@ def _apply(
     result = plan(current, wanted)
     if result.conflicts:
         raise conflict_error(project, result.conflicts)
+    paths = [change.path for change in wanted]
+    Draft.objects.filter(project=project, author=acting_user, path__in=paths).delete()
     if result.is_empty:
         return
     manifest = _manifest_after(result)
@@ -321,7 +323,6 @@ def _apply(
             for w in result.written
         ]
     )
-    Draft.objects.filter(project=project, author=acting_user, path__in=touched).delete()
     project.revision, project.size, project.updated_at = number, size, now
     fields = ["revision", "size", "updated_at"]
     if manifest is not None:

@@ -6,11 +6,12 @@ import io
 import stat
 import zipfile
 import zlib
+from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
-from backend.config.problems import InvalidInputError
 from backend.projects import names
+from backend.projects.checking import opened
 from backend.projects.errors import ArchiveError, QuotaExceededError
 from backend.projects.manifest import MANIFEST
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 _CHUNK: Final = 256 * 1024
+XML_SUFFIXES: Final = (".xml", ".btproj")
 _JUNK: Final = ("__MACOSX/", ".git/", "__pycache__/")
 
 
@@ -109,11 +111,15 @@ def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
     return {path.removeprefix(folder + "/"): content for path, content in files.items()}
 
 
-def require_project(files: Mapping[str, bytes]) -> None:
-    """Refuses an archive that holds no project of ours."""
-    if MANIFEST not in files:
-        raise InvalidInputError(
-            "The zip holds no project.json, so it is no BT Studio project.",
-            hint="A zip from “Export” has project.json at its top.",
-            field="file",
-        )
+def read_upload(data: bytes, filename: str) -> dict[str, bytes]:
+    """The files of a project from whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
+
+    Raises:
+        ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.
+        CheckFailedError: there is no project in it that can be read.
+    """
+    name = PurePosixPath(filename)
+    if name.suffix.lower() in XML_SUFFIXES:
+        return opened({f"import{name.suffix.lower()}": data}, name.stem)
+    files = unpack(data)
+    return files if MANIFEST in files else opened(files, name.stem)

@@ -15,8 +15,7 @@ from backend.projects.errors import CheckFailedError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from translator import Project as LoadedProject
-    from translator import TranslatorError
+    from translator import Ros2Package, TranslatorError
 
 _KEPT: Final = 64
 
@@ -135,9 +134,37 @@ def app_zip(files: Mapping[str, bytes]) -> bytes:
         _refuse(error)
 
 
+def package(files: Mapping[str, bytes], name: str | None = None) -> Ros2Package:
+    """The ROS 2 package with the engine beside it.
+
+    Raises:
+        CheckFailedError: the project has errors, or the name is none for a ROS package.
+    """
+    import translator  # noqa: PLC0415
+
+    try:
+        return translator.to_ros2_package(translator.load(files), name=name)
+    except translator.TranslatorError as error:
+        _refuse(error)
+
+
+def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
+    """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
+
+    Raises:
+        CheckFailedError: it is none of them.
+    """
+    import translator  # noqa: PLC0415
+
+    try:
+        return dict(translator.open_files(files, name=name).files)
+    except translator.TranslatorError as error:
+        _refuse(error)
+
+
 def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
     """A universe of the project as document with its assets, or the id of a built-in one."""
-    from backend.projects.archive import pack  # noqa: PLC0415
+    from backend.projects.archive import pack  # noqa: PLC0415 - it imports this module
 
     document = files.get(f"universes/{name}.yaml")
     if document is None:
@@ -155,13 +182,6 @@ def inspect(source: str, filename: str) -> dict[str, Any]:
     import translator  # noqa: PLC0415
 
     return translator.inspect_action(source, filename).to_json()
-
-
-def load(files: Mapping[str, bytes]) -> LoadedProject:
-    """The project as the translator reads it."""
-    import translator  # noqa: PLC0415
-
-    return translator.load(files)
 
 
 def _refuse(error: TranslatorError) -> NoReturn:

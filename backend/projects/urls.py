@@ -20,6 +20,8 @@ urlpatterns = [
     path(f"{ONE}/check", views.Check.as_view()),
     path(f"{ONE}/app", views.App.as_view()),
     path(f"{ONE}/xml", views_files.Xml.as_view()),
+    path(f"{ONE}/package", views_files.Package.as_view()),
+    path(f"{ONE}/package/preview", views_files.PackagePreview.as_view()),
     path(f"{ONE}/export", views_files.Export.as_view()),
     path(f"{ONE}/files/<path:path>", views_files.File.as_view()),
     path(f"{ONE}/revisions", views_revisions.Revisions.as_view()),

@@ -76,7 +76,7 @@ class OneProject(APIView):
     @extend_schema(
         operation_id="get_project",
         parameters=[IF_NONE_MATCH],
-        responses=s.ProjectDetailSerializer,
+        responses={200: s.ProjectDetailSerializer, 304: None},
         tags=["projects"],
     )
     def get(self, request: Request, project_id: UUID) -> Response:

@@ -10,6 +10,7 @@ from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
 from rest_framework import serializers
 from rest_framework.parsers import MultiPartParser
+from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import user_of
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from rest_framework.request import Request
-    from rest_framework.response import Response
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
@@ -35,6 +35,14 @@ def download(data: bytes | str, content_type: str, filename: str) -> HttpRespons
     response.headers["Content-Disposition"] = f"attachment; filename*=UTF-8''{quote(filename, safe='')}"
     response.headers["Content-Security-Policy"] = "default-src 'none'; sandbox"
     return response
+
+
+def flag(request: Request, name: str) -> bool:
+    """A yes or no of the query."""
+    wish = request.query_params.get(name, "false").lower()
+    if wish not in {"", "0", "1", "true", "false"}:
+        raise InvalidInputError(f"{name} is true or false.", field=name)
+    return wish in {"1", "true"}
 
 
 class File(APIView):
@@ -71,10 +79,7 @@ class Xml(APIView):
     def get(self, request: Request, project_id: UUID) -> HttpResponse:
         """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
         project = queries.project(project_id, user=user_of(request))
-        wish = request.query_params.get("self_contained", "false").lower()
-        if wish not in {"", "0", "1", "true", "false"}:
-            raise InvalidInputError("self_contained is true or false.", field="self_contained")
-        text = checking.xml(queries.contents(project), self_contained=wish in {"1", "true"})
+        text = checking.xml(queries.contents(project), self_contained=flag(request, "self_contained"))
         return download(text, "text/xml; charset=utf-8", f"{project.name}.xml")
 
 
@@ -90,6 +95,68 @@ class Export(APIView):
         """The current files as a zip; the same revision gives the same bytes."""
         project = queries.project(project_id, user=user_of(request))
         return download(archive.pack(queries.contents(project)), "application/zip", f"{project.name}.zip")
+
+
+class Package(APIView):
+    """What users take away."""
+
+    @extend_schema(
+        operation_id="get_package",
+        parameters=[
+            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
+            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
+        ],
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request))
+        files = queries.contents(project)
+        if flag(request, "dockerized"):
+            return download(checking.app_zip(files), "application/zip", f"{project.name}.zip")
+        package = checking.package(files, request.query_params.get("name") or None)
+        return download(package.to_zip(), "application/zip", f"{package.name}.zip")
+
+
+class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
+    """A file of the package."""
+
+    path = serializers.CharField()
+    size = serializers.IntegerField()
+
+
+class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
+    """What a package will hold."""
+
+    name = serializers.CharField()
+    files = PackageFileSerializer(many=True)
+    manifest = serializers.CharField(help_text="package.xml, with the dependencies.")
+    diagnostics = s.DiagnosticSerializer(many=True)
+
+
+class PackagePreview(APIView):
+    """What users will take away."""
+
+    @extend_schema(
+        operation_id="preview_package",
+        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
+        responses=PackagePreviewSerializer,
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> Response:
+        """What the ROS 2 package will hold, before it is downloaded."""
+        project = queries.project(project_id, user=user_of(request))
+        package = checking.package(queries.contents(project), request.query_params.get("name") or None)
+        manifest = package.files.get(f"{package.name}/package.xml", b"")
+        return Response(
+            {
+                "name": package.name,
+                "files": [{"path": path, "size": len(data)} for path, data in sorted(package.files.items())],
+                "manifest": manifest.decode(),
+                "diagnostics": [found.to_json() for found in package.diagnostics],
+            }
+        )
 
 
 class UploadSerializer(serializers.Serializer[dict[str, object]]):
@@ -111,7 +178,7 @@ class Import(APIView):
         tags=["files"],
     )
     def post(self, request: Request) -> Response:
-        """Makes a project of a zip."""
+        """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML."""
         user = user_of(request)
         uploaded = request.FILES.get("file")
         if uploaded is None:
@@ -122,8 +189,7 @@ class Import(APIView):
         uploaded.seek(0)
 
         def effect() -> Response:
-            files = archive.unpack(data)
-            archive.require_project(files)
+            files = archive.read_upload(data, uploaded.name or "")
             project = actions.create_project(files, acting_user=user, message="Import")
             return detail_response(project, 201)
 

@@ -110,6 +110,13 @@ def delete_file(user: User, asked: Parameters) -> Response:
     return Response(DONE)
 
 
+def generate_app(user: User, asked: Parameters) -> HttpResponse:
+    """The ROS 2 package of the project."""
+    project = _project(user, asked)
+    package = checking.package(queries.contents(project), asked.get("app_name") or None)
+    return download(package.to_zip(), "application/zip", f"{package.name}.zip")
+
+
 def get_dockerized_app(user: User, asked: Parameters) -> HttpResponse:
     """The app as the manager runs it."""
     project = _project(user, asked)
@@ -177,7 +184,14 @@ def _call(handler: Handler | None, request: Request, asked: Parameters) -> Respo
     return handler(user_of(request), asked)
 
 
-READING: Final = (get_project_list, get_project_graph, get_file_list, get_file, get_dockerized_app)
+READING: Final = (
+    get_project_list,
+    get_project_graph,
+    get_file_list,
+    get_file,
+    generate_app,
+    get_dockerized_app,
+)
 WRITING: Final = (create_project, delete_project, save_project_graph, create_file, delete_file, save_file)
 ALIASES: Final = {"save_project": save_project_graph, "get_simplified_app": get_dockerized_app}
 

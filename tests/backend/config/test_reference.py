@@ -1,0 +1,31 @@
+"""The generated reference pages are those that the code writes."""
+
+from __future__ import annotations
+
+import pytest
+
+from backend.config import reference
+
+
+@pytest.mark.parametrize("path", sorted(reference.pages()), ids=lambda path: path.name)
+def test_a_page_is_current(path):
+    assert path.read_text(encoding="utf-8") == reference.pages()[path], (
+        "run python -m backend.config.reference"
+    )
+
+
+def test_every_setting_says_what_it_does():
+    for row in reference.settings_page().splitlines()[9:]:
+        assert row.endswith(". |")
+
+
+def test_every_operation_has_a_name_a_description_and_an_answer(db):
+    from backend.config.schema_view import document
+
+    names = set()
+    for operations in document()["paths"].values():
+        for operation in operations.values():
+            assert operation["description"]
+            assert "default" in operation["responses"]
+            names.add(operation["operationId"])
+    assert len(names) == sum(len(operations) for operations in document()["paths"].values())

@@ -106,14 +106,14 @@ class Forest:
         """Finds trees that contain themselves and SubTrees without a tree, from the main tree on."""
         problems: list[Diagnostic] = []
         done: set[str] = set()
-        above: list[str] = [main.tree_id]
+        above: dict[str, None] = {main.tree_id: None}  # in order, and quick to look up
         stack = [(main, iter(_subtrees(main)))]
         while stack:
             definition, rest = stack[-1]
             element = next(rest, None)
             if element is None:
                 stack.pop()
-                done.add(above.pop())
+                done.add(above.popitem()[0])
                 continue
             name = element.attributes["ID"]
             target = self.definitions.get(name)
@@ -125,14 +125,15 @@ class Forest:
                     report(element, "TG222", message, hint, attribute="ID", tree=definition.tree_id)
                 )
             elif name in above:
-                way = " → ".join([*above[above.index(name) :], name])
+                names = list(above)
+                way = " → ".join([*names[names.index(name) :], name])
                 hint = "use Repeat or KeepRunningUntilFailure to do something again"
                 message = f"the tree '{name}' contains itself: {way}"
                 problems.append(
                     report(element, "TG223", message, hint, attribute="ID", tree=definition.tree_id)
                 )
             elif name not in done:
-                above.append(name)
+                above[name] = None
                 stack.append((target, iter(_subtrees(target))))
         return problems
 

@@ -75,7 +75,8 @@ class Loop(Decorator):
         """No element is left."""
         result: Status = self.get("if_empty")
         if result is SUCCESS or result is FAILURE:
-            return self.finish(result)
+            # A child that was skipped in the middle of its work is not halted here, as in BehaviorTree.CPP.
+            return self.complete(result)
         if result is SKIPPED:
             return self.skipped()
         if self.status is not RUNNING:

@@ -18,9 +18,14 @@ class _Counting(Decorator):
         super().halt()
 
     def end(self, status: Status) -> Status:
-        """Forgets the count and takes a result."""
+        """The child gave the result."""
         self.count = 0
         return self.finish(status)
+
+    def exhausted(self, status: Status) -> Status:
+        """No cycle remains: the child was reset already, or is left as it is, as in BehaviorTree.CPP."""
+        self.count = 0
+        return self.complete(status)
 
     def child_skipped(self) -> Status:
         """The child was skipped: it is reset and the count is kept."""
@@ -57,7 +62,7 @@ class Repeat(_Counting):
             if before is IDLE and (self.count < cycles or cycles == -1):
                 self.tree.wake_up = True
                 return RUNNING
-        return self.end(SUCCESS)
+        return self.exhausted(SUCCESS)
 
 
 class RetryUntilSuccessful(_Counting):
@@ -90,4 +95,4 @@ class RetryUntilSuccessful(_Counting):
             if before is IDLE and (self.count < attempts or attempts == -1):
                 self.tree.wake_up = True
                 return RUNNING
-        return self.end(FAILURE)
+        return self.exhausted(FAILURE)

@@ -1,0 +1,1 @@
+"""Differential fuzzing: the same random trees in the engine and in BehaviorTree.CPP (behaviortreepy)."""

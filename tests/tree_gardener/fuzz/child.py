@@ -1,0 +1,26 @@
+"""Runs a batch of cases in BehaviorTree.CPP, in a process of its own because it can crash.
+
+Reads pickled cases from stdin; writes one JSON line a case, so that a crash tells where it was.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pickle
+import sys
+
+from tests.tree_gardener.fuzz.trace import run_reference
+
+
+def main() -> None:
+    # behaviortreepy prints what it catches; our lines go through a copy of stdout.
+    out = os.fdopen(os.dup(1), "w")
+    os.dup2(2, 1)
+    for case in pickle.load(sys.stdin.buffer):  # noqa: S301 - our own parent wrote it
+        out.write(json.dumps(run_reference(case)) + "\n")
+        out.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,38 @@
+"""The same random trees in the engine and in BehaviorTree.CPP 4.8.2."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import pytest
+
+from tests.budget import count
+from tests.tree_gardener.fuzz.compare import difference, reference_traces, report
+from tests.tree_gardener.fuzz.generate import generate
+
+BATCH = 100
+FIRST_SEED = int(os.environ.get("BT_STUDIO_FUZZ_SEED", "1"))
+
+
+@pytest.mark.timeout(600)
+def test_random_trees_run_as_in_behaviortree_cpp(capsys: pytest.CaptureFixture[str]) -> None:
+    total, compared, refused = count("engine_fuzz_trees"), 0, 0
+    with capsys.disabled():
+        print(f"\nengine fuzz: seeds {FIRST_SEED} to {FIRST_SEED + total - 1} ", end="")
+    for start in range(FIRST_SEED, FIRST_SEED + total, BATCH):
+        cases = [generate(seed) for seed in range(start, min(start + BATCH, FIRST_SEED + total))]
+        for case, reference in zip(cases, reference_traces(cases), strict=True):
+            if difference(case, reference):
+                pytest.fail(report(case))
+            compared += reference is not None
+            refused += reference == [{"load": "refused"}]
+    # A generator that makes nothing but refused trees or crashes would prove nothing.
+    assert compared >= 0.97 * total
+    assert refused <= 0.05 * total
+
+
+def test_the_generator_makes_the_same_case_of_the_same_seed() -> None:
+    seed = random.Random(3).randrange(10**6)
+    assert generate(seed) == generate(seed)
+    assert generate(seed).xml() != generate(seed + 1).xml()

@@ -13,7 +13,6 @@ import sys
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.report import NodeCount, Report, quantiles
@@ -21,13 +20,13 @@ from executor.ros.environment import lockstep_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from tree_gardener import Status, TickError, Tree
-    from tree_gardener.node import Node as TreeNode
+    from pathlib import Path
 
     from executor.ros.spin import DrainingExecutor
     from executor.world.bullet import BulletWorld
     from translator import Project
+    from tree_gardener import Status, TickError, Tree
+    from tree_gardener.node import Node as TreeNode
 
     Progress = Callable[[float], None]
 
@@ -174,9 +173,8 @@ class _Run:
         self._stack.append(self._executor.shutdown)
 
     def _make_tree(self, project: Project) -> Tree:
-        from tree_gardener import Tree  # noqa: PLC0415 - after the environment
-
         from translator import self_contained  # noqa: PLC0415
+        from tree_gardener import Tree  # noqa: PLC0415 - after the environment
 
         for package in MESSAGE_MODULES:  # programs use `geometry_msgs.msg` after `import geometry_msgs`
             __import__(f"{package}.msg")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING, Any, Final
 
@@ -62,7 +63,7 @@ def cylinder() -> Vertices:
     circle = _circle()
     up = np.array([0.0, 0.0, 1.0])
     half = up / 2
-    for a, b in zip(circle, circle[1:], strict=False):
+    for a, b in itertools.pairwise(circle):
         triangles += [
             (a - half, a),
             (b - half, b),
@@ -85,8 +86,8 @@ def capsule(radius: float, length: float) -> Vertices:
         rows = rows[: rings + 1] + rows[rings + 2 :]
     triangles: list[tuple[Any, Any]] = []
     circle = _circle()
-    for (lat0, z0), (lat1, z1) in zip(rows, rows[1:], strict=False):
-        for c0, c1 in zip(circle, circle[1:], strict=False):
+    for (lat0, z0), (lat1, z1) in itertools.pairwise(rows):
+        for c0, c1 in itertools.pairwise(circle):
             normals = [_on_sphere(c0, lat0), _on_sphere(c1, lat0), _on_sphere(c1, lat1), _on_sphere(c0, lat1)]
             points = [n * radius + (0, 0, z) for n, z in zip(normals, (z0, z0, z1, z1), strict=True)]
             triangles += [(points[i], normals[i]) for i in (0, 1, 2, 0, 2, 3)]
@@ -107,7 +108,8 @@ def _circle() -> list[NDArray[np.float64]]:
 
 
 def _on_sphere(around: NDArray[np.float64], latitude: float) -> NDArray[np.float64]:
-    return around * math.cos(latitude) + np.array([0.0, 0.0, math.sin(latitude)])
+    point: NDArray[np.float64] = around * math.cos(latitude) + np.array([0.0, 0.0, math.sin(latitude)])
+    return point
 
 
 def _pack(triangles: list[tuple[Any, Any]]) -> Vertices:

@@ -200,7 +200,8 @@ def _make_context() -> Any:
     try:
         import moderngl  # noqa: PLC0415 - needs libEGL, which may be missing
 
-        return moderngl.create_context(standalone=True, backend="egl", require=330)
+        options: dict[str, Any] = {"standalone": True, "require": 330, "backend": "egl"}
+        return moderngl.create_context(**options)
     except Exception as error:
         raise RenderError(str(error).splitlines()[0] if str(error) else type(error).__name__) from error
 
@@ -230,5 +231,5 @@ def _translation(by: tuple[float, float, float]) -> NDArray[np.float64]:
     return matrix
 
 
-def _bytes(matrix: NDArray[np.float64]) -> bytes:
+def _bytes(matrix: NDArray[np.floating[Any]]) -> bytes:
     return matrix.T.astype(np.float32).tobytes()

@@ -42,9 +42,9 @@ class Instances:
         self._object_rows = np.array([row for row, _ in members], np.intp)
         self._local = np.array([_local_matrix(shape) for _, shape in members], np.float32).reshape(-1, 4, 4)
         self._rows = np.zeros((len(members), 20), np.float32)
-        for row, (_, shape) in zip(self._rows, members, strict=True):
-            row[16:19] = np.array(shape.color[:3]) ** GAMMA
-            row[19] = shape.color[3]
+        for i, (_, shape) in enumerate(members):
+            self._rows[i, 16:19] = np.array(shape.color[:3]) ** GAMMA
+            self._rows[i, 19] = shape.color[3]
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -103,7 +103,8 @@ def _vertices(key: tuple[object, ...], scene: Scene) -> NDArray[np.float32]:
 def _local_matrix(shape: Shape) -> NDArray[np.float32]:
     matrix = matrices(np.array([shape.pose], np.float32))[0]
     scale = np.array([*_scale(shape), 1.0], np.float32)
-    return matrix * scale
+    scaled: NDArray[np.float32] = matrix * scale
+    return scaled
 
 
 def _scale(shape: Shape) -> tuple[float, float, float]:

@@ -95,6 +95,9 @@ class Renderer(Protocol):
 
         Args:
             poses: one row [x, y, z, qx, qy, qz, qw] for each object of the scene.
+            view: where one looks from.
+            width: of the picture in pixels.
+            height: of the picture in pixels.
             smooth: with antialiasing, where the renderer has it; it costs as much again.
         """
 

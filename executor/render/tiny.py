@@ -1,4 +1,4 @@
-"""The renderer of last resort: PyBullet's TinyRenderer, which needs no OpenGL. Slow, but the same geometry."""
+"""The renderer of last resort: PyBullet's TinyRenderer. It needs no OpenGL, is slow, and draws the same."""
 
 from __future__ import annotations
 

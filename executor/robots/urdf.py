@@ -83,7 +83,7 @@ def parse_urdf(data: bytes, file: str = "robot.urdf") -> Urdf:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
         raise UrdfError(f"{file}:{error.lineno}: {error.msg}") from error
-    if root.getroottree().docinfo.doctype:
+    if b"<!DOCTYPE" in data:
         raise UrdfError(f"{file}: a URDF needs no DOCTYPE")
     if root.tag != "robot":
         raise UrdfError(f"{file}:{root.sourceline}: the first element must be <robot>")

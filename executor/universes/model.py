@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
 
-Shape = Literal["box", "cylinder", "sphere", "plane", "mesh", "urdf", "sdf"]
+Shape = Literal["box", "cylinder", "sphere", "plane"]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$")]
 Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
@@ -19,7 +19,6 @@ SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "cylinder": ("radius", "length"),
     "sphere": ("radius",),
     "plane": ("x", "y"),
-    "mesh": ("scale x", "scale y", "scale z"),
 }
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
@@ -43,21 +42,14 @@ class Model(_Strict):
 
     id: Name
     shape: Shape
-    size: tuple[Positive, ...] = ()
+    size: tuple[Positive, ...]
     pose: Pose = (0, 0, 0, 0, 0, 0)
     color: Color = "#9aa4b0"
     mass: float = Field(default=0.0, ge=0, le=1e5)
     friction: float = Field(default=0.6, ge=0, le=10)
-    file: str = ""
 
     @model_validator(mode="after")
     def _size_fits_shape(self) -> Model:
-        if self.shape in ("mesh", "urdf", "sdf"):
-            if not self.file:
-                raise ValueError(f"a {self.shape} needs a `file`")
-            if self.shape == "mesh" and len(self.size) not in (0, 3):
-                raise ValueError("the `size` of a mesh is its scale [x, y, z]")
-            return self
         meaning = SIZE_MEANING[self.shape]
         if len(self.size) != len(meaning):
             raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
@@ -120,7 +112,7 @@ class Universe(_Strict):
     @model_validator(mode="after")
     def _ids_are_unique(self) -> Universe:
         seen: set[str] = {"ground"}
-        for thing in (*self.models, *self.actors, *self.robots):
+        for thing in self._things():
             if thing.id in seen:
                 raise ValueError(
                     f"the id {thing.id!r} is used twice"
@@ -132,7 +124,7 @@ class Universe(_Strict):
 
     @model_validator(mode="after")
     def _random_keys_exist(self) -> Universe:
-        things = {thing.id: thing for thing in (*self.models, *self.actors, *self.robots)}
+        things = {thing.id: thing for thing in self._things()}
         for key, (low, high) in self.random.items():
             match = _RANDOM_KEY.match(key)
             if match is None or match["id"] not in things:
@@ -143,6 +135,9 @@ class Universe(_Strict):
             if low > high:
                 raise ValueError(f"random: the range of {key!r} is upside down")
         return self
+
+    def _things(self) -> list[Model | Actor | RobotPlace]:
+        return [*self.models, *self.actors, *self.robots]
 
     def random_target(self, key: str) -> tuple[str, str, int]:
         """Returns (id, field, index into the field or -1) of a key of `random`."""

@@ -50,8 +50,7 @@ def make_body(bullet: Bullet, model: Model) -> Body:
 
 def scene_shape(model: Model) -> Shape:
     """Returns what one sees of a primitive model."""
-    kind, size = model.shape, list(model.size)
-    return Shape(shape=kind, size=size, pose=list(IDENTITY), color=rgba(model.color))
+    return Shape(shape=model.shape, size=list(model.size), pose=list(IDENTITY), color=rgba(model.color))
 
 
 def capsule(bullet: Bullet, radius: float, length: float, at: Pose) -> int:

@@ -11,7 +11,7 @@ from executor.world.actor import BulletActor
 from executor.world.bodies import Body, make_body, make_ground, rgba, scene_shape
 from executor.world.engine import Bullet
 from executor.world.interface import WorldError
-from executor.world.objects import SceneObjects
+from executor.world.objects import Kind, SceneObjects
 from executor.world.placement import place_at_rest
 from executor.world.randomize import draw
 from executor.world.robot import BulletRobot
@@ -75,6 +75,11 @@ class BulletWorld:
             load_robot(robot or place.model, assets) for place in universe.robots
         ]
         self._bullet = Bullet()
+        self._steps = 0
+        self._poses: NDArray[np.float32] | None = None
+        self._collisions: list[tuple[str, Collision]] = []
+        self._objects = SceneObjects()
+        self._content = _Content()
         self._build()
 
     @property
@@ -202,10 +207,8 @@ class BulletWorld:
     def _build(self) -> None:
         self._set_up_physics()
         self._steps = 0
-        self._poses: NDArray[np.float32] | None = None
-        self._collisions: list[tuple[str, Collision]] = []
-        self._objects = SceneObjects()
-        self._content = _Content()
+        self._poses, self._collisions = None, []
+        self._objects, self._content = SceneObjects(), _Content()
         universe, content = self._universe, self._content
         content.ground = make_ground(self._bullet, universe.ground.friction)
         for model in universe.models:
@@ -231,7 +234,7 @@ class BulletWorld:
         body = make_body(self._bullet, model)
         self._content.bodies[model.id] = body
         self._content.names[body.uid] = model.id
-        kind = "dynamic" if body.is_dynamic else "static"
+        kind: Kind = "dynamic" if body.is_dynamic else "static"
         object_id = self._objects.add(model.id, "", kind, [scene_shape(model)], from_xyz_rpy(model.pose))
         # Static bodies too: they can be dragged.
         self._objects.add_mover(lambda: self._where(object_id, body.uid))

@@ -35,11 +35,17 @@ class Robot(Protocol):
     """One robot of a world."""
 
     @property
-    def id(self) -> str: ...
+    def id(self) -> str:
+        """Its name in the universe."""
+
     @property
-    def config(self) -> RobotConfig: ...
+    def config(self) -> RobotConfig:
+        """What it is made of."""
+
     @property
-    def odometry(self) -> Odometry: ...
+    def odometry(self) -> Odometry:
+        """Where the wheels say that it is."""
+
     @property
     def pose(self) -> tuple[float, float, float]:
         """True x and y in m and yaw in rad."""
@@ -72,17 +78,24 @@ class World(Protocol):
     """A simulated world that stands still until it is stepped."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """The universe's name."""
+
     @property
-    def time_s(self) -> float: ...
+    def time_s(self) -> float:
+        """Simulated time since the last reset."""
+
     @property
-    def step_s(self) -> float: ...
+    def step_s(self) -> float:
+        """Length of a step."""
+
     @property
     def scene(self) -> Scene:
         """What there is to see; `poses` are of its objects, in their order."""
 
     @property
-    def robots(self) -> Sequence[Robot]: ...
+    def robots(self) -> Sequence[Robot]:
+        """The robots, in the universe's order."""
 
     def step(self, count: int = 1) -> None:
         """Simulates `count` steps."""

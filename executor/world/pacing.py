@@ -11,7 +11,7 @@ FREE_RUN_STEPS: Final = 48
 
 
 class Pacer:
-    """Says how many steps are due. What a stalled machine misses is not caught up beyond `LARGEST_DELAY_S`."""
+    """Says how many steps are due. What a stalled machine misses beyond `LARGEST_DELAY_S` is left out."""
 
     def __init__(self, step_s: float, speed: float = 1.0) -> None:
         self._step_s = step_s

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from executor.messages import Shape
 from executor.world.transforms import Pose, compose, from_xyz_rpy
-from executor.world.walk import Gait
+
+if TYPE_CHECKING:
+    from executor.world.walk import Gait
 
 SKIN: Final = [0.87, 0.68, 0.55, 1.0]
 HAIR: Final = [0.20, 0.13, 0.09, 1.0]
@@ -18,7 +20,7 @@ Rgba = list[float]
 
 @dataclass(frozen=True)
 class Part:
-    """A rigid part. `sign` says how it swings with the gait; `capsule` (radius, length, z) is its collision."""
+    """A rigid part. `sign` says how it swings with the gait; `capsule` is its radius, length, z."""
 
     name: str
     hinge: tuple[float, float, float]

@@ -69,8 +69,8 @@ class WorldProcess:
 
     def _warm_up(self) -> None:
         """Loads now what `start` would otherwise have to wait for."""
-        import executor.ros.node  # noqa: PLC0415 - ROS reads the environment when it is loaded
-        from executor.render import make_renderer  # noqa: PLC0415 - dito
+        from executor.render import make_renderer  # noqa: PLC0415 - slow to load
+        from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
         from executor.world import bullet, clockwork  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()

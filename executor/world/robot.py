@@ -12,7 +12,6 @@ import numpy as np
 from executor.messages import SensorPlacement, Shape
 from executor.world.collision import Collision, CollisionCounter
 from executor.world.drive import DifferentialDrive, DriveState, Odometry
-from executor.world.interface import LidarReading
 from executor.world.lidar import LidarCaster
 from executor.world.transforms import (
     IDENTITY,
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
     from executor.robots.urdf import Joint, Visual
     from executor.universes.model import RobotPlace
     from executor.world.engine import Bullet
+    from executor.world.interface import LidarReading
     from executor.world.objects import SceneObjects
 
 DEFAULT_FRICTION: Final = 0.8
@@ -188,11 +188,16 @@ class BulletRobot:
             for link, link_shapes in shapes.items()
         }
         objects.add_mover(lambda: self._where(ids))
-        for sensor in (*self.config.lidars, *self.config.cameras):
-            carrier, pose = urdf.rigid_parent(sensor.link)
-            fov = 2 * math.pi if sensor.kind == "lidar" else sensor.fov
-            reach = sensor.range_max if sensor.kind == "lidar" else sensor.far
-            sensors.append(SensorPlacement(sensor.name, sensor.kind, ids[carrier], list(pose), fov, reach))
+        for lidar in self.config.lidars:
+            carrier, pose = urdf.rigid_parent(lidar.link)
+            sensors.append(
+                SensorPlacement(lidar.name, "lidar", ids[carrier], list(pose), 2 * math.pi, lidar.range_max)
+            )
+        for camera in self.config.cameras:
+            carrier, pose = urdf.rigid_parent(camera.link)
+            sensors.append(
+                SensorPlacement(camera.name, "camera", ids[carrier], list(pose), camera.fov, camera.far)
+            )
 
     # --- inside ---
 

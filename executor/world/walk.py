@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import itertools
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -25,7 +26,7 @@ class Path:
         closed = [*points, points[0]] if loop or len(points) == 1 else [*points, *reversed(points[:-1])]
         self._points = closed
         self._ends = [0.0]
-        for a, b in zip(closed, closed[1:], strict=False):
+        for a, b in itertools.pairwise(closed):
             self._ends.append(self._ends[-1] + math.dist(a, b))
 
     @property

@@ -11,6 +11,7 @@ import json
 import math
 import threading
 import time
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any, Self
 
@@ -27,6 +28,7 @@ class Observer:
 
     control: ClientConnection
     stream: ClientConnection
+    sockets: ExitStack
     objects: dict[str, int] = field(default_factory=dict)
     poses: dict[int, list[tuple[float, np.ndarray]]] = field(default_factory=dict)
     events: list[dict[str, Any]] = field(default_factory=list)
@@ -38,14 +40,18 @@ class Observer:
         """Joins session `session_id` of the server at `origin` and subscribes to its poses."""
         socket = origin.replace("http", "ws", 1) + f"/ws/sessions/{session_id}"
         headers = {"Cookie": cookie}
-        control = connect(f"{socket}/control", additional_headers=headers, origin=origin, max_size=None)
+        sockets = ExitStack()
+
+        def opened(path: str) -> ClientConnection:
+            connection = connect(f"{socket}/{path}", additional_headers=headers, origin=origin, max_size=None)
+            return sockets.enter_context(connection)
+
+        control = opened("control")
         first = json.loads(control.recv(timeout=10))
         assert first["command"] == "introspection", first
         client = first["data"]["client_id"]
-        stream = connect(
-            f"{socket}/stream?client={client}", additional_headers=headers, origin=origin, max_size=None
-        )
-        observer = cls(control, stream, events=[first])
+        stream = opened(f"stream?client={client}")
+        observer = cls(control, stream, sockets, events=[first])
         observer.threads = [
             threading.Thread(target=observer._read_control, daemon=True),
             threading.Thread(target=observer._read_stream, daemon=True),
@@ -63,8 +69,7 @@ class Observer:
 
     def close(self) -> None:
         """Leaves the session."""
-        self.control.close()
-        self.stream.close()
+        self.sockets.close()
         for thread in self.threads:
             thread.join(timeout=5)
 

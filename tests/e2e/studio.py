@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from tests.e2e.server import Server
 
 OUTPUT = Path(__file__).parent / "output"
-RUN_DEADLINE_MS = 40_000
 # A refused or lost request is shown by the page; that the browser also notes it is not our complaint.
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
@@ -56,11 +55,11 @@ class Studio:
     def run(self) -> None:
         """Presses Run and waits until the application runs."""
         self.at("run").click()
-        self.expect_state("application_running", RUN_DEADLINE_MS)
+        self.expect_state("application_running")
 
-    def expect_state(self, state: str, timeout_ms: float = 15_000) -> None:
+    def expect_state(self, state: str) -> None:
         """Waits for a rung of the ladder."""
-        expect(self.at("executor-state")).to_have_attribute("data-state", state, timeout=timeout_ms)
+        expect(self.at("executor-state")).to_have_attribute("data-state", state)
 
     def saved(self) -> None:
         """Waits until everything typed is stored."""

@@ -58,7 +58,7 @@ def test_an_action_that_raises_is_named_with_file_and_line(studio: Studio) -> No
     line = bad.splitlines().index("        self.publisher.publish(twst)") + 1
     studio.replace_code(bad)
     studio.at("run").click()
-    expect(studio.at("banner")).to_contain_text("twst", timeout=40_000)
+    expect(studio.at("banner")).to_contain_text("twst")
     expect(studio.at("banner")).to_contain_text(f"Forward.py:{line}")
     studio.page.get_by_role("tab", name=re.compile("MainTree")).or_(
         studio.page.locator(".flexlayout__tab_button", has_text="MainTree")
@@ -78,9 +78,9 @@ def test_an_action_that_never_returns_is_detected_and_named(studio: Studio) -> N
     bad = good.replace("        twist = Twist()", "        while True: pass\n        twist = Twist()")
     studio.replace_code(bad)
     studio.at("run").click()
-    expect(studio.at("banner")).to_contain_text("Forward", timeout=40_000)
+    expect(studio.at("banner")).to_contain_text("Forward")
     studio.at("stop").click()
-    studio.expect_state("visualization_ready", 20_000)
+    studio.expect_state("visualization_ready")
 
     studio.replace_code(good)
     studio.run()

@@ -11,7 +11,8 @@ interface ConsoleLineProps {
 }
 
 export const ConsoleLine = memo(function ConsoleLine({ line, files }: ConsoleLineProps) {
-  const node = line.node_path.split('/').at(-1) ?? '';
+  // The engine numbers nodes without a name of their own: `Forward::6`.
+  const node = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
   return (
     <div className={classes['line']} data-level={line.level} data-source={line.source}>
       <span className={classes['time']}>{line.time.toFixed(2)}</span>

@@ -3,7 +3,7 @@ import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
-import { disconnect, reattach } from '@/store/session/connection';
+import { leave, reattach } from '@/store/session/connection';
 
 type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
 
@@ -27,7 +27,7 @@ export function useProject(projectId: string): Opening {
     return () => {
       loading.abort();
       stopAutosave();
-      disconnect();
+      leave();
     };
   }, [projectId]);
   return opening;

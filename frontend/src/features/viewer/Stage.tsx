@@ -79,7 +79,7 @@ export function Stage({ scene, options, isDark }: StageProps) {
       <Lights scene={scene} bounds={world.bounds} isDark={isDark} hasShadows={!isSimple} />
       <mesh receiveShadow position={[0, 0, -0.002]}>
         <planeGeometry args={[200, 200]} />
-        <GroundMaterial color={scene.ground_color} isDark={isDark} />
+        <GroundMaterial color={scene.ground_color} isDark={isDark} isSimple={isSimple} />
       </mesh>
       {options.grid ? (
         <gridHelper
@@ -105,12 +105,19 @@ export function Stage({ scene, options, isDark }: StageProps) {
   );
 }
 
-function GroundMaterial({ color, isDark }: { readonly color: number[]; readonly isDark: boolean }) {
+interface GroundMaterialProps {
+  readonly color: number[];
+  readonly isDark: boolean;
+  readonly isSimple: boolean;
+}
+
+function GroundMaterial({ color, isDark, isSimple }: GroundMaterialProps) {
   const shown = useMemo(() => {
     const [r = 0.8, g = 0.8, b = 0.8] = color;
     const ground = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
     return isDark ? ground.multiplyScalar(0.35) : ground;
   }, [color, isDark]);
+  if (isSimple) return <meshLambertMaterial color={shown} />;
   return <meshStandardMaterial color={shown} roughness={0.95} metalness={0} />;
 }
 
@@ -121,14 +128,13 @@ function useViewpoint(world: World, controls: Controls, viewpoint: ViewOptions['
   const camera = useThree((state) => state.camera);
   const invalidate = useThree((state) => state.invalidate);
   useEffect(() => {
-    const center = world.robot?.position.clone() ?? new THREE.Vector3();
+    const center = world.bounds.isEmpty() ? new THREE.Vector3() : world.bounds.getCenter(new THREE.Vector3());
     center.z = 0.2;
     const size = Math.min(Math.max(world.bounds.getSize(new THREE.Vector3()).length(), 4), 24);
     const offset =
       viewpoint.kind === 'top'
-        ? new THREE.Vector3(-0.001, 0, size * 0.85)
-        : new THREE.Vector3(-0.34 * size, -0.3 * size, 0.3 * size);
-    if (viewpoint.kind === 'top') world.bounds.getCenter(center).setZ(0);
+        ? new THREE.Vector3(-0.001, 0, size * 1.05)
+        : new THREE.Vector3(-0.62 * size, -0.42 * size, 0.55 * size);
     camera.position.copy(center).add(offset);
     controls.current?.target.copy(center);
     controls.current?.update();

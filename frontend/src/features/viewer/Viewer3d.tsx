@@ -18,6 +18,13 @@ import { hasWebGl, isSoftwareWebGl } from './webgl';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
+// The renderer for React still uses a clock that three.js has since renamed; users can do nothing about it.
+THREE.setConsoleFunction((type, message, ...details) => {
+  if (message.startsWith('THREE.Clock:')) return;
+  // eslint-disable-next-line no-console
+  console[type](message, ...details);
+});
+
 const POSES_HZ = 30;
 const SCAN_HZ = 10;
 
@@ -53,7 +60,7 @@ export function Viewer3d() {
           <Canvas
             frameloop={isVisible ? 'demand' : 'never'}
             shadows={isSimple ? false : 'soft'}
-            dpr={isSimple ? 0.75 : [1, 2]}
+            dpr={isSimple ? 0.8 : [1, 2]}
             gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
             camera={{ fov: 45, near: 0.05, far: 200, up: [0, 0, 1], position: [-4, -4, 4] }}
             aria-label={t('label3d')}

@@ -2,18 +2,62 @@ import { useThree } from '@react-three/fiber';
 import { useCallback, useEffect, useRef } from 'react';
 import { isSoftwareWebGl } from './webgl';
 
-const SOFTWARE_FRAME_MS = 80;
+/** At most so often, and never more than a third of the time, where the processor draws. */
+const SHORTEST_PAUSE_MS = 80;
+const PAUSE_FOR_COST = 2;
+const POLL_MS = 10;
 
-/** Asks for a frame; where the processor draws, not more often than it can afford. */
+/** Resolves when what was drawn until now is on the screen's side. */
+function drawn(gl: WebGL2RenderingContext): Promise<void> {
+  const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  if (!sync) return Promise.resolve();
+  gl.flush();
+  return new Promise((resolve) => {
+    const poll = () => {
+      if (!gl.isContextLost() && gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) {
+        setTimeout(poll, POLL_MS);
+        return;
+      }
+      gl.deleteSync(sync);
+      resolve();
+    };
+    setTimeout(poll, 0);
+  });
+}
+
+/**
+ * Asks for a frame. Where the processor draws, the next one waits until the last is done and then
+ * as long again, twice: frames that pile up would freeze the page and starve the simulation.
+ */
 export function useThrottledInvalidate(): () => void {
   const invalidate = useThree((state) => state.invalidate);
+  const renderer = useThree((state) => state.gl);
+  const isBusy = useRef(false);
+  const isWanted = useRef(false);
   const timer = useRef<ReturnType<typeof setTimeout>>(undefined);
   useEffect(() => () => clearTimeout(timer.current), []);
+
   return useCallback(() => {
     if (!isSoftwareWebGl()) return invalidate();
-    timer.current ??= setTimeout(() => {
-      timer.current = undefined;
+    const draw = () => {
+      isBusy.current = true;
+      isWanted.current = false;
+      const start = performance.now();
       invalidate();
-    }, SOFTWARE_FRAME_MS);
-  }, [invalidate]);
+      requestAnimationFrame(() => {
+        void drawn(renderer.getContext() as WebGL2RenderingContext).then(() => {
+          const cost = performance.now() - start;
+          timer.current = setTimeout(
+            () => {
+              isBusy.current = false;
+              if (isWanted.current) draw();
+            },
+            Math.max(SHORTEST_PAUSE_MS, cost * PAUSE_FOR_COST),
+          );
+        });
+      });
+    };
+    if (isBusy.current) isWanted.current = true;
+    else draw();
+  }, [invalidate, renderer]);
 }

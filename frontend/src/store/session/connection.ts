@@ -62,8 +62,13 @@ export async function endSession(): Promise<void> {
   if (ending) await api.endSession(ending.id);
 }
 
-/** Leaves the session without ending it. */
-export function disconnect(): void {
+/** Leaves the session without ending it, since the project is left. */
+export function leave(): void {
+  disconnect();
+  resetSession({ projectId: null, logs: [] });
+}
+
+function disconnect(): void {
   clearTimeout(retryTimer);
   socket?.close();
   socket = null;
@@ -146,9 +151,8 @@ async function retry(): Promise<void> {
 
 /** The session is gone: its processes ended, and another Run starts a new one. */
 function onEnded(): void {
-  const { logs, nextLogId } = useSessionStore.getState();
   streams.close();
   socket = null;
   session = null;
-  resetSession({ connection: 'lost', logs, nextLogId });
+  resetSession({ connection: 'lost' });
 }

@@ -50,7 +50,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   blackboard: (state, data, { seq }) => ({
     blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
   }),
-  log: (state, data) => appendLogs(state, [data]),
+  log: (state, data, { t }) => appendLogs(state, [{ ...data, time: data.time || t }]),
   fault: (state, data) => ({ faults: [...state.faults, data] }),
   finished: (_, data) => ({ finished: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),

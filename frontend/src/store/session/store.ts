@@ -59,7 +59,8 @@ function showFault(fault: Fault): void {
 
 export function resetSession(change: Partial<SessionData> = {}): void {
   queue = [];
-  const { tickHz, speed, projectId } = useSessionStore.getState();
-  useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, ...change }, true);
+  const { tickHz, speed, projectId, logs, nextLogId } = useSessionStore.getState();
+  // What was printed can still be read after the session has ended.
+  useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   useLiveStore.getState().clear();
 }

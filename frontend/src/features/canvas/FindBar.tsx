@@ -1,6 +1,6 @@
 import { ActionIcon } from '@mantine/core';
 import { IconChevronDown, IconChevronUp, IconX } from '@tabler/icons-react';
-import { useMemo, useState } from 'react';
+import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { findNodes } from '@/model/find';
 import { setEditor } from '@/store/project/editor';
@@ -15,6 +15,10 @@ interface FindBarProps {
 /** Search over names, types, ports and comments of the tree; Enter goes to the next. */
 export function FindBar({ treeId, onClose }: FindBarProps) {
   const { t } = useTranslation('canvas');
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    field.current?.focus();
+  }, []);
   const [text, setText] = useState('');
   const [index, setIndex] = useState(0);
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
@@ -35,7 +39,7 @@ export function FindBar({ treeId, onClose }: FindBarProps) {
   return (
     <div className={classes['find']} role="search">
       <input
-        ref={(input) => input?.focus()}
+        ref={field}
         aria-label={t('find.label')}
         placeholder={t('find.label')}
         value={text}

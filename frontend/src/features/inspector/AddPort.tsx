@@ -1,5 +1,5 @@
 import { TextInput } from '@mantine/core';
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 interface AddPortProps {
@@ -10,6 +10,10 @@ interface AddPortProps {
 /** Names a port of an open action or subtree. */
 export function AddPort({ taken, onDone }: AddPortProps) {
   const { t } = useTranslation('inspector');
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    field.current?.focus();
+  }, []);
   const [name, setName] = useState('');
   const isValid = /^[A-Za-z_][\w.-]*$/.test(name) && !taken.includes(name);
   return (
@@ -19,9 +23,7 @@ export function AddPort({ taken, onDone }: AddPortProps) {
       placeholder={t('portName')}
       value={name}
       error={name !== '' && !isValid}
-      ref={(input) => {
-        if (input && name === '') input.focus();
-      }}
+      ref={field}
       onChange={(event) => {
         setName(event.currentTarget.value);
       }}

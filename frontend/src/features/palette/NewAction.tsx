@@ -1,5 +1,5 @@
 import { Button, Group, SegmentedControl, TextInput } from '@mantine/core';
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { createAction, type ActionKind } from '@/store/project/actionTemplate';
 import { openAction } from '@/store/project/navigation';
@@ -10,6 +10,10 @@ import classes from './Palette.module.css';
 export function NewAction({ onDone }: { readonly onDone: () => void }) {
   const { t } = useTranslation('palette');
   const vocabulary = useProjectStore((state) => state.vocabulary);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    field.current?.focus();
+  }, []);
   const [name, setName] = useState('');
   const [kind, setKind] = useState<ActionKind>('Action');
   const isTaken = vocabulary.specs.has(name);
@@ -31,10 +35,7 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
         description={t('nameHint')}
         value={name}
         error={isTaken ? t('taken') : undefined}
-        data-autofocus
-        ref={(input) => {
-          if (input && document.activeElement === document.body) input.focus();
-        }}
+        ref={field}
         onChange={(event) => {
           setName(event.currentTarget.value);
         }}

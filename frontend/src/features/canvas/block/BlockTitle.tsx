@@ -4,6 +4,7 @@ import { setComment, setName } from '@/model/edits';
 import { change } from '@/store/project/commands';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { BlockBadges } from './BlockBadges';
+import { TextField } from './TextField';
 import classes from './Block.module.css';
 
 interface BlockTitleProps {
@@ -18,9 +19,9 @@ export function BlockTitle({ id, node }: BlockTitleProps) {
   const name = displayName(node);
   const hasBadges = node.comment !== undefined || node.conditions !== undefined;
 
-  const finish = (text: string | null): void => {
+  const finish = (text: string): void => {
     setEditor({ editing: null });
-    if (text === null || field === null) return;
+    if (field === null) return;
     if (field === 'name') change('rename', [setName(id, text)]);
     else change('comment', [setComment(id, text)]);
   };
@@ -38,23 +39,10 @@ export function BlockTitle({ id, node }: BlockTitleProps) {
           )}
         </>
       ) : (
-        <input
-          className={`${classes['rename']} nodrag nopan`}
-          aria-label={t(field === 'name' ? 'rename' : 'comment')}
-          placeholder={t(field === 'name' ? 'rename' : 'comment')}
-          defaultValue={field === 'name' ? name : (node.comment ?? '')}
-          ref={(input) => {
-            input?.focus();
-            input?.select();
-          }}
-          onBlur={(event) => {
-            finish(event.currentTarget.value);
-          }}
-          onKeyDown={(event) => {
-            event.stopPropagation();
-            if (event.key === 'Enter') finish(event.currentTarget.value);
-            if (event.key === 'Escape') finish(null);
-          }}
+        <TextField
+          label={t(field === 'name' ? 'rename' : 'comment')}
+          initial={field === 'name' ? name : (node.comment ?? '')}
+          onFinish={finish}
         />
       )}
     </div>

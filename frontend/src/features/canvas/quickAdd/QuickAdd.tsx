@@ -1,5 +1,5 @@
 import { IconPlus } from '@tabler/icons-react';
-import { useEffect, useMemo, useRef, useState } from 'react';
+import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { allChoices, searchChoices, suits, type Purpose } from '@/model/choices';
 import { createAction } from '@/store/project/actionTemplate';
@@ -37,6 +37,12 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const [search, setSearch] = useState(request.text);
   const [index, setIndex] = useState(0);
   const list = useRef<HTMLDivElement>(null);
+  const field = useRef<HTMLInputElement>(null);
+
+  useLayoutEffect(() => {
+    field.current?.focus({ preventScroll: true });
+  }, []);
+
   const found = useMemo(() => {
     if (!diagram) return [];
     const purpose = purposeOf(request);
@@ -85,9 +91,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
     >
       <input
         className={classes['input']}
-        ref={(input) => {
-          input?.focus({ preventScroll: true });
-        }}
+        ref={field}
         role="combobox"
         aria-expanded="true"
         aria-controls="quick-add-list"

@@ -1,0 +1,37 @@
+import { useLayoutEffect, useRef } from 'react';
+import classes from './Block.module.css';
+
+interface TextFieldProps {
+  readonly label: string;
+  readonly initial: string;
+  readonly onFinish: (text: string) => void;
+}
+
+/** A field on a block: Enter or leaving it takes the text, Escape leaves things as they were. */
+export function TextField({ label, initial, onFinish }: TextFieldProps) {
+  const field = useRef<HTMLInputElement>(null);
+  useLayoutEffect(() => {
+    field.current?.focus({ preventScroll: true });
+    field.current?.select();
+  }, []);
+  return (
+    <input
+      ref={field}
+      className={`${classes['rename']} nodrag nopan`}
+      aria-label={label}
+      placeholder={label}
+      defaultValue={initial}
+      onBlur={(event) => {
+        onFinish(event.currentTarget.value);
+      }}
+      onKeyDown={(event) => {
+        event.stopPropagation();
+        if (event.key !== 'Enter' && event.key !== 'Escape') return;
+        const input = event.currentTarget;
+        if (event.key === 'Escape') input.value = initial;
+        // Leaving the field finishes the edit, and the keys are the canvas's again.
+        input.closest<HTMLElement>('[data-testid="canvas"]')?.focus({ preventScroll: true });
+      }}
+    />
+  );
+}

@@ -383,5 +383,4 @@ def _json_kind(value: Any) -> str:
     return names.get(type(value), "nothing") if not isinstance(value, dict) else "an object"
 
 
-def _dump(value: Any) -> str:
-    return json.dumps(value, ensure_ascii=False)
+_dump = json.JSONEncoder(ensure_ascii=False).encode

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from translator.catalog import NodeModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
-from translator.project import Project, load
+from translator.project import Project, assemble
 from translator.settings import PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
 from translator.xml.read import Document, read_document
@@ -97,12 +97,14 @@ def from_xml(
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
     files.update(_actions(trees, documents, actions or {}, stubs=stubs))
-    project = load(files)
-    return _with_findings(project, [item.moved(file=f"{IMPORTS}{item.place.file}") for item in work.found])
-
-
-def _with_findings(project: Project, found: list[Diagnostic]) -> Project:
+    project = assemble(settings, (_without_spans(tree) for tree in trees), files)
+    found = [item.moved(file=f"{IMPORTS}{item.place.file}") for item in work.found]
     return replace(project, diagnostics=(*found, *project.diagnostics))
+
+
+def _without_spans(tree: Tree) -> Tree:
+    """Leaves out lines of the XML, since from now on findings point into the diagram."""
+    return replace(tree, nodes={key: replace(node, span=None) for key, node in tree.nodes.items()})
 
 
 def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]:

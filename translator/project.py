@@ -6,17 +6,19 @@ import contextlib
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 from translator.action import ActionModel, inspect_action
 from translator.catalog import NodeModel, PortModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
-from translator.diagram import restore
+from translator.diagram import diagram_path, restore
 from translator.settings import PROJECT_FILE, Settings, read_settings
 from translator.text import bad_character
+from translator.tree import used_types
 from translator.xml.read import read_document
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from translator.tree import Tree
 
@@ -29,7 +31,6 @@ class Project:
     trees: Mapping[str, Tree]
     actions: Mapping[str, ActionModel]
     files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
-    imported: Mapping[str, NodeModel] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -45,6 +46,12 @@ class Project:
             return action_node_model(action)
         return None
 
+    def imported_model(self, type_: str) -> NodeModel | None:
+        """Returns what an imported file says about a type of node that cannot run here."""
+        if self not in _imported:
+            _imported[self] = _imported_models(self.files)
+        return _imported[self].get(type_)
+
     def known_types(self) -> list[str]:
         """Returns the types that a diagram of this project may use."""
         return [*builtins(), *self.actions]
@@ -52,6 +59,9 @@ class Project:
     def with_tree(self, tree: Tree) -> Project:
         """Returns the project with a tree added or replaced."""
         return replace(self, trees={**self.trees, tree.id: tree})
+
+
+_imported: WeakKeyDictionary[Project, dict[str, NodeModel]] = WeakKeyDictionary()
 
 
 def action_node_model(action: ActionModel) -> NodeModel:
@@ -80,8 +90,16 @@ def load(files: Mapping[str, bytes]) -> Project:
     trees = _load_trees(files, found)
     if PROJECT_FILE not in files and settings.main_tree not in trees and len(trees) == 1:
         settings = settings.model_copy(update={"main_tree": next(iter(trees))})
-    actions = _load_actions(files, found)
-    return Project(settings, trees, actions, dict(files), _imported_models(files), tuple(found))
+    actions = _load_actions(files, used_types(trees.values()), found)
+    return Project(settings, trees, actions, dict(files), tuple(found))
+
+
+def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:
+    """Makes the project that `load` would read from `files`, of settings and trees that are known already."""
+    found: list[Diagnostic] = []
+    placed = {tree.id: replace(tree, file=diagram_path(tree.id)) for tree in trees}
+    actions = _load_actions(files, used_types(placed.values()), found)
+    return Project(settings, placed, actions, dict(files), tuple(found))
 
 
 def _is_diagram(path: str) -> bool:
@@ -101,7 +119,7 @@ def _load_trees(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str
         if tree.id in trees:
             found.append(diagnostic("BT0015", place, id=tree.id, other=trees[tree.id].file))
             continue
-        if tree.id != PurePosixPath(path).stem:
+        if path != diagram_path(tree.id):
             found.append(diagnostic("BT0016", place, id=tree.id, file=PurePosixPath(path).stem))
         trees[tree.id] = tree
     return trees
@@ -120,7 +138,14 @@ def action_paths(files: Mapping[str, bytes]) -> Iterator[tuple[str, str]]:
             yield parts[1][:-3], path
 
 
-def _load_actions(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, ActionModel]:
+def _is_shared_module(model: ActionModel) -> bool:
+    """Whether a file is no action but what actions import: named as modules are, and without such a class."""
+    return model.name[:1].islower() and any(item.code in {"BT0602", "BT0607"} for item in model.diagnostics)
+
+
+def _load_actions(
+    files: Mapping[str, bytes], used: Collection[str], found: list[Diagnostic]
+) -> dict[str, ActionModel]:
     actions = {}
     for name, path in action_paths(files):
         try:
@@ -134,6 +159,8 @@ def _load_actions(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[s
             found.append(diagnostic("BT0608", Place(path, line=1), name=name, character=bad))
         if name in builtins():
             found.append(diagnostic("BT0609", Place(path, line=model.line), name=name))
+            continue
+        if name not in used and _is_shared_module(model):
             continue
         found.extend(model.diagnostics)
         actions[name] = model

@@ -94,7 +94,7 @@ def tag_of(node: Node, project: Project) -> str:
     """Returns the tag: the type itself, or the explicit form where XML cannot have the type as a name."""
     if node.type == SUBTREE or is_xml_name(node.type):
         return node.type
-    model = project.model(node.type) or project.imported.get(node.type)
+    model = project.model(node.type) or project.imported_model(node.type)
     if model is None:
         return "Control" if len(node.children) > 1 else "Decorator" if node.children else "Action"
     return EXPLICIT_TAGS.get(model.kind, "Action")
@@ -111,7 +111,7 @@ def model_lines(project: Project, trees: list[Tree]) -> list[str]:
     for type_ in sorted(seen):
         if type_ in builtins():
             continue
-        model = project.model(type_) or project.imported.get(type_)
+        model = project.model(type_) or project.imported_model(type_)
         if model is not None:
             lines.extend(
                 _model(EXPLICIT_TAGS.get(model.kind, "Action"), type_, _all_ports(model, seen[type_]))

@@ -1,0 +1,148 @@
+"""The ROS 2 package as files: names, dependencies, licence, launch files, the same bytes again."""
+
+from __future__ import annotations
+
+import ast
+import io
+import zipfile
+
+import pytest
+import yaml
+from catkin_pkg.package import parse_package
+
+from translator import TranslatorError, load, to_ros2_package
+from translator.package.naming import package_name, problem_with
+from translator.package.ros2 import engine_version
+from tree_gardener import __version__
+
+LEAF = {"n1": {"type": "Act"}}
+
+
+def parsed(package, tmp_path, folder=None):
+    """The package.xml as catkin_pkg reads and validates it."""
+    path = tmp_path / "package.xml"
+    path.write_bytes(package.files[f"{folder or package.name}/package.xml"])
+    warnings = []
+    found = parse_package(str(path), warnings=warnings)
+    found.validate(warnings=warnings)
+    assert warnings == []
+    return found
+
+
+def test_examples_are_valid_packages(example, tmp_path):
+    package = to_ros2_package(example)
+    assert package.diagnostics == ()
+    for folder in (package.name, "tree_gardener"):
+        found = parsed(package, tmp_path, folder)
+        assert found.name == folder
+        assert found.get_build_type() == "ament_python"
+    names = {item.name for item in parsed(package, tmp_path).exec_depends}
+    assert {"rclpy", "py_trees", "tree_gardener", "geometry_msgs", "sensor_msgs", "launch_ros"} <= names
+    assert ("python3-opencv" in names) == (package.name == "visual_follow_person")
+
+
+def test_every_python_and_yaml_file_is_well_formed(example):
+    for path, raw in to_ros2_package(example).files.items():
+        if path.endswith(".py"):
+            ast.parse(raw)
+        elif path.endswith(".yaml"):
+            assert yaml.safe_load(raw)
+
+
+def test_same_input_gives_the_same_bytes(example):
+    zipped = to_ros2_package(example).to_zip()
+    assert zipped == to_ros2_package(load(dict(reversed(example.files.items())))).to_zip()
+    with zipfile.ZipFile(io.BytesIO(zipped)) as archive:
+        assert archive.namelist() == sorted(archive.namelist())
+        assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_text_of_users_does_not_break_the_files(make_project, tmp_path):
+    nasty = "A \"quoted\" 'name' & <tag> \\ {{ x }} {% raw %} é\nnext"
+    project = make_project(
+        LEAF,
+        name=nasty,
+        description=nasty,
+        license="My & own",
+        maintainer={"name": nasty, "email": "me@example.org"},
+    )
+    package = to_ros2_package(project)
+    found = parsed(package, tmp_path)
+    assert "&lt;tag&gt;" in found.description
+    ast.parse(package.files[f"{package.name}/setup.py"])
+    assert b"{% raw %}" in package.files[f"{package.name}/README.md"]
+
+
+def test_import_that_maps_to_nothing_is_told_with_its_line(make_project):
+    source = (
+        "import json\nimport py_trees\nimport nobody_has_this.part\nfrom actions import Open\nimport Open\n"
+        "class Act(py_trees.behaviour.Behaviour):\n    def update(self):\n        import yaml, PIL.Image\n"
+    )
+    package = to_ros2_package(make_project(LEAF, actions={"Act": source}))
+    (found,) = package.diagnostics
+    assert (found.code, found.place.file, found.place.line) == ("BT0910", "actions/Act.py", 3)
+    text = package.files["test_bt/package.xml"].decode()
+    assert "python3-yaml" in text
+    assert "python3-pil" in text
+    assert "json" not in text
+
+
+def test_launch_files_assets_and_requirements_travel_along(make_project):
+    files = {
+        "launch/camera.launch.py": b"camera",
+        "launch/test_bt.launch.py": b"own",
+        "assets/models/net.onnx": b"net",
+        "requirements.txt": b"onnxruntime\n",
+        "LICENSE": b"mine",
+    }
+    package = to_ros2_package(make_project(LEAF, files=files))
+    assert package.files["test_bt/launch/camera.launch.py"] == b"camera"
+    assert package.files["test_bt/launch/project_test_bt.launch.py"] == b"own"
+    assert package.files["test_bt/assets/models/net.onnx"] == b"net"
+    assert package.files["test_bt/LICENSE"] == b"mine"
+    assert b"project_test_bt.launch.py" in package.files["test_bt/launch/test_bt.launch.py"]
+    assert b"share/test_bt/assets/models" in package.files["test_bt/setup.py"]
+    assert b"requirements.txt" in package.files["test_bt/README.md"]
+
+
+@pytest.mark.parametrize(
+    ("title", "name"),
+    [
+        ("Laser bump and go", "laser_bump_and_go"),
+        ("  Ünïcode — Röbot 2 ", "unicode_robot_2"),
+        ("2 wheels", "robot_2_wheels"),
+        ("名前", "robot_bt"),
+        ("", "robot_bt"),
+        ("class", "class_bt"),
+        ("test", "test_bt"),
+        ("rclpy", "rclpy_bt"),
+        ("numpy", "numpy_bt"),
+        ("random", "random_bt"),
+        ("tree_gardener", "tree_gardener_bt"),
+        ("x", "x_bt"),
+        ("a__b", "a_b"),
+        ("a" * 300, "a" * 80),
+    ],
+)
+def test_names_of_packages(title, name):
+    assert package_name(title) == name
+    assert problem_with(name) is None
+
+
+@pytest.mark.parametrize(
+    "name", ["Upper", "1st", "with space", "a-b", "a__b", "x", "rclpy", "import", "../up", "a_"]
+)
+def test_name_that_a_user_chose_is_refused_with_a_better_one(make_project, name):
+    with pytest.raises(TranslatorError) as error:
+        to_ros2_package(make_project(LEAF), name=name)
+    assert error.value.diagnostics[0].code == "BT0900"
+
+
+def test_errors_keep_a_project_from_being_packed(make_project):
+    with pytest.raises(TranslatorError) as error:
+        to_ros2_package(make_project({"n1": {"type": "Nope"}}))
+    assert error.value.diagnostics[0].code == "BT0102"
+
+
+def test_version_of_the_engine_is_that_of_its_source():
+    assert engine_version() == __version__

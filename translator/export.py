@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from translator.action import ActionModel, source_text
 from translator.check import check
 from translator.diagnostic import TranslatorError, errors_in
+from translator.importer import main_tree_of
 from translator.tree import used_types
 from translator.xml.escape import attribute, cdata
 from translator.xml.patch import patch_document
@@ -77,7 +78,11 @@ def _patched(document: Document, project: Project, documents: list[Document]) ->
     known = {item.tree.id for other in documents for item in other.trees}
     is_first = document is documents[0]
     added = [tree for tree in ordered_trees(project) if is_first and tree.id not in known and tree.root]
-    return patch_document(document, project, added=added)
+    named, taken = main_tree_of(documents)
+    main = project.settings.main_tree
+    is_changed = main != taken or (not named and len(project.trees) > 1 and set(project.trees) != known)
+    names_it = bool(document.main) or (is_first and not named)
+    return patch_document(document, project, added=added, main=main if is_changed and names_it else None)
 
 
 def self_contained(project: Project) -> str:

@@ -129,15 +129,22 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
                 continue
             trees[item.tree.id] = item.tree
     first = work.documents[file]
-    main = first.main or next((item.main for item in work.documents.values() if item.main), "")
-    if main not in trees and trees:
-        callers = {node.tree for tree in trees.values() for node in tree.subtree_calls()}
-        chosen = next((tree_id for tree_id in trees if tree_id not in callers), next(iter(trees)))
-        if main or len(trees) > 1:
-            work.found.append(diagnostic("BT0735", Place(file, line=1), main=main or "(none)", chosen=chosen))
-        main = chosen
+    named, main = main_tree_of(work.documents.values())
+    if main != named and (named or len(trees) > 1):
+        work.found.append(diagnostic("BT0735", Place(file, line=1), main=named or "(none)", chosen=main))
     name = first.source.root.attributes.get("project_name") or PurePosixPath(file).stem
     return list(trees.values()), Settings(name=name[:200] or "Untitled", main_tree=main or "MainTree")
+
+
+def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
+    """Returns the main tree that the documents name, and the one to take: the same, if it is there."""
+    documents = list(documents)
+    trees = {item.tree.id: item.tree for document in documents for item in document.trees}
+    named = next((document.main for document in documents if document.main), "")
+    if named in trees or not trees:
+        return named, named
+    called = {node.tree for tree in trees.values() for node in tree.subtree_calls()}
+    return named, next((tree_id for tree_id in trees if tree_id not in called), next(iter(trees)))
 
 
 def _actions(

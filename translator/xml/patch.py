@@ -24,12 +24,19 @@ _ATTRIBUTE = re.compile(r"(\s+)([^\s=>/]+)(\s*=\s*)(\"[^\"]*\"|'[^']*')")
 _TAG = re.compile(r"<([^\s>/]+)")
 
 
-def patch_document(document: Document, project: Project, *, added: list[Tree]) -> bytes:
-    """Returns the file with the project's state of its trees; `added` trees are appended."""
+def patch_document(document: Document, project: Project, *, added: list[Tree], main: str | None) -> bytes:
+    """Returns the file with the project's state of its trees.
+
+    Args:
+        document: The file as it was imported.
+        project: The project now.
+        added: Trees to append.
+        main: The main tree to name in the root, or None to leave that as it is.
+    """
     data = document.source.data
     root = document.source.root
     style = _style(data)
-    parts = [data[: root.start], _root_tag(document, project)]
+    parts = [data[: root.start], _root_tag(document, main)]
     position = root.open_end
     sources = {id(item.element): item for item in document.trees}
     insertion = _insertion_offset(root)
@@ -86,14 +93,13 @@ def _added_tree(tree: Tree, project: Project, style: _Style) -> bytes:
     return (style.newline + style.newline.join(lines)).encode()
 
 
-def _root_tag(document: Document, project: Project) -> bytes:
+def _root_tag(document: Document, main: str | None) -> bytes:
     root = document.source.root
     text = document.source.data[root.start : root.open_end].decode()
     wanted = dict(root.attributes)
     if not document.is_v4:
         wanted["BTCPP_format"] = "4"
-    main = project.settings.main_tree
-    if main != (document.main or main) or (not document.main and len(project.trees) > len(document.trees)):
+    if main is not None:
         wanted["main_tree_to_execute"] = main
     return _rewritten(text, root.tag, root, wanted).encode() if wanted != root.attributes else text.encode()
 

@@ -1,0 +1,97 @@
+"""Zips and folders from outside: what leads elsewhere or unpacks to too much is refused, with a place."""
+
+from __future__ import annotations
+
+import io
+import stat
+import zipfile
+
+import pytest
+
+from translator import TranslatorError, archive
+from translator.archive import read_folder, read_zip, safe_path
+
+
+def zipped(entries):
+    target = io.BytesIO()
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as made:
+        for name, data in entries:
+            made.writestr(name, data)
+    return target.getvalue()
+
+
+def refused(raw):
+    with pytest.raises(TranslatorError) as error:
+        read_zip(raw, file="p.zip")
+    (found,) = error.value.diagnostics
+    assert found.place.file == "p.zip"
+    return found.code
+
+
+def test_files_are_read_and_a_folder_round_them_left_out():
+    assert read_zip(
+        zipped([("p/project.json", b"{}"), ("p/trees/A.json", b"a"), ("p/__pycache__/x", b"")])
+    ) == {
+        "project.json": b"{}",
+        "trees/A.json": b"a",
+    }
+    assert read_zip(zipped([("actions/A.py", b"")])) == {"actions/A.py": b""}
+
+
+@pytest.mark.parametrize(
+    "name", ["../up", "a/../../up", "/etc/passwd", "C:\\x", "a\\b", "c:/x", "line\nbreak", "x" * 1100]
+)
+def test_paths_that_lead_elsewhere_are_refused(name):
+    assert safe_path(name) is None
+    assert refused(zipped([(name, b"")])) == "BT0921"
+
+
+@pytest.mark.parametrize("kind", [stat.S_IFLNK, stat.S_IFIFO, stat.S_IFBLK])
+def test_links_and_devices_are_refused(kind):
+    entry = zipfile.ZipInfo("link")
+    entry.create_system = 3
+    entry.external_attr = (kind | 0o777) << 16
+    assert refused(zipped([(entry, b"/etc/passwd")])) == "BT0921"
+
+
+def test_an_entry_that_is_there_twice_is_refused():
+    with pytest.warns(UserWarning, match="Duplicate name"):
+        raw = zipped([("a", b"1"), ("a", b"2")])
+    assert refused(raw) == "BT0921"
+
+
+def test_bombs_are_refused_before_they_unpack(monkeypatch):
+    monkeypatch.setattr(archive, "MAX_FILE_BYTES", 5_000_000)
+    raw = zipped([("bomb", bytes(20_000_000))])
+    assert len(raw) < 50_000
+    assert refused(raw) == "BT0922"
+
+
+def test_a_bomb_that_lies_about_its_size_is_refused(monkeypatch):
+    monkeypatch.setattr(archive, "MAX_FILE_BYTES", 5_000_000)
+    raw = bytearray(zipped([("bomb", bytes(20_000_000))]))
+    size = (20_000_000).to_bytes(4, "little")
+    while (at := raw.find(size)) >= 0:
+        raw[at : at + 4] = (10).to_bytes(4, "little")
+    assert refused(bytes(raw)) in {"BT0920", "BT0922"}
+
+
+def test_many_small_bombs_are_refused(monkeypatch):
+    monkeypatch.setattr(archive, "MAX_TOTAL_BYTES", 5_000_000)
+    assert refused(zipped([(f"f{number}", bytes(1_000_000)) for number in range(10)])) == "BT0922"
+    monkeypatch.setattr(archive, "MAX_FILES", 5)
+    assert refused(zipped([(f"f{number}", b"") for number in range(10)])) == "BT0922"
+
+
+@pytest.mark.parametrize("raw", [b"", b"junk", zipped([("a", b"x" * 1000)])[:60]])
+def test_what_is_no_zip_is_refused(raw):
+    assert refused(raw) == "BT0920"
+
+
+def test_folders_are_read_without_links_and_hidden_folders(tmp_path):
+    (tmp_path / "trees").mkdir()
+    (tmp_path / "trees" / "A.json").write_text("{}")
+    (tmp_path / ".git").mkdir()
+    (tmp_path / ".git" / "config").write_text("x")
+    (tmp_path / "link").symlink_to("/etc/hostname")
+    assert read_folder(tmp_path) == {"trees/A.json": b"{}"}

@@ -177,11 +177,12 @@ class Session:
         """Has the child's tick broken off."""
         self._effects.append(Interrupt(child.kind, child.number))
 
-    def drop(self, kind: Kind, *, grace_s: float = 0.0) -> None:
+    def drop(self, kind: Kind, *, grace_s: float = 0.0, reason: str = "was ended") -> None:
         """Ends the child of a kind: now, or when it had time to end by itself."""
         child = self.children.pop(kind, None)
         if child is None:
             return
+        child.end(reason)  # whoever waits for it waits no more
         self.leaving.add((kind, child.number))
         if grace_s:
             self._effects.append(Tell(kind, child.number, {"type": "stop"}))
@@ -322,8 +323,7 @@ class Session:
         """The application ended by itself: the ladder goes down, the process is let go."""
         if message["type"] == "finished" and self.state in HAS_APPLICATION and not child.is_stopping:
             steps.stop_moving(self)
-            self.drop(child.kind, grace_s=RETIRE_GRACE_S)
-            child.end("finished its run")
+            self.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
             self.enter(State.VISUALIZATION_READY, str(message.get("message") or "The run ended."))
             self.replenish()
         elif message["type"] == "fault" and message.get("kind") == "timeout":
@@ -365,7 +365,7 @@ class Session:
             self.emit(messages.Finished("IDLE", "process_died", message))
         if child.kind == "world":
             self.run.universe = None
-            self.drop("application")
+            self.drop("application", reason="was ended, since the simulated world is gone")
         else:
             steps.stop_moving(self)
         self.enter(rung, message)

@@ -213,7 +213,8 @@ def _await_application(session: Session, application: Child) -> Step:
         if reply["type"] == "fault":
             raise StepFailed("load_failed", str(reply.get("message")), str(reply.get("hint", "")))
     except StepFailed:
-        session.drop("application")
+        if session.children.get("application") is application:
+            session.drop("application")
         session.replenish()
         raise
     _progress(session, "run_application", 1.0, "The application runs")

@@ -22,7 +22,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     duration: Annotated[
         float | None, typer.Option(min=0.0, help="Simulated seconds; 60 in lock-step, else until it ends.")
     ] = None,
-    lockstep: Annotated[
+    lockstep: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--lockstep", help="As fast as the machine can, and always the same.")
     ] = False,
     seed: Annotated[int, typer.Option(help="Of everything random in the universe.")] = 0,

@@ -295,6 +295,18 @@ def test_the_application_dies_while_it_is_paused_by_us():
     assert play.state is State.VISUALIZATION_READY
 
 
+def test_the_world_dies_while_the_application_loads():
+    play = Play(obedient=False)
+    run = play.command("run")
+    play.happens(Unpacked(1, "/app"))
+    play.child_says("world", "ready")
+    play.child_dies("world")
+    assert play.reply(run) == "process_died"
+    assert play.state is State.CONNECTED
+    play.obedient = True
+    assert play.reply(play.command("run")) == "ack"
+
+
 def test_a_tick_that_takes_long_stops_the_robot_and_goes_on():
     play = Play()
     play.command("run")

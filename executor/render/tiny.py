@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from executor.render import geometry
 from executor.world.engine import Bullet
 
 if TYPE_CHECKING:
@@ -89,28 +90,26 @@ class TinyRenderer:
                 half = [size[0] / 2, size[1] / 2, 0.001]
                 visual = bullet.createVisualShape(bullet.GEOM_BOX, halfExtents=half, **common)
             case "sphere":
-                visual = bullet.createVisualShape(bullet.GEOM_SPHERE, radius=size[0], **common)
+                visual = self._triangles(geometry.capsule(1.0, 0.0), [size[0]] * 3, common)
             case "cylinder":
-                visual = bullet.createVisualShape(
-                    bullet.GEOM_CYLINDER, radius=size[0], length=size[1], **common
-                )
+                visual = self._triangles(geometry.cylinder(), [size[0], size[0], size[1]], common)
             case "capsule":
-                visual = bullet.createVisualShape(
-                    bullet.GEOM_CAPSULE, radius=size[0], length=max(size[1], 1e-4), **common
-                )
+                visual = self._triangles(geometry.capsule(size[0], size[1]), [1.0] * 3, common)
             case _:
-                visual = self._mesh(shape, common)
+                mesh = self._meshes[shape.mesh]
+                vertices = geometry.from_mesh(mesh.positions, mesh.normals, mesh.indices)
+                visual = self._triangles(vertices, size, common)
         return visual
 
-    def _mesh(self, shape: Shape, common: dict[str, Any]) -> int:
-        mesh = self._meshes[shape.mesh]
-        points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3)
-        order = np.frombuffer(mesh.indices, "<u4")
+    def _triangles(self, vertices: NDArray[np.float32], scale: list[float], common: dict[str, Any]) -> int:
+        """Makes a shape of our own triangles: TinyRenderer's round shapes are coarse."""
+        points, order = geometry.indexed(vertices)
         visual: int = self._bullet.createVisualShape(
             self._bullet.GEOM_MESH,
-            vertices=points.tolist(),
+            vertices=points[:, :3].tolist(),
+            normals=points[:, 3:].tolist(),
             indices=order.tolist(),
-            meshScale=shape.size,
+            meshScale=scale,
             **common,
         )
         return visual

@@ -10,6 +10,9 @@ import yaml
 MAX_BYTES: Final = 2_000_000
 MAX_NODES: Final = 100_000
 MAX_DEPTH: Final = 32
+TAGS: Final = frozenset(
+    f"tag:yaml.org,2002:{name}" for name in ("str", "int", "float", "bool", "null", "seq", "map", "timestamp")
+)
 
 Path = tuple[str | int, ...]
 
@@ -110,6 +113,8 @@ class _Reader:
             raise self._error(node, f"the document has more than {MAX_NODES} values")
         if len(path) > MAX_DEPTH:
             raise self._error(node, f"the document is nested deeper than {MAX_DEPTH}")
+        if node.tag not in TAGS:
+            raise self._error(node, f"the tag {node.tag} has no place here")
 
     def _error(self, node: yaml.Node, message: str) -> DocumentError:
         return DocumentError(

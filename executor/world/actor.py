@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from executor.world.bodies import capsule, rgba
 from executor.world.person import Part, person_parts
-from executor.world.placement import place
+from executor.world.placement import put
 from executor.world.transforms import Pose, from_xyz_rpy
 from executor.world.walk import Gait, Path, Walker
 
@@ -76,4 +76,4 @@ class BulletActor:
 
     def _carry(self) -> None:
         for part, uid in self._solid:
-            place(self._bullet, uid, part.pose(self._walker.gait))
+            put(self._bullet, uid, part.pose(self._walker.gait))

@@ -12,7 +12,7 @@ from executor.world.bodies import Body, make_body, make_ground, rgba, scene_shap
 from executor.world.engine import Bullet
 from executor.world.interface import WorldError
 from executor.world.objects import Kind, SceneObjects
-from executor.world.placement import place_at_rest
+from executor.world.placement import put_at_rest
 from executor.world.randomize import draw
 from executor.world.robot import BulletRobot
 from executor.world.transforms import Pose, compose, from_xyz_rpy
@@ -169,13 +169,13 @@ class BulletWorld:
         wanted = from_xyz_rpy(pose)
         for robot in self._content.robots:
             if robot.id == body:
-                place_at_rest(self._bullet, robot.uid, compose(wanted, self._inertial_of(robot.uid)))
+                put_at_rest(self._bullet, robot.uid, compose(wanted, self._inertial_of(robot.uid)))
                 robot.moved_by_hand()
                 break
         else:
             if body not in self._content.bodies:
                 raise WorldError(f"there is no body {body!r} that can be moved")
-            place_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
+            put_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
         self._poses = None
 
     def take_collisions(self) -> list[tuple[str, Collision]]:

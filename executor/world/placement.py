@@ -12,12 +12,12 @@ if TYPE_CHECKING:
     from executor.world.transforms import Pose
 
 
-def place(bullet: Bullet, body: int, pose: Pose) -> None:
+def put(bullet: Bullet, body: int, pose: Pose) -> None:
     """Puts the base of a body somewhere."""
     bullet.resetBasePositionAndOrientation(body, pose[:3], pose[3:])
 
 
-def place_at_rest(bullet: Bullet, body: int, pose: Pose) -> None:
+def put_at_rest(bullet: Bullet, body: int, pose: Pose) -> None:
     """Puts a body somewhere, without motion."""
-    place(bullet, body, pose)
+    put(bullet, body, pose)
     bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))

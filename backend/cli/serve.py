@@ -50,7 +50,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
 
 def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
     from backend.config.environment import environment
-    from backend.config.server import bind, data_folder, migrate, run, write_ready_file
+    from backend.config.server import bind, data_folder, migrate, run, warm_up, write_ready_file
 
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     settings = environment()
@@ -64,6 +64,7 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
             print(f"BT Studio is at {url}\nCtrl+C ends it and every robot that runs.", flush=True)
             if ready_file:
                 write_ready_file(ready_file, url, port)
+            threading.Thread(target=warm_up, daemon=True).start()
             if open_browser:
                 threading.Thread(target=_open, args=(url,), daemon=True).start()
 

@@ -132,6 +132,14 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
         Server(config).run(sockets=[listener])
 
 
+def warm_up() -> None:
+    """Imports what the first requests would wait for, while the browser loads the page; then tidies up."""
+    import backend.config.urls  # noqa: F401, PLC0415
+    from backend.projects.actions import collect_garbage  # noqa: PLC0415
+
+    collect_garbage()
+
+
 def write_ready_file(path: Path, url: str, port: int) -> None:
     """Tells a program that waits where the server is; the file appears whole, for its owner alone."""
     partial = path.with_name(path.name + ".partial")

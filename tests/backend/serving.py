@@ -61,9 +61,10 @@ def serving(folder, *arguments, **environment):
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
     process = start(folder, "--port", "0", "--ready-file", str(ready_file), *arguments, **environment)
-    try:
-        yield Served(process, await_ready(process, ready_file))
-    finally:
-        if process.poll() is None:
-            process.terminate()
-            process.communicate(timeout=TIMEOUT_S)
+    with process:
+        try:
+            yield Served(process, await_ready(process, ready_file))
+        finally:
+            if process.poll() is None:
+                process.terminate()
+                process.communicate(timeout=TIMEOUT_S)

@@ -40,9 +40,9 @@ def test_a_project_is_made_listed_and_exported(capsys, tmp_path):
 
 def test_errors_are_one_line():
     new("Rover")
-    with pytest.raises(CliError, match="name_taken: .*Rover"):
+    with pytest.raises(CliError, match=r"name_taken: .*Rover"):
         new("Rover")
-    with pytest.raises(CliError, match="no project named"):
+    with pytest.raises(CliError, match=r"no project named"):
         export("Missing")
     with pytest.raises(CliError, match=r"empty, laser"):
         new("Other", template="nonsense")

@@ -41,7 +41,10 @@ export function Stage({ scene, options, isDark }: StageProps) {
   useEffect(() => {
     const stopPoses = frames.listen('poses', (frame) => {
       const changed: [number, Pose][] = [];
-      forEachPose(frame, (id, pose) => changed.push([id, pose]));
+      forEachPose(frame, (id, pose) => {
+        changed.push([id, pose]);
+        if (id === world.robotId) trail.add(new THREE.Vector3(pose[0], pose[1], 0), frame.t);
+      });
       world.receive(changed, performance.now());
       requestFrame();
     });
@@ -53,13 +56,12 @@ export function Stage({ scene, options, isDark }: StageProps) {
       stopPoses();
       stopScans();
     };
-  }, [world, lidar, requestFrame]);
+  }, [world, lidar, trail, requestFrame]);
 
   const lastRobot = useRef(new THREE.Vector3());
   useFrame(({ camera }) => {
     const isMoving = world.advance(performance.now());
     if (world.robot) {
-      trail.add(world.robot.position);
       if (options.follow && controls.current) {
         const step = world.robot.position.clone().sub(lastRobot.current);
         camera.position.add(step);
@@ -115,7 +117,7 @@ function GroundMaterial({ color, isDark, isSimple }: GroundMaterialProps) {
   const shown = useMemo(() => {
     const [r = 0.8, g = 0.8, b = 0.8] = color;
     const ground = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-    return isDark ? ground.multiplyScalar(0.35) : ground;
+    return isDark ? ground.multiplyScalar(0.2) : ground;
   }, [color, isDark]);
   if (isSimple) return <meshLambertMaterial color={shown} />;
   return <meshStandardMaterial color={shown} roughness={0.95} metalness={0} />;

@@ -23,6 +23,7 @@ export class World {
   readonly group = new THREE.Group();
   readonly bounds = new THREE.Box3();
   readonly robot: THREE.Object3D | null = null;
+  readonly robotId: number | null = null;
   private readonly moving = new Map<number, Moving>();
   private readonly geometries: GeometryCache;
   private readonly materials = new Map<string, THREE.Material>();
@@ -36,7 +37,9 @@ export class World {
     this.geometries = new GeometryCache(scene.meshes);
     for (const object of scene.objects) {
       const made = this.add(object);
-      if (object.kind === 'robot') this.robot ??= made;
+      if (object.kind !== 'robot') continue;
+      this.robot ??= made;
+      this.robotId ??= object.id;
     }
     this.group.updateMatrixWorld(true);
     this.bounds.setFromObject(this.group);

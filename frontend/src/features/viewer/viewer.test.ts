@@ -62,21 +62,21 @@ describe('TrailView', () => {
 
   it('grows as the robot goes, and not while it stands', () => {
     const trail = new TrailView();
-    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0));
-    trail.add(new THREE.Vector3(0.9, 0, 0));
+    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
+    trail.add(new THREE.Vector3(0.9, 0, 0), 11);
     expect(count(trail)).toBe(10);
   });
 
   it('begins anew where the robot was put somewhere else', () => {
     const trail = new TrailView();
-    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0));
-    trail.add(new THREE.Vector3(-4, 0, 0));
+    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
+    trail.add(new THREE.Vector3(-4, 0, 0), 9.1);
     expect(count(trail)).toBe(1);
   });
 
   it('forgets the oldest half rather than grow without end', () => {
     const trail = new TrailView();
-    for (let step = 0; step < 6010; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0));
+    for (let step = 0; step < 6010; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
     expect(count(trail)).toBe(3010);
   });
 });

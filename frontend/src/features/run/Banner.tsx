@@ -14,7 +14,12 @@ import classes from './run.module.css';
 export function Banner() {
   const { t, i18n } = useTranslation('run');
   const session = useSessionStore(
-    useShallow(({ connection, connectionMessage, faults }) => ({ connection, connectionMessage, faults })),
+    useShallow(({ connection, connectionMessage, executorReason, faults }) => ({
+      connection,
+      connectionMessage,
+      executorReason,
+      faults,
+    })),
   );
   const failure = useRunStore((state) => state.failure);
   const banner = bannerFor({ ...session, failure });
@@ -67,5 +72,9 @@ function GoButton({ link }: { readonly link: NonNullable<BannerContent['link']> 
 function dismiss(): void {
   useRunStore.setState({ failure: null });
   const { connection } = useSessionStore.getState();
-  useSessionStore.setState({ faults: [], ...(connection === 'lost' ? { connection: 'off' as const } : {}) });
+  useSessionStore.setState({
+    faults: [],
+    executorReason: '',
+    ...(connection === 'lost' ? { connection: 'off' as const } : {}),
+  });
 }

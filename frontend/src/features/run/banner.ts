@@ -17,22 +17,33 @@ export interface BannerContent {
 interface Situation {
   connection: Connection;
   connectionMessage: string;
+  /** Why the ladder stands where it stands, when nobody asked for it. */
+  executorReason: string;
   faults: readonly Fault[];
   failure: LaunchFailure | null;
 }
 
 /** The lost connection first, then the last fault, then why a command was refused. */
-export function bannerFor({
-  connection,
-  connectionMessage,
-  faults,
-  failure,
-}: Situation): BannerContent | null {
+export function bannerFor(situation: Situation): BannerContent | null {
+  const { connection, connectionMessage, executorReason, faults, failure } = situation;
   if (connection === 'reconnecting' || connection === 'lost')
     return connectionBanner(connection, connectionMessage);
   if (failure) return failureBanner(failure);
   const fault = faults.at(-1);
-  return fault ? faultBanner(fault) : null;
+  if (fault) return faultBanner(fault);
+  return executorReason ? reasonBanner(executorReason) : null;
+}
+
+function reasonBanner(reason: string): BannerContent {
+  return {
+    kind: 'fault',
+    tone: 'error',
+    titleKey: 'banner.ended',
+    values: {},
+    text: reason,
+    hint: '',
+    link: null,
+  };
 }
 
 function connectionBanner(connection: 'reconnecting' | 'lost', message: string): BannerContent {
@@ -49,11 +60,12 @@ function connectionBanner(connection: 'reconnecting' | 'lost', message: string):
 
 function faultBanner(fault: Fault): BannerContent {
   const where = fault.file && fault.line > 0;
+  const node = (fault.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
   return {
     kind: 'fault',
     tone: 'error',
-    titleKey: where ? 'banner.faultAt' : `banner.fault.${fault.kind}`,
-    values: { file: fault.file, line: String(fault.line), node: fault.node_path },
+    titleKey: where ? 'banner.faultAt' : `banner.${node ? 'faultOf' : 'fault'}.${fault.kind}`,
+    values: { file: fault.file, line: String(fault.line), node },
     text: fault.message,
     hint: fault.hint,
     link: where

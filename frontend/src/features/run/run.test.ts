@@ -3,7 +3,13 @@ import type { Fault } from '@/generated/messages';
 import { bannerFor } from './banner';
 import { fractionOf } from './RunProgress';
 
-const calm = { connection: 'open', connectionMessage: '', faults: [], failure: null } as const;
+const calm = {
+  connection: 'open',
+  connectionMessage: '',
+  executorReason: '',
+  faults: [],
+  failure: null,
+} as const;
 
 const fault = (more: Partial<Fault>): Fault => ({
   kind: 'exception',
@@ -34,6 +40,18 @@ describe('bannerFor', () => {
   it('leads to the block where there is no line', () => {
     const faults = [fault({ kind: 'timeout', node_id: 'n1', tree_id: 'MainTree' })];
     expect(bannerFor({ ...calm, faults })?.link).toEqual({ tree: 'MainTree', node: 'n1' });
+  });
+
+  it('names the block that hangs', () => {
+    const faults = [fault({ kind: 'timeout', node_path: 'bump and go/Forward::6' })];
+    expect(bannerFor({ ...calm, faults })).toMatchObject({
+      titleKey: 'banner.faultOf.timeout',
+      values: { node: 'Forward' },
+    });
+  });
+
+  it('says why the world is gone', () => {
+    expect(bannerFor({ ...calm, executorReason: 'The simulated world was killed.' })?.text).toMatch(/world/);
   });
 
   it('puts the lost connection before all else', () => {

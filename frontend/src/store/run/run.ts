@@ -14,7 +14,13 @@ export async function runProject(): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
   useRunStore.setState({ stage: 'saving', failure: null });
-  useSessionStore.setState({ isLaunching: true, progress: null });
+  useSessionStore.setState({
+    isLaunching: true,
+    progress: null,
+    faults: [],
+    finished: null,
+    executorReason: '',
+  });
   try {
     await saveNow();
     useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });

@@ -71,7 +71,7 @@ class Play:
                     effects += self.happens(answer)
         return effects
 
-    def answers(self, effect: Effect) -> list[Event]:
+    def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
         """What obedient children and the manager do about an effect."""
         match effect:
             case Tell(kind="world", message={"type": "start"}):

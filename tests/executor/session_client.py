@@ -14,6 +14,7 @@ from pathlib import Path
 import msgspec
 import psutil
 from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed
 
 from executor.messages import Camera, Poses, Scan, Scene, View
 from translator import load, to_app_zip
@@ -26,7 +27,9 @@ decode_frame = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View).dec
 def app_zip(example="laser_bump_and_go", **overlay):
     """The app of an example as base64; `overlay` replaces actions by name."""
     folder = ROOT / "examples" / example
-    files = {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.*") if "__pycache__" not in str(p)}
+    files = {
+        str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.*") if "__pycache__" not in str(p)
+    }
     files |= {f"actions/{name}.py": source.encode() for name, source in overlay.items()}
     return base64.b64encode(to_app_zip(load(files))).decode()
 
@@ -45,6 +48,7 @@ class SessionClient:
         self.frames = []
         self._changed = asyncio.Condition()
         self._requests = 0
+        self._headers = {"Authorization": f"Bearer {TOKEN}"}
         self._tasks = []
 
     async def open(self, *, client=None, stream=True):
@@ -58,7 +62,7 @@ class SessionClient:
         return self
 
     def _connect(self, path):
-        headers = {"Authorization": f"Bearer {TOKEN}"}
+        headers = self._headers
         return connect(
             f"ws://127.0.0.1:{self.port}{path}",
             additional_headers=headers,
@@ -74,14 +78,14 @@ class SessionClient:
         await asyncio.gather(*self._tasks)
 
     async def _read_control(self):
-        async for text in self.control:
+        async for text in _until_closed(self.control):
             message = json.loads(text) | {"at": time.monotonic()}
             async with self._changed:
                 self.events.append(message)
                 self._changed.notify_all()
 
     async def _read_stream(self):
-        async for data in self.stream:
+        async for data in _until_closed(self.stream):
             frame = decode_frame(data)
             async with self._changed:
                 self.frames.append((time.monotonic(), frame))
@@ -96,9 +100,7 @@ class SessionClient:
         """The first event of a name after the given place in `events`."""
 
         def find():
-            return next(
-                (e for e in self.events[after:] if e["command"] == name and where(e["data"])), None
-            )
+            return next((e for e in self.events[after:] if e["command"] == name and where(e["data"])), None)
 
         return await self.until(find, timeout_s)
 
@@ -111,7 +113,9 @@ class SessionClient:
     async def ask(self, command, data=None, timeout_s=70):
         """Sends a command and returns its reply: "ack" or the error."""
         request = await self.send(command, data)
-        reply = await self.until(lambda: next((e for e in self.events if e["id"] == request), None), timeout_s)
+        reply = await self.until(
+            lambda: next((e for e in self.events if e["id"] == request), None), timeout_s
+        )
         return "ack" if reply["command"] == "ack" else reply["data"]
 
     def named(self, name, after=0):
@@ -119,7 +123,9 @@ class SessionClient:
 
     @property
     def state(self):
-        states = [e["data"]["state"] for e in self.events if e["command"] in {"introspection", "state-changed"}]
+        states = [
+            e["data"]["state"] for e in self.events if e["command"] in {"introspection", "state-changed"}
+        ]
         return states[-1]
 
     def robot_position(self):
@@ -137,6 +143,13 @@ class SessionClient:
                     if object_id == base.id:
                         position = list(poses[i * 7 : i * 7 + 3])
         return position
+
+
+async def _until_closed(socket):
+    """The messages of a socket until it is closed, in whatever way."""
+    with contextlib.suppress(ConnectionClosed):
+        async for message in socket:
+            yield message
 
 
 @contextlib.asynccontextmanager

@@ -8,9 +8,13 @@ import signal
 import sys
 import time
 
+import msgspec
+
 from executor.channel import Channel, ChannelClosed
 from executor.confine import die_with_parent
+from executor.messages import View
 
+FRAME = msgspec.msgpack.encode(View(t=0.0, width=1, height=1, jpeg=b""))
 READY = {"type": "ready", "renderer": "fake", "tf": False, "universe": "Fake"}
 ANSWERS = {"pause": "paused", "resume": "resumed", "step": "stepped", "set_blackboard": "blackboard_set"}
 
@@ -30,7 +34,7 @@ def obey(channel, *, on_start=lambda: None):
                         "type": "frame",
                         "client": message["client"],
                         "stream": message["stream"],
-                        "data": b"\x80",
+                        "data": FRAME,
                     }
                 )
             case "exit":

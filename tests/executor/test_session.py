@@ -1,0 +1,99 @@
+"""A whole session with the real world and the real application: laser bump and go."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import os
+import signal
+
+import psutil
+import pytest
+
+from executor.messages import Poses, Scan, Scene
+from tests.executor.session_client import SessionClient, manager_process, run_data
+
+pytestmark = pytest.mark.simulation
+
+
+def child_of(manager, kind):
+    (child,) = (
+        c for c in psutil.Process(manager.pid).children() if f"executor.{kind}.process" in c.cmdline()
+    )
+    return child
+
+
+def moved(client, start, distance_m):
+    position = client.robot_position()
+    return position is not None and math.dist(start[:2], position[:2]) > distance_m
+
+
+async def start(client):
+    for stream in ("poses", "scan"):
+        assert await client.ask("subscribe", {"stream": stream}) == "ack"
+    assert await client.ask("run", run_data()) == "ack"
+    begin = await client.until(client.robot_position)
+    await client.until(lambda: moved(client, begin, 0.1))
+
+
+async def test_run_pause_step_resume_stop_and_run_again():
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        await start(client)
+        assert any(isinstance(frame, Scene) for _, frame in client.frames)
+        assert any(isinstance(frame, Scan) for _, frame in client.frames)
+        assert client.named("sim")[-1]["collisions"] == 0 if client.named("sim") else True
+
+        assert await client.ask("pause") == "ack"
+        await asyncio.sleep(0.5)
+        at, frames, place = len(client.events), len(client.frames), client.robot_position()
+        await asyncio.sleep(1.0)
+        assert client.named("tick", after=at) == []
+        assert [f for _, f in client.frames[frames:] if isinstance(f, Poses)] == []
+        assert client.robot_position() == place
+
+        assert await client.ask("step") == "ack"
+        await client.event("tick", after=at)
+        assert await client.ask("resume") == "ack"
+        await client.until(lambda: moved(client, place, 0.1))
+
+        assert await client.ask("terminate_application") == "ack"
+        assert client.state == "visualization_ready"
+        assert child_of(manager, "world").is_running()
+        assert await client.ask("list_topics") == "ack"
+        topics = (await client.event("topics"))["data"]["topics"]
+        assert {"/scan", "/odom", "/cmd_vel", "/clock"} <= {t["name"] for t in topics}
+
+        at = len(client.events)
+        assert await client.ask("run", run_data()) == "ack"
+        await client.event("tick", lambda d: d["n"] > 5, after=at)
+        assert await client.ask("disconnect") == "ack"
+        assert [c for c in psutil.Process(manager.pid).children() if c.status() != psutil.STATUS_ZOMBIE] == []
+        await client.close()
+
+
+@pytest.mark.parametrize(("kind", "state"), [("world", "connected"), ("application", "visualization_ready")])
+async def test_a_killed_process_is_told_and_a_second_run_works(kind, state):
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        await start(client)
+        at = len(client.events)
+        os.kill(child_of(manager, kind).pid, signal.SIGKILL)
+        fault = (await client.event("fault", after=at))["data"]
+        assert (fault["kind"], "SIGKILL" in fault["message"]) == ("process", True)
+        await client.event("state-changed", lambda d: d["state"] == state, after=at)
+        assert await client.ask("run", run_data()) == "ack"
+        begin = client.robot_position()
+        await client.until(lambda: moved(client, begin, 0.1))
+        await client.close()
+
+
+async def test_nothing_outlives_a_manager_that_is_killed():
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        await start(client)
+        family = psutil.Process(manager.pid).children(recursive=True)
+        manager.kill()
+        await manager.wait()
+        assert psutil.wait_procs(family, timeout=10)[1] == []
+        await client.close()

@@ -11,13 +11,16 @@ import json
 import math
 import threading
 import time
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from typing import Any, Self
 
 import msgpack
 import numpy as np
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
+
+from tests.e2e.server import wait_until
 
 _ids = itertools.count(1)
 
@@ -33,6 +36,7 @@ class Observer:
     poses: dict[int, list[tuple[float, np.ndarray]]] = field(default_factory=dict)
     events: list[dict[str, Any]] = field(default_factory=list)
     frames: dict[str, int] = field(default_factory=dict)
+    frame_t: float = 0.0
     threads: list[threading.Thread] = field(default_factory=list)
 
     @classmethod
@@ -59,6 +63,7 @@ class Observer:
         for thread in observer.threads:
             thread.start()
         observer.send("subscribe", {"stream": "poses", "max_hz": 30})
+        wait_until(lambda: observer.objects, "the scene is sent")
         return observer
 
     def send(self, command: str, data: dict[str, Any] | None = None) -> str:
@@ -79,7 +84,7 @@ class Observer:
 
     def sim_time(self) -> float:
         """The newest simulated time that was heard of, in s."""
-        return max((float(event["t"]) for event in list(self.events)[-200:]), default=0.0)
+        return max(self.frame_t, *(float(event["t"]) for event in list(self.events)[-200:]))
 
     def track(self, body: str) -> list[tuple[float, float, float]]:
         """Where a body was: (t in s, x and y in m) by time."""
@@ -98,17 +103,20 @@ class Observer:
             time.sleep(0.1)
 
     def _read_control(self) -> None:
-        for text in self.control:
-            self.events.append(json.loads(text))
+        with suppress(ConnectionClosed):
+            for text in self.control:
+                self.events.append(json.loads(text))
 
     def _read_stream(self) -> None:
-        for data in self.stream:
-            frame = msgpack.unpackb(data)
-            self.frames[frame["type"]] = self.frames.get(frame["type"], 0) + 1
-            if frame["type"] == "scene":
-                self._take_scene(frame)
-            elif frame["type"] == "poses":
-                self._take_poses(frame)
+        with suppress(ConnectionClosed):
+            for data in self.stream:
+                frame = msgpack.unpackb(data)
+                self.frames[frame["type"]] = self.frames.get(frame["type"], 0) + 1
+                self.frame_t = max(self.frame_t, frame["t"])
+                if frame["type"] == "scene":
+                    self._take_scene(frame)
+                elif frame["type"] == "poses":
+                    self._take_poses(frame)
 
     def _take_scene(self, scene: dict[str, Any]) -> None:
         for item in scene["objects"]:

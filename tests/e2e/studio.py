@@ -115,7 +115,7 @@ class Studio:
     def end_session(self) -> None:
         """Closes the session and waits until no process of it is left."""
         self.at("end-session").click()
-        wait_until(lambda: not self.server.children(), 20, "the session's processes end")
+        wait_until(lambda: not self.server.children(), "the session's processes end")
 
     def picture(self, name: str) -> None:
         """Keeps a picture of the page, for the docs and for looking at."""

@@ -52,7 +52,7 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.run()
     observer = studio.observe()
-    wait_until(lambda: observer.distance_travelled("robot") > 0.2, 20, "the robot moves")
+    wait_until(lambda: observer.distance_travelled("robot") > 0.2, "the robot moves")
 
     studio.at("pause").click()
     studio.expect_state("paused")
@@ -63,14 +63,14 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     assert len(observer.of("tick")) == ticks, "the tree stands still"
 
     studio.at("step").click()
-    wait_until(lambda: len(observer.of("tick")) == ticks + 1, 10, "one tick is made")
+    wait_until(lambda: len(observer.of("tick")) == ticks + 1, "one tick is made")
     studio.page.wait_for_timeout(500)
     assert len(observer.of("tick")) == ticks + 1
     assert observer.sim_time() == pytest.approx(frozen + 0.05, abs=0.02), "a step is one period of 20 Hz"
 
     studio.at("resume").click()
     studio.expect_state("application_running")
-    wait_until(lambda: observer.sim_time() > frozen + 1, 20, "time goes on")
+    wait_until(lambda: observer.sim_time() > frozen + 1, "time goes on")
 
     studio.at("stop").click()
     studio.expect_state("visualization_ready")
@@ -100,7 +100,7 @@ def test_a_port_and_a_line_of_python_change_what_the_robot_does(studio: Studio) 
     studio.run()
     observer = studio.observe()
     start = observer.track("robot")[0]
-    wait_until(lambda: observer.track("robot")[-1][1] < start[1] - 0.1, 20, "the robot drives backwards")
+    wait_until(lambda: observer.track("robot")[-1][1] < start[1] - 0.1, "the robot drives backwards")
     observer.close()
 
 
@@ -113,7 +113,7 @@ def test_without_webgl_the_server_draws_the_world(
     expect(studio.at("viewer-video")).to_be_visible()
     picture = studio.at("viewer-video").locator("img, canvas").first
     first = picture.screenshot()
-    wait_until(lambda: picture.screenshot() != first, 20, "the picture of the world changes")
+    wait_until(lambda: picture.screenshot() != first, "the picture of the world changes")
     studio.picture("running-without-webgl")
 
     observer = studio.observe()
@@ -145,7 +145,7 @@ def still(observer: Observer, studio: Studio) -> float:
 def speed_when_driving(studio: Studio) -> float:
     """The robot's speed in m/s over two simulated seconds of the straight way at the start."""
     observer = studio.observe()
-    wait_until(lambda: len(observer.track("robot")) > 30, 20, "the robot moves")
+    wait_until(lambda: len(observer.track("robot")) > 30, "the robot moves")
     observer.wait_for_sim_time(observer.sim_time() + 2.5, deadline_s=30)
     track = observer.track("robot")
     end = track[-1]

@@ -25,7 +25,7 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
     studio.run()
     observer = studio.observe()
     detect = uid_of(observer, "DetectPerson")
-    wait_until(lambda: seen_spans(observer, detect), 60, "the person is found")
+    wait_until(lambda: seen_spans(observer, detect), "the person is found")
     first_seen = seen_spans(observer, detect)[0][0]
     expect(studio.at("viewer-camera")).to_be_visible()
     studio.picture("following")
@@ -47,7 +47,7 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
 
 def uid_of(observer: Observer, node_type: str) -> int:
     """The running tree's first node of a type."""
-    wait_until(lambda: observer.of("tree") or observer.of("snapshot"), 10, "the tree is told")
+    wait_until(lambda: observer.of("tree") or observer.of("snapshot"), "the tree is told")
     snapshots = [event["data"]["tree"] for event in observer.of("snapshot") if event["data"]["tree"]]
     nodes = (snapshots or [event["data"] for event in observer.of("tree")])[-1]["nodes"]
     return int(next(node["uid"] for node in nodes if node["type"] == node_type))

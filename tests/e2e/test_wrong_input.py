@@ -125,7 +125,7 @@ def test_a_world_that_dies_is_told_and_the_next_run_works(studio: Studio) -> Non
     studio.expect_state("connected")
     studio.run()
     observer = studio.observe()
-    wait_until(lambda: observer.distance_travelled("robot") > 0.1, 20, "the robot moves again")
+    wait_until(lambda: observer.distance_travelled("robot") > 0.1, "the robot moves again")
     observer.close()
 
 

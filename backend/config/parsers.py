@@ -8,8 +8,19 @@ from typing import TYPE_CHECKING, Any
 from rest_framework.exceptions import ParseError
 from rest_framework.parsers import JSONParser
 
+from backend.config.environment import environment
+from backend.config.problems import StudioError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+
+class TooLargeError(StudioError):
+    """The body of a request is larger than `BT_STUDIO_MAX_REQUEST_BYTES`."""
+
+    status = 413
+    code = "request_too_large"
+    title = "Too large"
 
 
 class StrictJSONParser(JSONParser):
@@ -20,7 +31,11 @@ class StrictJSONParser(JSONParser):
     ) -> Any:
         """Reads the whole body."""
         try:
-            text = stream.read().decode("utf-8")
+            limit = environment().max_request_bytes
+            raw = stream.read(limit + 1)
+            if len(raw) > limit:
+                raise TooLargeError(f"A request has at most {limit:,} bytes.")
+            text = raw.decode("utf-8")
             value = json.loads(text, parse_constant=_refuse_constant)
             if "\\u" in text or "\0" in text:
                 _refuse_unstorable(value)

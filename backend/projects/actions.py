@@ -21,6 +21,7 @@ from backend.projects.errors import (
 )
 from backend.projects.manifest import MANIFEST, Manifest, read, write
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, IdempotencyKey, Project
+from backend.projects.signals import project_deleted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -179,6 +180,7 @@ def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -
     require_match(project, if_match)
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
+    transaction.on_commit(lambda: project_deleted.send(Project, project_id=project.id))
 
 
 @transaction.atomic

@@ -91,7 +91,8 @@ def refresh(session: Session) -> Session:
         status = launcher().poll(session.launcher_state)
         if status is not None:
             launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
-            _finish(session, SessionState.FAILED, f"The executor ended by itself (status {status}).")
+            died = f"The executor ended by itself (status {status})." if status else ""
+            _finish(session, SessionState.FAILED if died else SessionState.ENDED, died)
     return session
 
 
@@ -107,6 +108,12 @@ def end_session(session: Session) -> Session:
     if session.state in LIVE_STATES:
         _finish(session, SessionState.ENDED)
     return session
+
+
+def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
+    """Ends the sessions of a project that was deleted."""
+    for session in Session.objects.filter(project_id=project_id, state__in=LIVE_STATES):
+        end_session(session)
 
 
 def end_all_sessions() -> None:
@@ -156,6 +163,8 @@ def _launch(session: Session) -> None:
         session.state = SessionState.READY
         session.save(update_fields=["address", "launcher_state", "state"])
     finally:
+        with _launches_lock:
+            _launches.pop(session.id, None)
         connection.close()
 
 

@@ -8,3 +8,10 @@ class SessionsConfig(AppConfig):
 
     name = "backend.sessions"
     label = "executor_sessions"
+
+    def ready(self) -> None:
+        """A deleted project needs no robot."""
+        from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded
+        from backend.sessions.actions import end_sessions_of  # noqa: PLC0415
+
+        project_deleted.connect(end_sessions_of, dispatch_uid="end_sessions_of")

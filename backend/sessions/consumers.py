@@ -125,7 +125,7 @@ async def _explained(session: Session, closed: Closed) -> Closed:
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
         session = await sync_to_async(actions.refresh)(session)
         if session.state != SessionState.READY:
-            return Closed(EXECUTOR_FAILED, _short(session.error))
+            return Closed(EXECUTOR_FAILED, _short(session.error or "The session has ended."))
         await asyncio.sleep(POLL_S)
     return closed
 

@@ -181,6 +181,11 @@ def test_bodies_that_are_no_json_are_refused(api, raw):
     assert response.json()["code"] == "parse_error"
 
 
+def test_a_body_that_is_too_large_is_not_read(api, project, settings_of):
+    settings_of(max_request_bytes=10_000)
+    assert api.save(project["id"], file("a", 0, "x" * 10_000), expect=413)["code"] == "request_too_large"
+
+
 def test_project_json_stays_a_project(api, project):
     pid = project["id"]
     for content in ("{", "[]", '{"name": 5}', '{"format": "other"}', '{"name": "a/b"}'):

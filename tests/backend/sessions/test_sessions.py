@@ -21,7 +21,8 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 def launched(session_id):
     """Waits for the launch to end, as `end_session` does."""
-    actions._launches[UUID(session_id)].result()
+    if launch := actions._launches.get(UUID(session_id)):
+        launch.result()
 
 
 def test_a_session_starts_is_found_again_and_ends(api, project, fake_manager):
@@ -72,6 +73,15 @@ def test_an_executor_that_dies_fails_its_session(api, project, fake_manager):
     again = api.post(f"projects/{project['id']}/session")
     assert again["id"] != started["id"]
     api.delete(f"sessions/{again['id']}")
+
+
+def test_deleting_a_project_ends_its_session(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    api.delete(f"projects/{project['id']}")
+    assert Session.objects.get().state == "ended"
+    assert psutil.Process().children(recursive=True) == []
 
 
 def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):

@@ -1,0 +1,8 @@
+"""What other apps may want to know of projects."""
+
+from __future__ import annotations
+
+from django.dispatch import Signal
+
+project_deleted = Signal()
+"""Sent with `project_id` when the deletion of a project is committed."""

@@ -112,7 +112,8 @@ export interface ChangesResult {
 export interface Conflict {
   path: string;
   base_revision: number;
-  theirs: { revision: number; content: string | null; updated_at?: string };
+  /** `null`: the file was deleted there. */
+  theirs: { revision: number; content: string | null; updated_at?: string } | null;
   mine: { content: string | null };
 }
 
@@ -133,10 +134,10 @@ export interface AppBundle {
 
 export interface SessionInfo {
   id: string;
-  state: 'starting' | 'ready' | 'failed';
+  state: 'starting' | 'ready' | 'failed' | 'ended';
   control_url: string;
   stream_url: string;
-  detail?: string;
+  error?: string;
 }
 
 export interface TemplateInfo {

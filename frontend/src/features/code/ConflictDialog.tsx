@@ -35,7 +35,7 @@ export function ConflictDialog() {
 function Choice({ conflict, left }: { readonly conflict: Conflict; readonly left: number }) {
   const { t } = useTranslation('code');
   const mine = conflict.mine.content;
-  const theirs = conflict.theirs.content;
+  const theirs = conflict.theirs?.content ?? null;
   const merged = useRef(mine ?? '');
   const choose = (text: string | null) => {
     resolveConflict(conflict, text).catch((error: Error) =>

@@ -9,18 +9,24 @@ import { useSavingStore } from './store';
  * edit on top of the server's version, so that neither version is lost from the history.
  */
 export async function resolveConflict(conflict: Conflict, text: string | null): Promise<void> {
-  const { rebase, setFileText, addFile, deleteFile } = useProjectStore.getState();
-  const { path, theirs } = conflict;
-  if (theirs.content !== null) rebase(path, theirs.revision, theirs.content);
-  if (text === null) deleteFile(path);
-  else if (theirs.content === null && theirs.revision === 0) addFile(path, text);
-  else setFileText(path, text);
+  takeAsBase(conflict);
+  const { setFileText, deleteFile } = useProjectStore.getState();
+  if (text === null) deleteFile(conflict.path);
+  else setFileText(conflict.path, text);
 
   const { state } = useSavingStore.getState();
-  const left = state.kind === 'conflict' ? state.conflicts.filter((other) => other.path !== path) : [];
+  const left =
+    state.kind === 'conflict' ? state.conflicts.filter((other) => other.path !== conflict.path) : [];
   if (left.length > 0) return useSavingStore.setState({ state: { kind: 'conflict', conflicts: left } });
   useSavingStore.setState({ state: { kind: 'dirty' } });
   await saveNow();
+}
+
+/** Makes the server's version what the file's edits are based on; there may be none, here or there. */
+function takeAsBase({ path, theirs, mine }: Conflict): void {
+  const { files, addFile, rebase } = useProjectStore.getState();
+  if (!(path in files)) addFile(path, theirs?.content ?? mine.content ?? '');
+  rebase(path, theirs?.revision ?? 0, theirs?.content ?? '');
 }
 
 /**

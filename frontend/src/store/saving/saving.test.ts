@@ -156,6 +156,23 @@ describe('conflicts', () => {
   });
 });
 
+it('brings a file back that was deleted on the server, if the user wants it', async () => {
+  edit('mine');
+  const save = vi.spyOn(api, 'saveChanges').mockResolvedValue({
+    revision: 7,
+    files: [{ path: PATH, revision: 7 }],
+    actions: [],
+    diagnostics: [],
+  });
+  const conflict = { path: PATH, base_revision: 1, theirs: null, mine: { content: 'mine' } };
+  useSavingStore.setState({ state: { kind: 'conflict', conflicts: [conflict] } });
+  await resolveConflict(conflict, 'mine');
+  expect(save).toHaveBeenCalledWith(
+    'p1',
+    expect.objectContaining({ files: [{ path: PATH, base_revision: 0, content: 'mine' }] }),
+  );
+});
+
 describe('drafts', () => {
   it('come back after a crash', async () => {
     vi.spyOn(api, 'saveChanges').mockRejectedValue(

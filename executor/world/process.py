@@ -20,6 +20,7 @@ from executor.channel import Channel, ChannelClosed
 from executor.messages import CameraPose
 from executor.ros.environment import has_tf, ros_environment
 from executor.universes.document import DocumentError, Problem
+from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -80,8 +81,8 @@ class WorldProcess:
             self._dispatch(message)
         except DocumentError as error:
             self._refuse(error.problems[0], error.file, more=len(error.problems) - 1)
-        except (ValueError, TypeError, KeyError, msgspec.ValidationError, OSError) as error:
-            _log.exception("%s failed", message["type"])
+        except (WorldError, ValueError, TypeError, KeyError, OSError) as error:
+            _log.warning("%s is refused: %r", message["type"], error)
             self._say_error("bad_request", f"{message['type']}: {error}")
 
     def _dispatch(self, message: dict[str, Any]) -> None:

@@ -1,0 +1,158 @@
+"""The world process over its channel, as the manager drives it."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from executor.channel import Channel, socket_pair
+from executor.messages import Poses, Scene, Sim
+from executor.ros.environment import ros_environment
+
+ROOT = Path(__file__).parents[3]
+DOMAIN_ID = 33
+decode = msgspec.msgpack.Decoder(Scene | Poses).decode
+
+
+class Remote:
+    """A world process, and what it says."""
+
+    def __init__(self) -> None:
+        ours, theirs = socket_pair()
+        environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
+        command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
+        self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
+        theirs.close()
+        self.channel = Channel(ours.detach())
+
+    def tell(self, kind: str, **fields: Any) -> None:
+        self.channel.send({"type": kind, **fields})
+
+    def start(self, universe: str = "walled_room", **fields: Any) -> None:
+        self.tell("start", universe=universe, seed=1, speed=1.0, domain_id=DOMAIN_ID, **fields)
+
+    def hear(self, kind: str, **fields: Any) -> dict[str, Any]:
+        """Returns the next message of a type with these fields; others are passed over."""
+        while True:
+            message = self.channel.receive(60)
+            assert message is not None, f"no {kind} came"
+            if message["type"] == kind and message.items() >= fields.items():
+                return message
+
+    def close(self) -> None:
+        self.channel.close()
+        self.process.wait(30)
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Remote]:
+    remote = Remote()
+    yield remote
+    remote.close()
+
+
+@pytest.fixture
+def remote(shared: Remote) -> Remote:
+    """The running world, paused at time zero."""
+    if not hasattr(shared, "started"):
+        shared.tell("pause")
+        assert shared.hear("error")["code"] == "not_started"
+        shared.start("walled_rom")
+        refusal = shared.hear("error")
+        assert (refusal["code"], refusal["hint"]) == ("BTU004", "did you mean 'walled_room'?")
+        shared.start()
+        ready = shared.hear("ready")
+        assert ready["universe"] == "Walled room"
+        assert ready["renderer"]
+        shared.started = True  # type: ignore[attr-defined]
+    shared.tell("pause")
+    shared.tell("reset")
+    return shared
+
+
+def poses_until(remote: Remote, client: str, x_m: float) -> float:
+    """Waits until the robot has come so far; returns the simulated time."""
+    scene = None
+    while True:
+        message = remote.hear("frame", client=client)
+        frame = decode(message["data"])
+        if isinstance(frame, Scene):
+            scene = frame
+            continue
+        assert scene is not None
+        base = next(o.id for o in scene.objects if o.link == "base_link")
+        ids = memoryview(frame.ids).cast("H").tolist()
+        if base in ids:
+            row = memoryview(frame.poses).cast("f").tolist()[ids.index(base) * 7 :]
+            if row[0] >= x_m:
+                return frame.t
+
+
+def test_a_resumed_world_moves_and_is_seen(remote: Remote) -> None:
+    remote.tell("subscribe", client="a", stream="poses", max_hz=60.0, width=None, camera_pose=None)
+    remote.tell("resume")
+    remote.tell("teleop", linear=0.5, angular=0.0)
+    assert poses_until(remote, "a", 0.02) > 0
+    remote.tell("unsubscribe", client="a", stream="poses")
+
+
+def test_a_paused_world_steps_as_told(remote: Remote) -> None:
+    remote.tell("teleop", linear=0.5, angular=0.0)
+    remote.tell("step", dt_s=0.5)
+    remote.tell("subscribe", client="b", stream="poses", max_hz=60.0, width=None, camera_pose=None)
+    assert poses_until(remote, "b", 0.05) == pytest.approx(0.5)
+    remote.tell("unsubscribe", client="b", stream="poses")
+
+
+def test_reports_are_valid_sim_messages(remote: Remote) -> None:
+    report = msgspec.convert(remote.hear("sim"), Sim)
+    assert report.paused
+    assert report.collisions == 0
+
+
+def test_a_bump_is_logged(remote: Remote) -> None:
+    remote.tell("move_body", id="robot", pose=[4.6, 2.0, 0, 0, 0, 0])
+    remote.tell("teleop", linear=0.6, angular=0.0)
+    for _ in range(4):
+        remote.tell("teleop", linear=0.6, angular=0.0)
+        remote.tell("step", dt_s=0.5)
+    assert "bumped into wall_east" in remote.hear("log")["text"]
+
+
+def test_what_makes_no_sense_is_refused_and_the_world_goes_on(remote: Remote) -> None:
+    for kind, fields in [
+        ("nonsense", {}),
+        ("step", {}),
+        ("set_speed", {"speed": -1}),
+        ("move_body", {"id": "ghost", "pose": [0, 0, 0, 0, 0, 0]}),
+        ("subscribe", {"client": "a", "stream": "smell"}),
+        ("subscribe", {"client": "a", "stream": "view", "camera_pose": {"eye": 3}}),
+        ("echo_topic", {"topic": "/ghost", "max_hz": 1.0}),
+        ("start", {"universe": "empty"}),
+    ]:
+        remote.tell(kind, **fields)
+        assert remote.hear("error")["message"]
+    remote.tell("list_topics")
+    names = {row["name"] for row in remote.hear("topics")["topics"]}
+    assert {"/scan", "/cmd_vel", "/odom", "/clock", "/camera/image_raw"} <= names
+
+
+def test_a_document_that_is_wrong_is_refused_with_its_line() -> None:
+    remote = Remote()
+    remote.start("format: bt-studio/universe\nversion: 1\nname: x\nmodels: [{id: a}]\n")
+    refusal = remote.hear("error")
+    assert "universe.yaml:4:" in refusal["message"]
+    remote.tell("stop")
+    assert remote.process.wait(30) == 0
+    remote.close()
+
+
+def test_it_ends_with_its_manager() -> None:
+    remote = Remote()
+    remote.channel.close()
+    assert remote.process.wait(30) == 0

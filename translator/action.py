@@ -73,7 +73,10 @@ def inspect_action(source: str, filename: str) -> ActionModel:
     name = PurePosixPath(filename).stem
     broken = ActionModel(name=name, source=source, path=filename)
     if len(source) > MAX_BYTES:
-        return _with(broken, diagnostic("BT0003", Place(filename), size="too large", limit="2 MB"))
+        return _with(
+            broken,
+            diagnostic("BT0003", Place(filename, line=1), size=f"{len(source) / 1e6:.0f} MB", limit="2 MB"),
+        )
     try:
         with warnings.catch_warnings():  # an odd escape in the user's code is no matter of ours
             warnings.simplefilter("ignore")

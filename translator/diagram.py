@@ -191,7 +191,7 @@ class _Reader:
             root=root,
             nodes=nodes,
             drafts=tuple(drafts),
-            layout=self.text("", document, "layout"),
+            layout=self.layout(document),
             ports=self.model(document),
             attributes=self.texts("", document, "attributes"),
             file=self.file,
@@ -262,6 +262,10 @@ class _Reader:
         for node_id in lost:
             self.report("BT0024", node_id, type=nodes[node_id].type)
         return lost
+
+    def layout(self, document: dict[str, Any]) -> str:
+        layout = self.text("", document, "layout")
+        return "" if layout == "vertical" else layout
 
     def model(self, document: dict[str, Any]) -> tuple[PortModel, ...]:
         rows = document.get("ports") or []

@@ -67,13 +67,14 @@ class _Import:
                 yield target
 
 
-def from_xml(
+def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     xml: bytes | str,
     *,
     file: str = "tree.xml",
     included: Mapping[str, bytes] | None = None,
     actions: Mapping[str, bytes] | None = None,
     stubs: bool = True,
+    places: str = IMPORTS,
 ) -> Project:
     """Makes a project of a BehaviorTree.CPP document, v3 or v4, or of a Groot2 project.
 
@@ -83,6 +84,8 @@ def from_xml(
         included: The files that it may include, by path.
         actions: Sources of actions by file name, such as `Forward.py`.
         stubs: Whether actions that are missing get a stub.
+        places: What stands before the path of a file in places of findings. Without it, findings of
+            checks point into the diagrams of the project that is made, else into the XML.
 
     Raises:
         TranslatorError: If the text is no behaviour tree that can be read.
@@ -97,14 +100,17 @@ def from_xml(
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
     files.update(_actions(trees, documents, actions or {}, stubs=stubs))
-    project = assemble(settings, (_without_spans(tree) for tree in trees), files)
-    found = [item.moved(file=f"{IMPORTS}{item.place.file}") for item in work.found]
+    project = assemble(settings, (_placed(tree, places) for tree in trees), files)
+    found = [item.moved(file=f"{places}{item.place.file}") for item in work.found]
     return replace(project, diagnostics=(*found, *project.diagnostics))
 
 
-def _without_spans(tree: Tree) -> Tree:
-    """Leaves out lines of the XML, since from now on findings point into the diagram."""
-    return replace(tree, nodes={key: replace(node, span=None) for key, node in tree.nodes.items()})
+def _placed(tree: Tree, places: str) -> Tree:
+    """Says where the nodes of a tree stand from now on: in the XML, or in the diagram made of it."""
+    if places != IMPORTS:
+        return replace(tree, file=f"{places}{tree.file}")
+    nodes = {key: replace(node, span=None) for key, node in tree.nodes.items()}
+    return replace(tree, nodes=nodes, file=diagram_path(tree.id))
 
 
 def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]:

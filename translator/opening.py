@@ -79,15 +79,16 @@ def open_files(
     )
 
 
-def open_tree(
+def open_tree(  # noqa: PLR0913 - the arguments of `from_xml`
     raw: bytes,
     *,
     file: str,
     included: Mapping[str, bytes] | None = None,
     actions: Mapping[str, bytes] | None = None,
     stubs: bool = True,
+    places: str = "imports/",
 ) -> Project:
-    """Opens one XML document of any form.
+    """Opens one XML document of any form; the arguments are those of `from_xml`.
 
     Raises:
         TranslatorError: If it cannot be read.
@@ -95,7 +96,7 @@ def open_tree(
     if is_old_form(raw):
         return read_old_form(raw, file=file)
     xml_files = {path: data for path, data in (included or {}).items() if path.lower().endswith(XML_SUFFIXES)}
-    return from_xml(raw, file=file, included=xml_files, actions=actions, stubs=stubs)
+    return from_xml(raw, file=file, included=xml_files, actions=actions, stubs=stubs, places=places)
 
 
 def _read_actions(folder: Path) -> dict[str, bytes]:
@@ -137,4 +138,9 @@ def _open_tree(path: Path, raw: bytes, sources: Mapping[str, bytes], *, stubs: b
     }
     if not sources and (folder / "actions").is_dir():
         sources = _read_actions(folder / "actions")
-    return open_tree(raw, file=path.name, included=included, actions=sources, stubs=stubs)
+    places = "" if path.parent == Path() else f"{path.parent.as_posix()}/"
+    try:
+        return open_tree(raw, file=path.name, included=included, actions=sources, stubs=stubs, places=places)
+    except TranslatorError as error:
+        found = [item.moved(file=f"{places}{item.place.file}") for item in error.diagnostics]
+        raise TranslatorError(found) from None

@@ -97,7 +97,7 @@ def load(files: Mapping[str, bytes]) -> Project:
 def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:
     """Makes the project that `load` would read from `files`, of settings and trees that are known already."""
     found: list[Diagnostic] = []
-    placed = {tree.id: replace(tree, file=diagram_path(tree.id)) for tree in trees}
+    placed = {tree.id: tree for tree in trees}
     actions = _load_actions(files, used_types(placed.values()), found)
     return Project(settings, placed, actions, dict(files), tuple(found))
 
@@ -107,20 +107,20 @@ def _is_diagram(path: str) -> bool:
 
 
 def _load_trees(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, Tree]:
-    trees: dict[str, Tree] = {}
+    read: list[Tree] = []
     for path in sorted(files):
-        if not _is_diagram(path):
-            continue
-        tree, problems = restore(files[path], file=path)
-        found.extend(problems)
-        if tree is None:
-            continue
-        place = Place(path, tree=tree.id)
+        if _is_diagram(path):
+            tree, problems = restore(files[path], file=path)
+            found.extend(problems)
+            read += [tree] if tree is not None else []
+    trees: dict[str, Tree] = {}
+    for tree in sorted(read, key=lambda tree: tree.file != diagram_path(tree.id)):
+        place = Place(tree.file, tree=tree.id)
         if tree.id in trees:
             found.append(diagnostic("BT0015", place, id=tree.id, other=trees[tree.id].file))
             continue
-        if path != diagram_path(tree.id):
-            found.append(diagnostic("BT0016", place, id=tree.id, file=PurePosixPath(path).stem))
+        if tree.file != diagram_path(tree.id):
+            found.append(diagnostic("BT0016", place, id=tree.id, file=PurePosixPath(tree.file).stem))
         trees[tree.id] = tree
     return trees
 

@@ -66,7 +66,7 @@ class Node:
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """One behaviour tree. `ports` is its model as a SubTree, where it has one."""
+    """One behaviour tree. `ports` is its model as a SubTree; an empty `layout` is the usual, vertical one."""
 
     id: str
     root: str | None

@@ -8,6 +8,7 @@ from translator.catalog import NodeModel, did_you_mean
 from translator.diagnostic import Place, diagnostic
 from translator.settings import PROJECT_FILE
 from translator.text import bad_character, is_valid_id
+from translator.xml.attributes import is_free
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -72,6 +73,9 @@ def _check_node(context: Context, tree: Tree, node: Node) -> None:
             count=count,
             advice=_advice(model, count),
         )
+    for name in node.attributes:
+        if not is_free(name):
+            context.report("BT0211", tree, node, attribute=name)
     if node.disabled:
         context.report("BT0105", tree, node, type=node.label)
     if node.type == "ReactiveSequence":

@@ -11,5 +11,5 @@ export default defineConfig({
   resolve: { alias: { '@': here('../src'), '@catalog': here('../../tree_gardener/catalog.json') } },
   server: { host: '127.0.0.1', fs: { allow: [here('../..')] } },
   css: { postcss: here('..') },
-  build: { outDir: here('../dist-harness'), emptyOutDir: true },
+  build: { outDir: here('../node_modules/.cache/harness'), emptyOutDir: true },
 });

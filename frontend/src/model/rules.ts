@@ -1,4 +1,4 @@
-import { childrenOf, isWithin, parentOf, subtreeOf, type Diagram, type NodeId } from './diagram';
+import { childrenOf, isWithin, parentOf, type Diagram, type NodeId } from './diagram';
 import { specOf, wouldRecurse, type NodeSpec, type Vocabulary } from './vocabulary';
 
 /** What a new block is: a type and, of a `SubTree`, the tree. */
@@ -79,9 +79,4 @@ export function bestPlacement(
     }
   }
   return { at: 'draft' };
-}
-
-/** Blocks that are used in a subtree, `id` itself and its descendants: how many. */
-export function sizeOf(diagram: Diagram, id: NodeId): number {
-  return subtreeOf(diagram, id).length;
 }

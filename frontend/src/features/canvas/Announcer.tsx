@@ -1,3 +1,4 @@
+import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { displayName, parentOf } from '@/model/diagram';
 import { liveKey, useLiveStore } from '@/store/project/live';
@@ -6,7 +7,7 @@ import { ordinal } from './flow';
 import classes from './Canvas.module.css';
 
 /** Tells screen readers the selected block: name, type, place and status. */
-export function Announcer({ treeId }: { readonly treeId: string }) {
+export const Announcer = memo(function Announcer({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
   const id = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
@@ -31,4 +32,4 @@ export function Announcer({ treeId }: { readonly treeId: string }) {
       {words.join(', ')}
     </div>
   );
-}
+});

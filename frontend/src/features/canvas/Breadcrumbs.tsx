@@ -1,5 +1,5 @@
 import { IconChevronRight } from '@tabler/icons-react';
-import { Fragment, useMemo } from 'react';
+import { Fragment, memo, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { displayName, parentOf, type Diagram, type NodeId } from '@/model/diagram';
 import { treesUsed } from '@/model/diagram';
@@ -28,7 +28,7 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
 }
 
 /** Where one is: the trees that lead here, and the path from the root to the selected block. */
-export function Breadcrumbs({ treeId }: { readonly treeId: string }) {
+export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const diagrams = useProjectStore((state) => state.diagrams);
   const main = useProjectStore((state) => state.mainTree);
@@ -80,4 +80,4 @@ export function Breadcrumbs({ treeId }: { readonly treeId: string }) {
       })}
     </nav>
   );
-}
+});

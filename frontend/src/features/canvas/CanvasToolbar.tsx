@@ -12,6 +12,7 @@ import {
   type Icon,
 } from '@tabler/icons-react';
 import { useReactFlow, useStore } from '@xyflow/react';
+import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/commands';
@@ -45,7 +46,7 @@ function Tool({ label, icon: Symbol, onClick, testId, isOn }: ToolProps) {
 }
 
 /** Zoom, layout and search, below the tree. */
-export function CanvasToolbar({ treeId }: { readonly treeId: string }) {
+export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const flow = useReactFlow();
   const zoom = useStore((state) => Math.round(state.transform[2] * 100));
@@ -128,4 +129,4 @@ export function CanvasToolbar({ treeId }: { readonly treeId: string }) {
       />
     </div>
   );
-}
+});

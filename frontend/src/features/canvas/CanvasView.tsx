@@ -20,7 +20,7 @@ import { CanvasToolbar } from './CanvasToolbar';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
-import { FlowProjection, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { FlowProjection, withDragged, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { onCanvasKey, openBlock } from './keyboard';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd } from './quickAdd/open';
@@ -60,10 +60,11 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const [projection] = useState(() => new FlowProjection());
   const { diagram, layout, vocabulary, problems, selection } = tree;
-  const { nodes, edges } = useMemo(
-    () => projection.project({ diagram, layout, vocabulary, problems, selection, dragged }),
-    [projection, diagram, layout, vocabulary, problems, selection, dragged],
+  const { nodes: resting, edges } = useMemo(
+    () => projection.project({ diagram, layout, vocabulary, problems, selection }),
+    [projection, diagram, layout, vocabulary, problems, selection],
   );
+  const nodes = useMemo(() => withDragged(resting, dragged), [resting, dragged]);
   const shownEdges = useMemo(
     () =>
       chosenEdge === null

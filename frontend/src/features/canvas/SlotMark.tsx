@@ -1,9 +1,10 @@
+import { memo } from 'react';
 import { ViewportPortal } from '@xyflow/react';
 import { useEditorStore } from '@/store/project/editor';
 import classes from './Canvas.module.css';
 
 /** The insertion mark: where a dragged block will go. */
-export function SlotMark() {
+export const SlotMark = memo(function SlotMark() {
   const slot = useEditorStore((state) => state.slot);
   if (slot?.kind !== 'between') return null;
   const { x, y, width, height } = slot.mark;
@@ -16,4 +17,4 @@ export function SlotMark() {
       />
     </ViewportPortal>
   );
-}
+});

@@ -33,8 +33,6 @@ export interface FlowInput {
   readonly vocabulary: Vocabulary;
   readonly problems: ReadonlyMap<NodeId, ShownProblem>;
   readonly selection: ReadonlySet<NodeId>;
-  /** Blocks that a hand is moving, by how far. */
-  readonly dragged: { readonly ids: ReadonlySet<NodeId>; readonly dx: number; readonly dy: number } | null;
 }
 
 function sameData(a: BlockData, b: BlockData): boolean {
@@ -66,7 +64,7 @@ export class FlowProjection {
   }
 
   private nodeFor(id: NodeId, node: DiagramNode, box: Box, isDraft: boolean, input: FlowInput): BlockNode {
-    const { diagram, vocabulary, problems, selection, dragged } = input;
+    const { diagram, vocabulary, problems, selection } = input;
     const data: BlockData = {
       tree: diagram.id,
       node,
@@ -77,9 +75,7 @@ export class FlowProjection {
       canGrow: acceptsChild(diagram, id, vocabulary),
       folded: node.collapsed ? subtreeOf(diagram, id).length - 1 : 0,
     };
-    const moves = dragged?.ids.has(id) ?? false;
-    const x = box.x + (moves ? (dragged?.dx ?? 0) : 0);
-    const y = box.y + (moves ? (dragged?.dy ?? 0) : 0);
+    const { x, y } = box;
     const known = this.nodes.get(id);
     const sameContent = known !== undefined && sameData(known.data, data);
     if (
@@ -125,6 +121,23 @@ export class FlowProjection {
       focusable: false,
     };
   }
+}
+
+/** Blocks that a hand is moving, by how far. */
+export interface Dragged {
+  readonly ids: ReadonlySet<NodeId>;
+  readonly dx: number;
+  readonly dy: number;
+}
+
+/** The nodes with those in the hand moved: all others stay the same objects. */
+export function withDragged(nodes: readonly BlockNode[], dragged: Dragged | null): BlockNode[] {
+  if (!dragged) return nodes as BlockNode[];
+  return nodes.map((node) =>
+    dragged.ids.has(node.id)
+      ? { ...node, position: { x: node.position.x + dragged.dx, y: node.position.y + dragged.dy } }
+      : node,
+  );
 }
 
 /** The place of a node for a screen reader: "2 of 3". */

@@ -1,20 +1,14 @@
 import { useReactFlow } from '@xyflow/react';
 import { useCallback, useState } from 'react';
-import { subtreeOf, topmost, type NodeId } from '@/model/diagram';
+import { subtreeOf, topmost } from '@/model/diagram';
 import { insertFragment, fragmentOf, moveNode, setPosition, withFreshIds } from '@/model/edits';
 import { freshId } from '@/model/diagram';
 import { isSamePlace, slotAt } from '@/model/slots';
 import { change } from '@/store/project/commands';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import type { BlockNode } from './flow';
+import type { BlockNode, Dragged } from './flow';
 import type { TreeOnCanvas } from './useTree';
-
-interface Dragged {
-  readonly ids: ReadonlySet<NodeId>;
-  readonly dx: number;
-  readonly dy: number;
-}
 
 /** Below this a press is a click: hands tremble. */
 const DEAD_ZONE = 6;
@@ -30,10 +24,14 @@ export function useDragging(tree: TreeOnCanvas) {
       const origin = layout.positions[node.id];
       if (!origin || !('clientX' in event)) return;
       const { selection } = useProjectStore.getState();
-      const tops = selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
-      const ids = new Set(tops.flatMap((top) => subtreeOf(diagram, top)));
+      const tops =
+        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
-      setDragged({ ids, dx, dy });
+      setDragged((held) => ({
+        ids: held?.ids.has(node.id) ? held.ids : new Set(tops.flatMap((top) => subtreeOf(diagram, top))),
+        dx,
+        dy,
+      }));
       const pointer = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
       const far = Math.hypot(dx, dy) > DEAD_ZONE;
       const moving = event.altKey ? undefined : node.id;
@@ -41,7 +39,11 @@ export function useDragging(tree: TreeOnCanvas) {
         ? slotAt({ diagram, layout, vocabulary, moving: moving ?? node.id }, pointer.x, pointer.y)
         : null;
       const stays = slot !== null && !event.altKey && isSamePlace(diagram, node.id, slot);
-      setEditor({ slot: stays ? null : slot });
+      const next = stays ? null : slot;
+      const shown = useEditorStore.getState().slot;
+      const same =
+        next?.parent === shown?.parent && next?.index === shown?.index && next?.kind === shown?.kind;
+      if (!same) setEditor({ slot: next });
     },
     [diagram, layout, vocabulary, flow],
   );

@@ -1,6 +1,5 @@
 import {
   childrenOf,
-  displayName,
   freshId,
   parentOf,
   topmost,
@@ -193,10 +192,4 @@ export function duplicateSelection(): void {
     freshId({ ...diagram.nodes, ...taken }),
   );
   change('duplicate', [insertFragment(copy, placeAfter(diagram, last))], { select: copy.tops });
-}
-
-/** What screen readers hear of a block. */
-export function nameOf(id: NodeId): string {
-  const node = activeDiagram()?.nodes[id];
-  return node ? displayName(node) : '';
 }

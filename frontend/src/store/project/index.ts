@@ -4,10 +4,8 @@ import { produce, type Draft } from 'immer';
 import { renameUse } from '@/model/edits';
 import { emptyHistory, redo, seal, undo, type Travel } from '@/model/history';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
-import { actionPath, treeIdOf, treePath, type ProjectData, type ProjectState } from './state';
+import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import { changeDiagrams, initialData, knowing, removeFile, type Change, type Diagrams } from './transitions';
-
-export type { FileEntry, ProjectState } from './state';
 
 /** Everything about the open project that is saved, and what is selected in it. */
 export const useProjectStore = create<ProjectState>()((set, get) => {
@@ -260,6 +258,3 @@ export const useProjectStore = create<ProjectState>()((set, get) => {
     currentText: (path) => currentText(get(), path),
   };
 });
-
-/** The path of a tree's file, for those who deal in files. */
-export { treePath };

@@ -10,7 +10,11 @@ interface Flash {
   readonly status: NodeStatus;
   /** Counts up, so that the same flash twice is animated twice. */
   readonly count: number;
+  readonly since: number;
 }
+
+/** A node that flashes at every tick is animated at this pace: shorter than the glow lasts, so it stays lit. */
+const REFLASH_MS = 350;
 
 export interface LiveState {
   /** Whether a tree is running (or was, and its last statuses are shown). */
@@ -68,13 +72,19 @@ export const useLiveStore = create<LiveState>()((set, get) => {
       set({ statuses });
     },
     flash: (flashed) => {
-      if (flashed.length === 0) return;
-      const flashes = new Map(get().flashes);
+      const now = performance.now();
+      const before = get().flashes;
+      const flashes = new Map(before);
+      let changed = false;
       for (const [uid, status] of flashed) {
         const key = keys.get(uid);
-        if (key !== undefined) flashes.set(key, { status, count: (flashCount += 1) });
+        if (key === undefined) continue;
+        const last = before.get(key);
+        if (last?.status === status && now - last.since < REFLASH_MS) continue;
+        flashes.set(key, { status, count: (flashCount += 1), since: now });
+        changed = true;
       }
-      set({ flashes });
+      if (changed) set({ flashes });
     },
     setFault: (node, tree, message) => {
       set((state) => ({ faults: new Map(state.faults).set(liveKey(tree, node), message) }));

@@ -46,7 +46,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       </span>
       <BlockTitle id={id} node={node} />
       <BlockPorts node={node} spec={spec} />
-      <StatusMark status={fault === undefined ? status : 'FAILURE'} />
+      <StatusMark status={fault === undefined ? status : 'FAILURE'} flash={flash} />
       {fault !== undefined && (
         <ProblemMark
           problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}

@@ -27,18 +27,7 @@ export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
       <path className={classes['fill']} d={path} />
       <rect className={classes['side']} width={TILE} height={height} clipPath={`url(#${clip})`} />
       <path className={classes['ring']} d={path} />
-      {flash && (
-        <path
-          key={flash.count}
-          className={classes['flash']}
-          d={outline(family, width, height, -2)}
-          fill="none"
-          strokeWidth={5}
-          style={{
-            ['--flash' as string]: `var(--bts-${flash.status.toLowerCase()}-bright, var(--bts-idle))`,
-          }}
-        />
-      )}
+      {flash && <path key={flash.count} className={classes['flash']} data-status={flash.status} d={path} />}
     </svg>
   );
 }

@@ -9,12 +9,25 @@ const MARKS = {
   SKIPPED: IconPlayerSkipForwardFilled,
 } as const;
 
-/** A status told by an icon besides its colour. */
-export function StatusMark({ status }: { readonly status: NodeStatus }) {
-  if (status === 'IDLE') return null;
-  const Mark = MARKS[status];
+interface StatusMarkProps {
+  readonly status: NodeStatus;
+  /** What the node went through within the last tick, where it is idle again. */
+  readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
+}
+
+/** A status told by an icon besides its colour; a passing one is drawn hollow, and fades. */
+export function StatusMark({ status, flash }: StatusMarkProps) {
+  const isPassing = status === 'IDLE' && flash !== undefined;
+  const shown = isPassing ? flash.status : status;
+  if (shown === 'IDLE') return null;
+  const Mark = MARKS[shown];
   return (
-    <span className={classes['mark']} aria-hidden="true">
+    <span
+      key={isPassing ? flash.count : status}
+      className={`${classes['mark']} ${isPassing ? classes['passing'] : ''}`}
+      data-status={shown}
+      aria-hidden="true"
+    >
       <Mark size={11} stroke={3.2} />
     </span>
   );

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal
 
 from pydantic import Field, SecretStr, ValidationError, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic_settings import BaseSettings, SettingsConfigDict, SettingsError
 
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -99,5 +100,9 @@ def environment() -> Environment:
     """
     try:
         return Environment()
+    except SettingsError as error:
+        name = re.search(r'field "(\w+)"', str(error))
+        variable = PREFIX + (name[1].upper() if name else "…")
+        raise InvalidEnvironmentError(f"{variable}: this is not valid JSON") from error
     except ValidationError as error:
         raise InvalidEnvironmentError(sentence(error)) from error

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal
 from django.db.models import F, Max, Q, QuerySet, Value
 from django.db.models.functions import Concat, Lower
 
+from backend import __version__
 from backend.config.problems import NotFoundError
 from backend.projects import names
 from backend.projects.changes import Existing
@@ -53,8 +54,9 @@ def as_text(data: bytes) -> str | None:
 
 
 def etag(project: Project) -> str:
-    """Changes with every revision."""
-    return f'"{project.revision}"'
+    """Changes with every revision, and with what else an opened project shows."""
+    shelf = "archived" if project.archived_at else "current"
+    return f'"{project.revision}-{shelf}-{__version__}"'
 
 
 def project(project_id: UUID, *, user: User, lock: bool = False) -> Project:

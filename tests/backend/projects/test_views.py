@@ -281,6 +281,12 @@ def test_etags_save_traffic_and_guard_writes(api, project):
         api.save(pid, file("b.txt", 0, "x"), expect=412, **{"If-Match": tag})["code"] == "precondition_failed"
     )
     api.delete(f"projects/{pid}", expect=412, **{"If-Match": tag})
+    api.patch(f"projects/{pid}", {"base_revision": 1, "name": "X"}, expect=412, **{"If-Match": tag})
+    api.post(f"projects/{pid}/revisions/1/restore", expect=412, **{"If-Match": tag})
+    api.get(f"projects/{pid}")
+    tag = api.response.headers["ETag"]
+    api.post(f"projects/{pid}/archive")
+    api.get(f"projects/{pid}", **{"If-None-Match": tag})
     api.get(f"projects/{pid}", **{"If-None-Match": tag})
 
 

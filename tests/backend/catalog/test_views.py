@@ -1,0 +1,30 @@
+"""The catalogue that the editor reads."""
+
+from __future__ import annotations
+
+import json
+
+from backend.catalog.queries import NODES
+
+
+def test_the_nodes_are_those_of_the_one_table(api):
+    assert api.get("catalog/nodes") == json.loads(NODES.read_text())
+
+
+def test_universes_and_robots_have_an_id_and_a_name(api):
+    universes = {entry["id"]: entry for entry in api.get("catalog/universes")["items"]}
+    assert {"walled_room", "person_in_green"} <= set(universes)
+    assert universes["walled_room"]["name"] == "Walled room"
+    assert "turtle2" in {entry["id"] for entry in api.get("catalog/robots")["items"]}
+
+
+def test_templates_are_the_empty_project_and_the_examples(api):
+    items = api.get("catalog/templates")["items"]
+    assert items[0]["id"] == "empty"
+    assert {"laser_bump_and_go", "visual_follow_person"} <= {item["id"] for item in items}
+    assert all(item["root_diagram"]["nodes"] for item in items)
+
+
+def test_a_folder_without_examples_leaves_the_empty_project(api, settings_of, tmp_path):
+    settings_of(templates_dir=tmp_path / "none")
+    assert [item["id"] for item in api.get("catalog/templates")["items"]] == ["empty"]

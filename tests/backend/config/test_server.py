@@ -11,6 +11,7 @@ import stat
 import psutil
 import pytest
 import requests
+from websockets.sync.client import connect
 
 from tests.backend.serving import serving, start
 
@@ -46,8 +47,11 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
             f"{server.base}/api/v1/projects/{made.json()['id']}/session", timeout=10
         ).json()
         assert session["state"] in {"starting", "ready"}
-        family = psutil.Process(server.process.pid).children(recursive=True)
-        assert server.end(signal.SIGINT) == 0
+        control = "ws" + server.base.removeprefix("http") + session["control_url"]
+        with connect(control, additional_headers=server.headers, proxy=None, open_timeout=60) as socket_:
+            socket_.recv(timeout=60)
+            family = psutil.Process(server.process.pid).children(recursive=True)
+            assert server.end(signal.SIGINT) == 0
         out, err = server.output
         assert server.token in out
         assert "Traceback" not in err

@@ -156,9 +156,10 @@ class ChildProcess:
         tree = self.tree()
         if limits.processes is not None and len(tree) > limits.processes:
             self.kill(f"was ended: it had {len(tree)} processes, more than the {limits.processes} allowed")
-        elif limits.memory_bytes is not None and (used := _resident_bytes(tree)) > limits.memory_bytes:
-            used_mb, allowed_mb = used >> 20, limits.memory_bytes >> 20
-            self.kill(f"was ended: it used {used_mb} MB of memory, more than the {allowed_mb} MB allowed")
+        elif (allowed := limits.memory_bytes) is not None and (used := _used_bytes(tree, allowed)) > allowed:
+            self.kill(
+                f"was ended: it used {used >> 20} MB of memory, more than the {allowed >> 20} MB allowed"
+            )
 
     def tree(self) -> list[psutil.Process]:
         """The child and all living processes that come from it, also those that left its group."""
@@ -245,10 +246,16 @@ def _exit_reason(code: int) -> str:
     return f"ended with exit code {code}"
 
 
-def _resident_bytes(tree: Iterable[psutil.Process]) -> int:
+def _used_bytes(tree: Iterable[psutil.Process], limit: int) -> int:
+    """Memory of a tree. The exact count takes long, so it is made only where the rough one is too high."""
+    tree = list(tree)
+    rough = _sum_up(tree, lambda process: process.memory_info().rss)
+    return rough if rough <= limit else _sum_up(tree, lambda process: process.memory_full_info().pss)
+
+
+def _sum_up(tree: Iterable[psutil.Process], measure: Callable[[psutil.Process], int]) -> int:
     total = 0
     for process in tree:
         with contextlib.suppress(psutil.Error):
-            memory = process.memory_info()
-            total += memory.rss - memory.shared
+            total += measure(process)
     return total

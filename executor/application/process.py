@@ -276,9 +276,11 @@ def main(arguments: list[str] | None = None) -> None:
     compat.warm_up()
     compat.install()
     application = Application(channel)
+    own_pid = os.getpid()
     try:
         application.run()
-        application.close()
+        if os.getpid() == own_pid:  # what an action forked must not take the ROS node down with it
+            application.close()
     except ChannelClosed:
         pass
     # Threads that actions started must not keep the process alive.

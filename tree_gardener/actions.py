@@ -1,5 +1,7 @@
 """Makes classes of the sources of actions, from a folder or from a document's ``<Code>``."""
 
+import importlib.abc
+import importlib.machinery
 import linecache
 import pathlib
 import sys
@@ -47,8 +49,8 @@ def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, t
     return classes
 
 
-class _Loader:
-    """Loads a set of actions that may import one another."""
+class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Loads a set of actions that may import one another, by ``actions.<Name>`` or the bare name."""
 
     def __init__(self, sources: Mapping[str, str]) -> None:
         self.sources = sources
@@ -57,6 +59,24 @@ class _Loader:
         sys.modules[PACKAGE] = self.package
         for name in sources:
             sys.modules.pop(f"{PACKAGE}.{name}", None)
+        # One set of actions at a time: that of the program that runs.
+        sys.meta_path[:] = [finder for finder in sys.meta_path if not isinstance(finder, _Loader)]
+        sys.meta_path.append(self)
+
+    def find_spec(
+        self, fullname: str, path: object = None, target: object = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        """Finds the actions, for imports."""
+        name = fullname.removeprefix(f"{PACKAGE}.")
+        return importlib.machinery.ModuleSpec(fullname, self) if name in self.sources else None
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> types.ModuleType:
+        """Gives the module of an action, for imports; it is the same by either name."""
+        name = spec.name.removeprefix(f"{PACKAGE}.")
+        return sys.modules.get(f"{PACKAGE}.{name}") or self.execute(name)
+
+    def exec_module(self, module: types.ModuleType) -> None:
+        """Does nothing: `create_module` ran the source."""
 
     def load(self, name: str) -> type[Any]:
         """Runs one source, unless another one imported it already."""
@@ -86,6 +106,8 @@ class _Loader:
         setattr(self.package, name, module)
         try:
             exec(code, module.__dict__)  # noqa: S102 - running the user's actions is what this is for
+        except LoadError:
+            raise  # of an action that this one imports
         except Exception as error:
             del sys.modules[module.__name__]
             raise LoadError([_raised(name, filename, error)]) from error

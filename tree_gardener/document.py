@@ -82,6 +82,15 @@ class Document:
         match = pattern.search(self.data, element.offset)
         return element.offset if match is None else match.end()
 
+    def skip(self, offset: int, characters: int) -> int:
+        """The offset behind a number of characters; one such as ``&lt;`` counts as one."""
+        text = self.data[offset:].decode("utf-8", "replace") if characters else ""
+        position = 0
+        for _ in range(characters):
+            end = text.find(";", position) if text[position : position + 1] == "&" else position
+            position = end + 1
+        return offset + len(text[:position].encode())
+
     def diagnostic(  # noqa: PLR0913 - one diagnostic
         self,
         element: Element,
@@ -96,8 +105,7 @@ class Document:
         """A diagnostic at an element, at one of its attributes, or inside that attribute's value."""
         offset = element.offset
         if attribute in element.attributes:
-            offset = self.locate_value(element, attribute)
-            offset += len(element.attributes[attribute][:span_start].encode())
+            offset = self.skip(self.locate_value(element, attribute), span_start)
         line, column = self.locate(offset)
         return Diagnostic(
             code=code,

@@ -151,5 +151,5 @@ def _package_folder(package: str) -> pathlib.Path | None:
         from ament_index_python.packages import get_package_share_directory  # noqa: PLC0415 - only where ROS is
 
         return pathlib.Path(get_package_share_directory(package))
-    except (ImportError, LookupError, ValueError):
+    except (ImportError, LookupError, ValueError, OSError):
         return None

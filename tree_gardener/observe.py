@@ -120,13 +120,14 @@ class Recorder:
         flashed = [child.last for child in children if child.last is not None]
         if flashed:
             self.flashed += flashed
+        touch = self.touch
         for child in children:
             if child.status is RUNNING:
                 child.stop()
             child.status = IDLE
             child.last = None
             if child.reported is not IDLE:
-                self.touch(child)
+                touch(child)
 
     def note(self, children: Iterable[Node]) -> None:
         """Takes the children that have a new status or result."""

@@ -237,7 +237,8 @@ class Tree:
             self.tick_number += 1
             if self._timer_heap:
                 self.timers.fire()
-            status = self._tick_root()
+            tick = self._tick_root
+            status = tick()
             if status is SUCCESS or status is FAILURE:
                 self.nodes[0].status = IDLE
             return status

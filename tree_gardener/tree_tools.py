@@ -22,7 +22,9 @@ def _entry_of(text: str) -> tuple[Blackboard, str] | None:
     match = _KEY.match(text)
     if match is None:
         return None
-    board = getattr(text, "board", None) or _state.get("board")
+    board = getattr(text, "board", None)  # an empty one is false
+    if board is None:
+        board = _state.get("board")
     if board is None:
         board = _state["board"] = Blackboard()
     key = match.group(1)

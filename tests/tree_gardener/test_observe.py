@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import py_trees
 import pytest
 from py_trees.common import Status as PyTreesStatus
 
 from tests.tree_gardener.fuzz.generate import KEYS, Case, generate
+from tests.tree_gardener.trees import Failing, Raising, Running, Succeeding, document, load
 from tree_gardener import BlackboardChange, Status, TickChanges, TickError, Tree
 from tree_gardener.blackboard import EMPTY, Blackboard
-from tree_gardener.node import Node
 from tree_gardener.values import INT
-from tests.tree_gardener.trees import Failing, Raising, Running, Succeeding, document, load
+
+if TYPE_CHECKING:
+    from tree_gardener.node import Node
 
 RESULTS: dict[str, Any] = {
     "S": PyTreesStatus.SUCCESS,
@@ -146,7 +148,10 @@ def test_it_says_who_wrote() -> None:
     assert told[0].blackboard == [BlackboardChange("", "x", "string", "hi", removed=False, writer_uid=3)]
     tree.blackboard.unset("x")
     tree.tick_once()
-    assert [(change.removed, change.writer_uid) for change in told[1].blackboard[:1]] in ([(True, 0)], [(False, 3)])
+    assert [(change.removed, change.writer_uid) for change in told[1].blackboard[:1]] in (
+        [(True, 0)],
+        [(False, 3)],
+    )
 
 
 def test_unsubscribing_ends_the_reports_and_the_recording() -> None:

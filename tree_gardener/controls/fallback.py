@@ -20,40 +20,45 @@ class Fallback(Control):
         self.skips = 0
 
     def execute(self) -> Status:
-        ticks, index = self.ticks, self.index
+        ticks = self.ticks
         if self.status is RUNNING:
-            status = ticks[index]()
-            if status is RUNNING:
-                return RUNNING
-        else:
-            if self.status is IDLE:
-                self.skips = 0
-            self.status = RUNNING
-            if self.journal is not None:
-                self.journal.touch(self)
-            status = ticks[index]()
-        count = len(ticks)
+            index = self.index
+            tick = ticks[index]
+            status = tick()
+            return RUNNING if status is RUNNING else self.go_on(index, status)
+        if self.status is IDLE:
+            self.skips = 0
+        self.status = RUNNING
+        if self.journal is not None:
+            self.journal.touch(self)
+        index = 0
+        for tick in ticks:
+            status = tick()
+            if status is not FAILURE:
+                return self.go_on(index, status)
+            index += 1
+        return self.finish_all(FAILURE)
+
+    def go_on(self, index: int, status: Status) -> Status:
+        """Goes on after the child at `index` returned `status`."""
+        ticks = self.ticks
         while True:
-            if status is FAILURE:
-                pass
-            elif status is RUNNING:
+            if status is RUNNING:
                 self.index = index
-                if self.journal is not None:
-                    self.journal.note(self.children)
+                self.note_children()
                 return RUNNING
-            elif status is SUCCESS:
+            if status is SUCCESS:
                 self.index = 0
                 return self.finish(SUCCESS)
-            else:
+            if status is not FAILURE:
                 self.skips += 1
             index += 1
-            if index == count:
+            if index == len(ticks):
                 break
-            status = ticks[index]()
+            tick = ticks[index]
+            status = tick()
         self.index = 0
-        if self.skips:
-            return self.end()
-        return self.finish(FAILURE)
+        return self.end() if self.skips else self.finish(FAILURE)
 
     def end(self) -> Status:
         """No child succeeded."""

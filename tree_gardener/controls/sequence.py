@@ -22,40 +22,45 @@ class Sequence(Control):
         self.skips = 0
 
     def execute(self) -> Status:
-        ticks, index = self.ticks, self.index
+        ticks = self.ticks
         if self.status is RUNNING:
-            status = ticks[index]()
-            if status is RUNNING:
-                return RUNNING
-        else:
-            if self.status is IDLE:
-                self.skips = 0
-            self.status = RUNNING
-            if self.journal is not None:
-                self.journal.touch(self)
-            status = ticks[index]()
-        count = len(ticks)
+            index = self.index
+            tick = ticks[index]
+            status = tick()
+            return RUNNING if status is RUNNING else self.go_on(index, status)
+        if self.status is IDLE:
+            self.skips = 0
+        self.status = RUNNING
+        if self.journal is not None:
+            self.journal.touch(self)
+        index = 0
+        for tick in ticks:
+            status = tick()
+            if status is not SUCCESS:
+                return self.go_on(index, status)
+            index += 1
+        return self.finish_all(SUCCESS)
+
+    def go_on(self, index: int, status: Status) -> Status:
+        """Goes on after the child at `index` returned `status`."""
+        ticks = self.ticks
         while True:
-            if status is SUCCESS:
-                pass
-            elif status is RUNNING:
+            if status is RUNNING:
                 self.index = index
-                if self.journal is not None:
-                    self.journal.note(self.children)
+                self.note_children()
                 return RUNNING
-            elif status is FAILURE:
+            if status is FAILURE:
                 self.index = 0
                 return self.finish(FAILURE)
-            else:
+            if status is not SUCCESS:
                 self.skips += 1
             index += 1
-            if index == count:
+            if index == len(ticks):
                 break
-            status = ticks[index]()
+            tick = ticks[index]
+            status = tick()
         self.index = 0
-        if self.skips:
-            return self.end_with_skips()
-        return self.finish(SUCCESS)
+        return self.end_with_skips() if self.skips else self.finish(SUCCESS)
 
     def end_with_skips(self) -> Status:
         """The end of an activation in which children were skipped."""

@@ -39,7 +39,8 @@ class Loop(Decorator):
             self.put("value", self.queue.popleft())
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         self.busy = status is RUNNING
         if status is FAILURE:
             return self.finish(FAILURE)

@@ -26,7 +26,8 @@ class Precondition(Decorator):
         if not self.open and not self.test():
             return self.refuse(otherwise)
         self.open = True
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             if self.status is not RUNNING:
                 self.start()

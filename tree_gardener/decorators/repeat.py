@@ -50,7 +50,8 @@ class Repeat(_Counting):
             self.start()
         while self.count < cycles or cycles == -1:
             before = self.child.status
-            status = self.tick_child()
+            tick = self.tick_child
+            status = tick()
             if status is RUNNING:
                 return RUNNING
             if status is FAILURE:
@@ -82,7 +83,8 @@ class RetryUntilSuccessful(_Counting):
             self.start()
         while self.count < attempts or attempts == -1:
             before = self.child.status
-            status = self.tick_child()
+            tick = self.tick_child
+            status = tick()
             if status is RUNNING:
                 return RUNNING
             if status is SUCCESS:

@@ -12,7 +12,8 @@ class Inverter(Decorator):
     def execute(self) -> Status:
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         if status is SUCCESS:
@@ -30,7 +31,8 @@ class ForceSuccess(Decorator):
     def execute(self) -> Status:
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         return self.finish(SUCCESS) if status is SUCCESS or status is FAILURE else self.skipped()
@@ -44,7 +46,8 @@ class ForceFailure(Decorator):
     def execute(self) -> Status:
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         return self.finish(FAILURE) if status is SUCCESS or status is FAILURE else self.skipped()
@@ -61,7 +64,8 @@ class KeepRunningUntilFailure(Decorator):
     def execute(self) -> Status:
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is FAILURE:
             return self.finish(FAILURE)
         if status is SUCCESS:

@@ -23,7 +23,8 @@ class RunOnce(Decorator):
             return self.skipped() if then_skip else self.complete(self.result)
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         if status is not SUCCESS and status is not FAILURE:

@@ -25,7 +25,8 @@ class SubTree(Decorator):
     def execute(self) -> Status:
         if self.status is not RUNNING:
             self.start()
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         return self.skipped() if status is SKIPPED else self.finish(status)

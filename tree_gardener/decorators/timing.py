@@ -34,7 +34,8 @@ class Delay(Decorator):
             self.start()
         if not self.is_over:
             return RUNNING
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         if status is SKIPPED:
@@ -81,7 +82,8 @@ class Timeout(Decorator):
         if self.expired:
             self.started = False
             return self.finish(FAILURE)
-        status = self.tick_child()
+        tick = self.tick_child
+        status = tick()
         if status is RUNNING:
             return RUNNING
         if status is SKIPPED:

@@ -27,7 +27,8 @@ class _WhenUpdated(Decorator):
                 return self.skipped()
             status = RUNNING
         else:
-            status = self.tick_child()
+            tick = self.tick_child
+            status = tick()
             self.busy = status is RUNNING
         if status is SUCCESS or status is FAILURE:
             return self.finish(status)

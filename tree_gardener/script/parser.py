@@ -133,7 +133,9 @@ class _Parser:
         if token.kind in ("operator", "end"):
             self.fail(
                 f"a value is expected {'before ' + repr(token.text) if token.text else 'at the end'}",
-                "assign with :=, compare with ==" if token.text in ASSIGNMENTS | COMPARISONS else "",
+                "assign with :=, compare with =="
+                if token.text in ASSIGNMENTS | COMPARISONS
+                else "finish the expression, or leave out the last operator",
             )
         self.index += 1
         return _atom(token)

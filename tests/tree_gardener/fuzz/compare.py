@@ -7,21 +7,25 @@ import json
 import pickle
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from tests.tree_gardener.fuzz.generate import Case, Spec
 from tests.tree_gardener.fuzz.trace import Line, run_ours
 from tree_gardener import LoadError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from tests.tree_gardener.fuzz.generate import Case, Spec
 
 ROOT = Path(__file__).parents[3]
 
 
 def reference_traces(cases: list[Case]) -> list[list[Line] | None]:
-    """The traces of BehaviorTree.CPP; None where it crashed."""
+    """The traces of BehaviorTree.CPP; None where it crashed or did not end."""
     traces: list[list[Line] | None] = []
     while len(traces) < len(cases):
-        process = subprocess.run(  # noqa: S603 - our own child
+        process = subprocess.run(
             [sys.executable, "-m", "tests.tree_gardener.fuzz.child"],
             input=pickle.dumps(cases[len(traces) :]),
             capture_output=True,

@@ -1,7 +1,8 @@
 """Random trees that both engines can run.
 
-behaviortreepy's Python leaves have no ports, so that a leaf's script is a part of its name: ``L3.RRS``. Left out is what
-the two versions of BT.CPP do differently (`docs/explanation/engine.md`), and what crashes or never ends.
+behaviortreepy's Python leaves have no ports, so that a leaf's script is a part of its name: ``L3.RRS``. Left
+out is what the two versions of BT.CPP do differently (`docs/explanation/engine.md`), and what crashes or never
+ends.
 """
 
 from __future__ import annotations
@@ -47,7 +48,9 @@ class Case:
 
     def xml(self) -> str:
         """The document."""
-        bodies = "".join(f'<BehaviorTree ID="{name}">{spec.xml()}</BehaviorTree>' for name, spec in self.trees)
+        bodies = "".join(
+            f'<BehaviorTree ID="{name}">{spec.xml()}</BehaviorTree>' for name, spec in self.trees
+        )
         return f'<root BTCPP_format="4" main_tree_to_execute="{self.trees[0][0]}">{bodies}</root>'
 
     @property
@@ -110,7 +113,14 @@ class _Generator:
         rng = self.random
         tag = rng.choice(
             (
-                *("Sequence", "Fallback", "ReactiveSequence", "ReactiveFallback", "AsyncSequence", "AsyncFallback"),
+                *(
+                    "Sequence",
+                    "Fallback",
+                    "ReactiveSequence",
+                    "ReactiveFallback",
+                    "AsyncSequence",
+                    "AsyncFallback",
+                ),
                 *("SequenceWithMemory", "Parallel", "ParallelAll", "IfThenElse", "WhileDoElse", "Switch"),
             )
         )
@@ -145,7 +155,13 @@ class _Generator:
         tag = rng.choice(
             (
                 *("Inverter", "ForceSuccess", "ForceFailure", "Repeat", "RetryUntilSuccessful", "RunOnce"),
-                *("KeepRunningUntilFailure", "Precondition", "LoopInt", "SkipUnlessUpdated", "WaitValueUpdate"),
+                *(
+                    "KeepRunningUntilFailure",
+                    "Precondition",
+                    "LoopInt",
+                    "SkipUnlessUpdated",
+                    "WaitValueUpdate",
+                ),
             )
         )
         if tag in ("KeepRunningUntilFailure", "WaitValueUpdate", "LoopInt") and sync:
@@ -156,19 +172,29 @@ class _Generator:
         if tag == "Repeat":
             ports = (("num_cycles", str(rng.choice((0, 1, 2, 3, *((-1,) if self.mode != "once" else ()))))),)
         elif tag == "RetryUntilSuccessful":
-            ports = (("num_attempts", str(rng.choice((0, 1, 2, 3, *((-1,) if self.mode != "once" else ()))))),)
+            ports = (
+                ("num_attempts", str(rng.choice((0, 1, 2, 3, *((-1,) if self.mode != "once" else ()))))),
+            )
         elif tag == "RunOnce" and rng.random() < 0.5:
             ports = (("then_skip", rng.choice(("true", "false"))),)
         elif tag == "Precondition":
-            ports = (("if", self.condition()), ("else", rng.choice(("SUCCESS", "FAILURE", "RUNNING", "SKIPPED"))))
+            ports = (
+                ("if", self.condition()),
+                ("else", rng.choice(("SUCCESS", "FAILURE", "RUNNING", "SKIPPED"))),
+            )
         elif tag == "LoopInt":
             queue = ";".join(str(rng.randint(0, 4)) for _ in range(rng.randint(1, 3)))
-            ports = (("queue", queue), ("value", "{i2}"), ("if_empty", rng.choice(("SUCCESS", "FAILURE", "SKIPPED"))))
+            ports = (
+                ("queue", queue),
+                ("value", "{i2}"),
+                ("if_empty", rng.choice(("SUCCESS", "FAILURE", "SKIPPED"))),
+            )
         elif tag in ("SkipUnlessUpdated", "WaitValueUpdate"):
             ports = (("entry", rng.choice(("{i0}", "{i1}", "{w}"))),)
-        # 4.8.2 does not halt a RUNNING child of these two.
-        inner_sync = sync or tag in ("SkipUnlessUpdated", "WaitValueUpdate")
-        return Spec(tag, (*self.named(), *ports), (self.node(depth - 1, sync=inner_sync),))
+        # 4.8.2 does not halt the child of these two: it must never be RUNNING, nor skipped with that status.
+        updated = tag in ("SkipUnlessUpdated", "WaitValueUpdate")
+        child = self.leaf(sync=True) if updated else self.node(depth - 1, sync=sync)
+        return Spec(tag, (*self.named(), *ports), (child,))
 
     def subtree(self, depth: int, *, sync: bool) -> Spec:
         rng = self.random
@@ -187,7 +213,11 @@ class _Generator:
 
     def leaf(self, *, sync: bool) -> Spec:
         rng = self.random
-        kinds = ["SyncLeaf", "Cond", "AlwaysSuccess", "AlwaysFailure"] if sync else ["Leaf"] * 5 + ["SyncLeaf", "Cond"]
+        kinds = (
+            ["SyncLeaf", "Cond", "AlwaysSuccess", "AlwaysFailure"]
+            if sync
+            else ["Leaf"] * 5 + ["SyncLeaf", "Cond"]
+        )
         if self.scripted:
             kinds += ["Script", "ScriptCondition", "WasEntryUpdated", "SetBlackboard", "UnsetBlackboard"]
         tag = rng.choice(kinds)
@@ -202,7 +232,9 @@ class _Generator:
         if tag == "WasEntryUpdated":
             return Spec(tag, (("entry", rng.choice(("{i0}", "{i1}", "{w}"))),))
         if tag == "SetBlackboard":
-            return Spec(tag, (("value", rng.choice(("7", "text"))), ("output_key", rng.choice(("fresh", "other")))))
+            return Spec(
+                tag, (("value", rng.choice(("7", "text"))), ("output_key", rng.choice(("fresh", "other"))))
+            )
         if tag == "UnsetBlackboard":
             return Spec(tag, (("key", rng.choice(("fresh", "other"))),))
         return Spec(tag)

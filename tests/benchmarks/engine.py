@@ -1,0 +1,222 @@
+"""The engine beside stock py_trees and BehaviorTree.CPP with Python leaves, on the same trees in one run.
+
+Times are of the processor, so that other programs disturb less; ratios are what to look at.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import gc
+import sys
+import time
+import tracemalloc
+from typing import TYPE_CHECKING, Any
+
+import behaviortreepy as cpp
+import py_trees
+from py_trees.common import Status as PyTreesStatus
+
+from tree_gardener import Tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from tree_gardener.node import Node
+
+SIZES = (10, 100, 1_000, 10_000)
+FAN = 10
+
+
+class Succeed(py_trees.behaviour.Behaviour):
+    """Succeeds at once."""
+
+    def update(self) -> PyTreesStatus:
+        """Succeeds."""
+        return PyTreesStatus.SUCCESS
+
+
+class Run(py_trees.behaviour.Behaviour):
+    """Is RUNNING for ever."""
+
+    def update(self) -> PyTreesStatus:
+        """Goes on."""
+        return PyTreesStatus.RUNNING
+
+
+NODES = {"Succeed": Succeed, "Run": Run}
+STATUS = {"Succeed": cpp.NodeStatus.SUCCESS, "Run": cpp.NodeStatus.RUNNING}
+
+
+def body(size: int, control: str = "Sequence", last: str = "Succeed") -> str:
+    """XML of about `size` nodes: control nodes with ten children each; `last` is the last leaf."""
+    if size <= 1:
+        return f"<{last}/>"
+    share = max(1, (size - 1) // FAN)
+    parts, rest = [], size - 1
+    while rest > 0:
+        part = rest if rest - share < share else share
+        parts.append(body(part, control, last if part == rest else "Succeed"))
+        rest -= part
+    return f"<{control}>{''.join(parts)}</{control}>"
+
+
+def document(xml: str) -> str:
+    """A document with one tree."""
+    return f'<root BTCPP_format="4"><BehaviorTree ID="Main">{xml}</BehaviorTree></root>'
+
+
+def race(*functions: Callable[[], object], least_s: float = 0.03, rounds: int = 7) -> list[float]:
+    """Microseconds of processor time a call of each function: the best of rounds in which all take turns."""
+    calls = []
+    for function in functions:
+        function()
+        start = time.thread_time()
+        function()
+        calls.append(max(1, int(least_s / max(time.thread_time() - start, 1e-6))))
+    best = [float("inf")] * len(functions)
+    for _ in range(rounds):
+        for index, function in enumerate(functions):
+            gc.collect()
+            start = time.thread_time()
+            for _ in range(calls[index]):
+                function()
+            best[index] = min(best[index], (time.thread_time() - start) / calls[index])
+    return [seconds * 1e6 for seconds in best]
+
+
+def stock(node: Node) -> Any:
+    """The same tree in stock py_trees."""
+    if not node.children:
+        return type(node.behaviour)(node.name)
+    children = [stock(child) for child in node.children]
+    if node.type == "ParallelAll":
+        policy = py_trees.common.ParallelPolicy.SuccessOnAll(synchronise=False)
+        return py_trees.composites.Parallel(node.name, policy, children=children)
+    return py_trees.composites.Sequence(
+        node.name, memory=not node.type.startswith("Reactive"), children=children
+    )
+
+
+def reference(xml: str) -> Any:
+    """The same tree in BehaviorTree.CPP, with Python leaves."""
+    factory = cpp.BehaviorTreeFactory()
+    for name, status in STATUS.items():
+
+        def callback(_node: Any, status: Any = status) -> Any:
+            return status
+
+        factory.register_simple_stateful_action(name, callback, callback, None)
+    return factory.create_tree_from_text(document(xml))
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    """One tree, in microseconds a tick."""
+
+    what: str
+    nodes: int
+    ours: float
+    observed: float
+    stock: float
+    tree: float
+    cpp: float
+
+    def __str__(self) -> str:
+        return (
+            f"{self.what:9} {self.nodes:6} {self.ours:10.2f} {self.observed:10.2f} {self.stock:11.1f} "
+            f"{self.tree:11.1f} {self.cpp:10.2f} | {self.stock / self.ours:7.1f}x {self.tree / self.ours:7.1f}x "
+            f"{self.cpp / self.ours:6.2f}x  {100 * (self.observed / self.ours - 1):+6.0f} %"
+        )
+
+
+def measure(what: str, xml: str, *, rounds: int = 7) -> Row:
+    """Measures one tree in all engines."""
+    text = document(xml)
+    plain, observed = Tree.from_xml(text, NODES), Tree.from_xml(text, NODES)
+    observed.observe(lambda changes: None)
+    root = stock(plain.nodes[0])
+    behaviour_tree = py_trees.trees.BehaviourTree(stock(plain.nodes[0]))
+    times = race(
+        plain.tick_exactly_once,
+        observed.tick_exactly_once,
+        root.tick_once,
+        behaviour_tree.tick,
+        reference(xml).tick_exactly_once,
+        rounds=rounds,
+    )
+    return Row(what, len(plain.nodes), *times)
+
+
+def rows(sizes: tuple[int, ...] = SIZES, *, rounds: int = 7) -> list[Row]:
+    """All measurements of ticks."""
+    found = []
+    for size in sizes:
+        found.append(measure("full", body(size), rounds=rounds))
+        found.append(measure("resume", body(size, last="Run"), rounds=rounds))
+        found.append(measure("reactive", body(size, "ReactiveSequence", last="Run"), rounds=rounds))
+        found.append(
+            measure("parallel", f"<ParallelAll>{'<Run/>' * (size - 1)}</ParallelAll>", rounds=rounds)
+        )
+    return found
+
+
+def load_times(sizes: tuple[int, ...] = SIZES) -> list[tuple[int, float, float, float]]:
+    """Size, and milliseconds to load: ours, BT.CPP, py_trees built by hand."""
+    found = []
+    for size in sizes:
+        xml = body(size)
+        found.append((size, *[us / 1e3 for us in _load(xml)]))
+    return found
+
+
+def _load(xml: str) -> tuple[float, float, float]:
+    text = document(xml)
+    tree = Tree.from_xml(text, NODES)
+    ours, other, by_hand = race(
+        lambda: Tree.from_xml(text, NODES), lambda: reference(xml), lambda: stock(tree.nodes[0]), rounds=3
+    )
+    return ours, other, by_hand
+
+
+def memory(size: int = 10_000) -> tuple[float, float, float]:
+    """Bytes a node: our whole tree, what of it are the leaves' own behaviours, and stock py_trees."""
+    text = document(body(size))
+
+    def bytes_of(make: Callable[[], object]) -> float:
+        gc.collect()
+        tracemalloc.start()
+        kept = make()
+        used = tracemalloc.get_traced_memory()[0]
+        tracemalloc.stop()
+        del kept
+        return used / size
+
+    tree = Tree.from_xml(text, NODES)
+    leaves = sum(not node.children for node in tree.nodes)
+    behaviours = bytes_of(lambda: [Succeed("Succeed") for _ in range(leaves)])
+    return bytes_of(lambda: Tree.from_xml(text, NODES)), behaviours, bytes_of(lambda: stock(tree.nodes[0]))
+
+
+def main() -> None:
+    """Prints everything."""
+    sys.setrecursionlimit(10_000)
+    py_trees.logging.level = py_trees.logging.Level.ERROR
+    print("microseconds of processor time a tick; the ratios are the other engine's time to ours")
+    print(
+        f"{'tick':9} {'nodes':>6} {'ours':>10} {'observed':>10} {'tick_once()':>11} {'BT.tick()':>11} "
+        f"{'BT.CPP':>10} | {'py_trees':>8} {'BT':>8} {'BT.CPP':>7}  observer"
+    )
+    for row in rows():
+        print(row, flush=True)
+    print("\nmilliseconds to load; py_trees is built by hand, without a document")
+    for size, ours, other, by_hand in load_times():
+        print(f"{size:6} nodes: ours {ours:8.2f}, BT.CPP {other:8.2f}, py_trees {by_hand:8.2f}")
+    whole, behaviours, plain = memory()
+    print(
+        f"\nbytes a node at 10,000 nodes: ours {whole:.0f}, of these {behaviours:.0f} the py_trees behaviours "
+        f"of the actions; stock py_trees {plain:.0f}"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,96 @@
+"""Writes docs/reference/nodes.md from the engine's classes and its catalogue.
+
+python -m tests.tree_gardener.reference_page
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tree_gardener import catalog
+from tree_gardener.registry import BUILT_IN
+
+if TYPE_CHECKING:
+    from tree_gardener.catalog import CatalogNode, CatalogPort
+
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "nodes.md"
+TITLES = {
+    "control": "Control nodes",
+    "decorator": "Decorators",
+    "action": "Actions",
+    "condition": "Conditions",
+    "subtree": "SubTree",
+}
+INTRODUCTION = """# Nodes
+
+<!-- Written by tests/tree_gardener/reference_page.py; do not edit. -->
+
+The nodes that `tree_gardener` brings. Names, ports and rules are those of BehaviorTree.CPP 4; where 4.9 or later
+is needed, it says so. Every node also takes the pre-conditions `_failureIf`, `_successIf`, `_skipIf`, `_while` and
+the post-conditions `_onSuccess`, `_onFailure`, `_post`, `_onHalted`.
+"""
+
+
+def page() -> str:
+    """The page's text."""
+    parts = [INTRODUCTION]
+    for kind, title in TITLES.items():
+        parts.append(f"## {title}\n")
+        parts += [section(node) for node in catalog.load().values() if node.kind == kind]
+    return "\n".join(parts)
+
+
+def section(node: CatalogNode) -> str:
+    """What the page says of one node."""
+    lines = [f"### `{node.type}` {node.symbol}\n", f"{node.summary} {children(node)}".strip() + "\n"]
+    lines += [rule(node) + "\n"] if rule(node) else []
+    if node.ports:
+        lines += ["| port | direction | type | default | what |", "| --- | --- | --- | --- | --- |"]
+        lines += [row(port) for port in node.ports]
+        lines.append("")
+    if node.since != "4.0":
+        lines.append(f"BehaviorTree.CPP has it since {node.since}.\n")
+    return "\n".join(lines)
+
+
+def children(node: CatalogNode) -> str:
+    """How many children it takes, in words."""
+    low, high = node.min_children, node.max_children
+    if high == 0:
+        return ""
+    if high is None:
+        return f"Takes {low} or more children."
+    return (
+        f"Takes {low} {'child' if low == 1 else 'children'}."
+        if low == high
+        else f"Takes {low} to {high} children."
+    )
+
+
+def rule(node: CatalogNode) -> str:
+    """The rule, from the docstring of the class, in Markdown."""
+    first, _, text = (inspect.getdoc(BUILT_IN[node.type]) or "").partition("\n\n")
+    if first.rstrip(".") not in node.summary:
+        text = f"{first}\n\n{text}"
+    text = text.strip()
+    return re.sub(r"``(.+?)``", r"`\1`", text)
+
+
+def row(port: CatalogPort) -> str:
+    """A port as a row of the table."""
+    kind = " or ".join(port.enum) if port.enum else port.type
+    default = "–" if port.default is None else f"`{port.default}`"
+    return f"| `{port.name}` | {port.direction} | {kind} | {default} | {port.description} |"
+
+
+def main() -> None:
+    """Writes the page."""
+    PAGE.parent.mkdir(parents=True, exist_ok=True)
+    PAGE.write_text(page(), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,24 @@
+"""The benchmark measures what it says: the same trees, in all engines, to the same end."""
+
+from __future__ import annotations
+
+from tests.benchmarks import engine
+from tree_gardener import Tree
+
+
+def test_its_trees_have_the_size_asked_for_and_run_alike() -> None:
+    for size in (10, 100, 1_000):
+        for last in ("Succeed", "Run"):
+            xml = engine.body(size, last=last)
+            tree = Tree.from_xml(engine.document(xml), engine.NODES)
+            assert abs(len(tree.nodes) - size) <= size * 0.02
+            plain = engine.stock(tree.nodes[0])
+            plain.tick_once()
+            ours = tree.tick_exactly_once().name
+            assert ours == plain.status.name == engine.reference(xml).tick_exactly_once().name
+
+
+def test_rows_can_be_printed() -> None:
+    for row in engine.rows((10,), rounds=1):
+        assert row.what in str(row)
+        assert row.ours > 0

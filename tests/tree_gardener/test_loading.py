@@ -1,0 +1,179 @@
+"""What a document's author is told: code, place and hint of everything that is wrong."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import py_trees
+import pytest
+from py_trees.common import Status as PyTreesStatus
+
+from tests.tree_gardener.trees import LEAVES, Failing, Succeeding, document, load, subtree
+from tree_gardener import LoadError, Port, Status, Tree, get_input
+from tree_gardener.document import parse_document
+from tree_gardener.node import Control, Decorator
+from tree_gardener.status import SUCCESS
+
+
+class Drive(py_trees.behaviour.Behaviour):
+    INPUT_PORTS = {"speed": Port(float, default=0.5), "goal": Port(str, required=True)}
+    OUTPUT_PORTS = {"seen": Port(int)}
+
+    def update(self) -> PyTreesStatus:
+        return PyTreesStatus.SUCCESS
+
+
+def problems(body: str, *more: str) -> list[tuple[str, int, int]]:
+    text = document("\n" + body, *more)
+    with pytest.raises(LoadError) as refused:
+        Tree.from_xml(text, {**LEAVES, "Drive": Drive})
+    for problem in refused.value.diagnostics:
+        assert str(problem).startswith(f"tree.xml:{problem.line}:{problem.column}: {problem.code} ")
+        assert problem.to_json()["code"] == problem.code
+    return [(problem.code, problem.line, problem.column) for problem in refused.value.diagnostics]
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ('<Drive goal="a" sped="1"/>', [("TG301", 2, 23)]),
+        ("<Drive/>", [("TG302", 2, 1)]),
+        ('<Drive goal="{a"/>', [("TG303", 2, 14)]),
+        ('<Drive goal="a" seen="there"/>', [("TG304", 2, 23)]),
+        ('<Drive goal="a" speed="fast"/>', [("TG305", 2, 24)]),
+        (
+            '<Sequence><Drive goal="a" seen="{v}"/><Drive goal="b" speed="{v}"/></Sequence>',
+            [("TG306", 2, 62)],
+        ),
+        ('<Succeeding _skipIf="a &amp;&amp; (b"/>', [("TG401", 2, 37)]),
+        ('<Succeeding _onHalted=""/>', [("TG401", 2, 24)]),
+        ("<Sequence><Drve/><Nope/></Sequence>", [("TG209", 2, 11), ("TG209", 2, 18)]),
+        ('<SubTree ID="Nowhere"/>', [("TG222", 2, 14)]),
+        ('<Sequence ID="x"><Succeeding/></Sequence>', [("TG208", 2, 15)]),
+        ("<Inverter><Succeeding/><Succeeding/></Inverter>", [("TG211", 2, 1)]),
+    ],
+)
+def test_a_mistake_is_found_at_its_place(body: str, expected: list[tuple[str, int, int]]) -> None:
+    assert problems(body) == expected
+
+
+def test_subtrees_are_checked_where_they_are_called() -> None:
+    model = '<TreeNodesModel><SubTree ID="Arm"><input_port name="goal"/></SubTree></TreeNodesModel>'
+    arm = subtree("Arm", "<Succeeding/>")
+    assert problems('<SubTree ID="Arm"/>', arm, model) == [("TG503", 2, 1)]
+    assert problems('<SubTree ID="Arm" _autoremap="perhaps"/>', arm) == [("TG502", 2, 31)]
+    twice = '<Sequence><SubTree ID="Arm" name="a"/><SubTree ID="Arm" name="a"/></Sequence>'
+    assert problems(twice, arm) == [("TG501", 2, 63)]
+    assert load('<SubTree ID="Arm" _autoremap="1"/>', arm, model).tick_once() is Status.SUCCESS
+
+
+def test_mutual_recursion_is_named() -> None:
+    with pytest.raises(LoadError, match="Main → A → B → A|A → B → A"):
+        load('<SubTree ID="A"/>', subtree("A", '<SubTree ID="B"/>'), subtree("B", '<SubTree ID="A"/>'))
+
+
+def test_an_integer_constant_does_not_fit_a_string_port() -> None:
+    body = subtree("B", '<Drive goal="{k}"/>')
+    assert problems('<SubTree ID="B" k="5"/>', body)[0][0] == "TG306"
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("<!DOCTYPE root []><root/>", "TG103"),
+        ("<root>&unknown;</root>", "TG102"),
+        ("<root/><root/>", "TG102"),
+        ("<root a='<'/>", "TG102"),
+        ("<root>" + "<a>" * 2000 + "</a>" * 2000 + "</root>", "TG101"),
+        ("   ", "TG102"),
+    ],
+)
+def test_xml_from_outside_is_read_strictly(text: str, code: str) -> None:
+    with pytest.raises(LoadError) as refused:
+        parse_document(text)
+    assert refused.value.diagnostics[0].code == code
+
+
+def test_columns_count_characters() -> None:
+    with pytest.raises(LoadError) as refused:
+        Tree.from_xml(document('<Sequence name="größe"><Nope/></Sequence>').replace("<root", "\n<root"))
+    problem = refused.value.diagnostics[0]
+    line = document('<Sequence name="größe"><Nope/></Sequence>')
+    assert (problem.line, problem.column) == (2, line.index("<Nope") + 1)
+
+
+class NeedsMore(py_trees.behaviour.Behaviour):
+    def __init__(self, name: str, more: int) -> None:
+        super().__init__(name)
+
+    def update(self) -> PyTreesStatus:
+        return PyTreesStatus.SUCCESS
+
+
+@pytest.mark.parametrize(
+    ("name", "cls", "message"),
+    [
+        ("Sequence", Succeeding, "name of a built-in node"),
+        ("X", "text", "is not a class"),
+        ("X", int, "not derived from"),
+        ("X", py_trees.composites.Sequence, "py_trees composite"),
+        ("X", type("X", (Succeeding,), {"NODE_KIND": "Decorator"}), "NODE_KIND"),
+        ("X", NeedsMore, "cannot be made"),
+    ],
+)
+def test_classes_that_cannot_be_nodes_are_refused(name: str, cls: Any, message: str) -> None:
+    with pytest.raises(LoadError, match=message):
+        Tree.from_xml(document(f"<{name}/>" if name == "X" else "<Succeeding/>"), {**LEAVES, name: cls})
+
+
+class Both(Control):
+    """Ticks all its children and succeeds."""
+
+    __slots__ = ()
+
+    def execute(self) -> Status:
+        self.start()
+        for tick in self.ticks:
+            tick()
+        return self.finish(SUCCESS)
+
+
+class Twice(Decorator):
+    """Ticks its child twice."""
+
+    __slots__ = ()
+    INPUT_PORTS = {"times": Port(int, default=2)}
+
+    def execute(self) -> Status:
+        self.start()
+        for _ in range(self.get("times")):
+            self.tick_child()
+            self.reset()
+        return self.finish(SUCCESS)
+
+
+def test_nodes_of_ones_own_are_derived_from_the_engines() -> None:
+    nodes = {"Both": Both, "Twice": Twice}
+    tree = load("<Both><Twice times='3'><Failing/></Twice><Script code='x := 1'/></Both>", nodes=nodes)
+    assert tree.tick_once() is Status.SUCCESS
+    assert tree.blackboard["x"] == 1
+    assert [node.kind for node in tree.nodes[:2]] == ["Control", "Decorator"]
+
+
+class Open(py_trees.behaviour.Behaviour):
+    def __init__(self, name: str, ports: dict[str, str] | None = None) -> None:
+        super().__init__(name)
+        self.ports = ports
+
+    def update(self) -> PyTreesStatus:
+        return PyTreesStatus.SUCCESS if get_input(self, "any") == "thing" else PyTreesStatus.FAILURE
+
+
+def test_a_class_without_declarations_takes_any_port() -> None:
+    tree = load('<Open any="thing" other="{x}"/>', nodes={"Open": Open})
+    assert tree.nodes[0].behaviour.ports == {"any": "thing", "other": "{x}"}
+    assert tree.tick_once() is Status.SUCCESS
+
+
+def test_the_leaves_are_what_they_are_called() -> None:
+    assert LEAVES["Failing"] is Failing

@@ -1,0 +1,160 @@
+"""The script language: positions of errors, values, and properties."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tree_gardener.blackboard import EMPTY, Blackboard
+from tree_gardener.errors import ScriptError
+from tree_gardener.script import Environment, compile_script, names_read, names_written, parse
+from tree_gardener.values import ANY, BOOL, INT, STRING
+
+
+def run(text: str, board: Blackboard | None = None) -> Any:
+    return compile_script(text).run(Environment(board if board is not None else Blackboard(), {"RED": 5}))
+
+
+@pytest.mark.parametrize(
+    ("text", "span", "message"),
+    [
+        ("x := ", (5, 5), "a value is expected at the end"),
+        ("x := 3foo", (5, 9), "'3foo' is not a number"),
+        ("x := 5 % 2", (7, 8), "'%' has no meaning"),
+        ("x := (1", (7, 7), "')' is missing"),
+        ("x ? 1", (5, 5), "':' is missing"),
+        ("x == == 1", (5, 7), "a value is expected before '=='"),
+        ("'open", (0, 1), "has no meaning"),
+        ("", (0, 0), "empty"),
+        ("(" * 200, (100, 101), "nested too deeply"),
+        ("-" * 200 + "1", (200, 201), "nested too deeply"),
+    ],
+)
+def test_errors_of_syntax_have_a_span(text: str, span: tuple[int, int], message: str) -> None:
+    with pytest.raises(ScriptError) as refused:
+        parse(text)
+    assert refused.value.span == span
+    assert message in refused.value.message
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("nothing + 1", "there is no entry 'nothing'"),
+        ("'a' - 1", "'-' does not work"),
+        ("1.5 & 1", "integers only"),
+        ("'a' | 1", "does not work"),
+        ("3 := 4", "only a blackboard entry"),
+        ("x = 4", "create it with :="),
+        ("'a' && 1", "does not work"),
+        ("2 && 1", "neither 0 nor 1"),
+        ("'a' ? 1 : 2", "not a number"),
+        ("x := 1; x += 'a'", "does not work"),
+        ("x := 'a'; x += 1", "needs a number"),
+        ("x := 'a'; x := 1", "cannot be assigned"),
+        ("x := 1; x := 1.5", "holds an integer"),
+        ("-'a'", "a number is needed"),
+        ("@@x := 1", "has no meaning|'@'"),
+    ],
+)
+def test_errors_of_evaluation_say_what(text: str, message: str) -> None:
+    with pytest.raises(ScriptError, match=message):
+        run(text)
+
+
+def test_names_are_told_apart() -> None:
+    program = parse("a := b + 1; c += d; e = (f := 2)")
+    assert [name.name for name in names_written(program)] == ["a", "c", "e", "f"]
+    assert [name.name for name in names_read(program)] == ["b", "c", "d", "e"]
+    assert names_written(program)[1].span == (12, 13)
+
+
+def test_values_keep_the_kind_of_their_entry() -> None:
+    board = Blackboard()
+    board.set("typed", 1, INT)
+    board.set("flag", True, BOOL)
+    assert run("typed := '7'", board) == 7
+    assert run("flag := 0", board) is False
+    assert run("flag := 3", board) == 3
+    with pytest.raises(ScriptError, match="of type int"):
+        board.unset("typed")
+        board.create("typed", INT)
+        run("typed := 'x'", board)
+
+
+def test_objects_can_be_handed_on_but_not_computed_with() -> None:
+    board = Blackboard()
+    board["image"] = image = object()
+    assert run("other := image", board) is image
+    assert board["other"] is image
+    assert run("other := 'text'", board) == "text"
+    with pytest.raises(ScriptError):
+        run("image + 1", board)
+
+
+def test_two_numbers_joined_have_no_value() -> None:
+    assert run("1 .. 2") is EMPTY
+
+
+NUMBERS = st.one_of(
+    st.integers(0, 2**31).map(str),
+    st.floats(0, 1e6, allow_nan=False).map(lambda value: f"{value:.4f}"),
+)
+
+
+@st.composite
+def arithmetic(draw: st.DrawFn, depth: int = 4) -> tuple[str, float]:
+    """An expression with its value by Python's own arithmetic."""
+    if depth == 0 or draw(st.booleans()):
+        text = draw(NUMBERS)
+        return text, float(text)
+    symbol = draw(st.sampled_from("+-*/"))
+    left, a = draw(arithmetic(depth - 1))
+    right, b = draw(arithmetic(depth - 1))
+    text = f"({left}) {symbol} ({right})"
+    if symbol == "/":
+        return text, a / b if b else math.nan if not a or math.isnan(a) else math.copysign(
+            math.inf, a
+        ) * math.copysign(1, b)
+    return text, {"+": a + b, "-": a - b, "*": a * b}[symbol]
+
+
+@given(arithmetic())
+@settings(max_examples=150, deadline=None)
+def test_arithmetic_is_that_of_doubles(case: tuple[str, float]) -> None:
+    text, expected = case
+    found = float(run(text))
+    assert found == expected or (math.isnan(found) and math.isnan(expected))
+
+
+@given(st.text(alphabet="ab1.'()+-*/&|^=<>!~?:;@ \n%", max_size=30))
+@settings(max_examples=300, deadline=None)
+def test_any_text_parses_or_is_refused_inside_of_it(text: str) -> None:
+    try:
+        program = parse(text)
+    except ScriptError as error:
+        assert 0 <= error.span[0] <= error.span[1] <= len(text)
+    else:
+        for statement in program.statements:
+            assert 0 <= statement.span[0] < statement.span[1] <= len(text)
+
+
+@given(st.text(alphabet="ab1.'()+-*&=<>!?:; ", max_size=25))
+@settings(max_examples=300, deadline=None)
+def test_running_raises_nothing_but_script_errors(text: str) -> None:
+    board = Blackboard()
+    board["a"], board["b"] = 1, "text"
+    with contextlib.suppress(ScriptError):
+        run(text, board)
+
+
+def test_types_without_a_converter_refuse_texts_only_when_they_must() -> None:
+    board = Blackboard()
+    board.create("loose", ANY)
+    board.create("text", STRING)
+    assert run("loose := 'x'; text := 'y'", board) == "y"

@@ -1,0 +1,51 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { TreeNode } from '@/generated/messages';
+import { liveKey, useLiveStore } from './live';
+
+const live = () => useLiveStore.getState();
+const node = (uid: number, node_id: string, tree_id = 'T'): TreeNode => ({
+  uid,
+  parent: 0,
+  type: '',
+  kind: '',
+  name: '',
+  path: '',
+  node_id,
+  tree_id,
+});
+const status = (id: string) => live().statuses.get(liveKey('T', id));
+
+beforeEach(() => {
+  live().clear();
+  live().setTree([node(1, 'a'), node(2, 'b'), node(3, 'b')]);
+});
+
+describe('live status', () => {
+  it('is told by diagram node', () => {
+    live().setStatuses([[1, 'RUNNING']]);
+    expect([status('a'), status('b')]).toEqual(['RUNNING', undefined]);
+  });
+  it('of a tree that is used twice is that of the busiest instance', () => {
+    live().setStatuses([
+      [2, 'RUNNING'],
+      [3, 'SUCCESS'],
+    ]);
+    expect(status('b')).toBe('RUNNING');
+    live().setStatuses([[2, 'IDLE']]);
+    expect(status('b')).toBe('SUCCESS');
+  });
+  it('animates a repeated flash at a bearable pace', () => {
+    live().flash([[1, 'FAILURE']]);
+    const first = live().flashes.get(liveKey('T', 'a'));
+    live().flash([[1, 'FAILURE']]);
+    expect(live().flashes.get(liveKey('T', 'a'))).toBe(first);
+    live().flash([[1, 'SUCCESS']]);
+    expect(live().flashes.get(liveKey('T', 'a'))?.status).toBe('SUCCESS');
+  });
+  it('ends with the run', () => {
+    live().setStatuses([[1, 'RUNNING']]);
+    live().setFault('a', 'T', 'boom');
+    live().clear();
+    expect([live().active, live().statuses.size, live().faults.size]).toEqual([false, 0, 0]);
+  });
+});

@@ -1,0 +1,200 @@
+import { beforeEach, describe, expect, it } from 'vitest';
+import type { ProjectDetail } from '@/api/types';
+import { edit, setName, setPort } from '@/model/edits';
+import { serializeDiagram } from '@/model/serialize';
+import { createAction } from './actionTemplate';
+import { addHere, deleteSelection, duplicateSelection, moveIn, moveOut, reorderSelection } from './commands';
+import { useProjectStore } from './index';
+import { extractSelection, inlineSelection } from './subtrees';
+
+const state = () => useProjectStore.getState();
+const tree = {
+  format: 'bt-studio/diagram',
+  version: 1,
+  id: 'MainTree',
+  root: 'r',
+  nodes: {
+    r: { type: 'Sequence', children: ['a', 'f'] },
+    a: { type: 'Turn', ports: { ang_speed: '{speed}' } },
+    f: { type: 'Fallback', children: ['b'] },
+    b: { type: 'Turn' },
+  },
+  drafts: [],
+  layout: 'vertical',
+};
+const file = (path: string, content: string | null) => ({ path, content, revision: 3, size: 0, sha256: '' });
+const project: ProjectDetail = {
+  id: 'p',
+  name: 'P',
+  description: '',
+  main_tree: 'MainTree',
+  universe: '',
+  revision: 3,
+  created_at: '',
+  updated_at: '',
+  root_diagram: null,
+  settings: { name: 'P', main_tree: 'MainTree' },
+  files: [
+    file('trees/MainTree.json', JSON.stringify(tree)),
+    file('trees/Broken.json', '{'),
+    file('actions/Turn.py', 'class Turn:\n    pass\n'),
+    file('project.json', '{}'),
+    file('assets/m.bin', null),
+  ],
+  actions: [{ name: 'Turn', kind: 'Action', open: true, ports: [] }],
+  diagnostics: [],
+};
+const types = () => Object.values(state().diagrams['MainTree']!.nodes).map((node) => node.type);
+const children = (id: string) => state().diagrams['MainTree']!.nodes[id]?.children;
+
+beforeEach(() => {
+  state().close();
+  state().load(project);
+});
+
+describe('loading', () => {
+  it('sorts files, and has nothing to save', () => {
+    const kinds = Object.fromEntries(Object.values(state().files).map((each) => [each.path, each.kind]));
+    expect(kinds).toEqual({
+      'trees/MainTree.json': 'tree',
+      'trees/Broken.json': 'text',
+      'actions/Turn.py': 'text',
+      'project.json': 'text',
+      'assets/m.bin': 'binary',
+    });
+    expect(state().pendingChanges()).toEqual([]);
+    expect(state().activeTree).toBe('MainTree');
+  });
+});
+
+describe('saving', () => {
+  it('sends what changed with its base, and keeps what was typed meanwhile', () => {
+    state().apply('MainTree', 'rename', [setName('a', 'left')]);
+    state().setFileText('actions/Turn.py', 'one');
+    const sent = state().pendingChanges();
+    expect(sent.map(({ path, base_revision }) => [path, base_revision])).toEqual([
+      ['trees/MainTree.json', 3],
+      ['actions/Turn.py', 3],
+    ]);
+    state().setFileText('actions/Turn.py', 'two');
+    state().applySaved(sent, {
+      revision: 4,
+      files: sent.map(({ path }) => ({ path, revision: 4 })),
+      actions: project.actions,
+      diagnostics: [],
+    });
+    expect(state().pendingChanges()).toEqual([{ path: 'actions/Turn.py', base_revision: 4, content: 'two' }]);
+  });
+  it('creates and deletes files, and forgets what the server never saw', () => {
+    state().addFile('actions/New.py', 'x');
+    state().deleteFile('actions/New.py');
+    state().deleteFile('actions/Turn.py');
+    state().addTree('Sub');
+    expect(state().pendingChanges()).toEqual([
+      expect.objectContaining({ path: 'trees/Sub.json', base_revision: 0 }),
+      { path: 'actions/Turn.py', base_revision: 3, delete: true },
+    ]);
+  });
+  it('takes the text of a tree, and keeps one that does not parse for the user to repair', () => {
+    const renamed = edit(state().diagrams['MainTree']!, setName('r', 'top')).diagram;
+    state().setFileText('trees/MainTree.json', serializeDiagram(renamed));
+    expect(state().diagrams['MainTree']!.nodes['r']?.name).toBe('top');
+    state().setFileText('trees/MainTree.json', '{ oops');
+    expect(state().pendingChanges()).toEqual([
+      expect.objectContaining({ path: 'trees/MainTree.json', content: '{ oops' }),
+    ]);
+  });
+  it('goes on from another revision after a conflict', () => {
+    state().setFileText('actions/Turn.py', 'mine');
+    state().rebase('actions/Turn.py', 9, 'theirs');
+    expect(state().pendingChanges()).toEqual([
+      { path: 'actions/Turn.py', base_revision: 9, content: 'mine' },
+    ]);
+  });
+});
+
+describe('undo', () => {
+  it('is one step for one gesture, by tree, and survives a save', () => {
+    for (const text of ['1', '1.', '1.5']) {
+      state().apply('MainTree', 'port', [setPort('a', 'ang_speed', text)], { mergeKey: 'port a' });
+    }
+    expect(state().histories['MainTree']?.past).toHaveLength(1);
+    const sent = state().pendingChanges();
+    state().applySaved(sent, { revision: 4, files: [], actions: project.actions, diagnostics: [] });
+    state().undo();
+    expect(state().diagrams['MainTree']!.nodes['a']?.ports).toEqual({ ang_speed: '{speed}' });
+    state().redo();
+    expect(state().diagrams['MainTree']!.nodes['a']?.ports).toEqual({ ang_speed: '1.5' });
+  });
+  it('starts a new step when something else was selected in between', () => {
+    const type = (text: string) => {
+      state().apply('MainTree', 'port', [setPort('a', 'ang_speed', text)], { mergeKey: 'port a' });
+    };
+    type('1');
+    state().select('MainTree', ['b']);
+    type('2');
+    expect(state().histories['MainTree']?.past).toHaveLength(2);
+  });
+  it('brings back blocks and selection', () => {
+    state().select('MainTree', ['f']);
+    deleteSelection();
+    expect([types(), state().selection]).toEqual([['Sequence', 'Turn'], ['a']]);
+    state().undo();
+    expect([children('r'), state().selection]).toEqual([['a', 'f'], ['f']]);
+  });
+});
+
+describe('commands', () => {
+  it('add where it fits best', () => {
+    state().select('MainTree', ['a']);
+    addHere({ type: 'AlwaysSuccess' });
+    expect(children('r')).toEqual(['a', state().selection[0], 'f']);
+  });
+  it('reorder, move in and out', () => {
+    state().select('MainTree', ['a']);
+    reorderSelection(1);
+    expect(children('r')).toEqual(['f', 'a']);
+    moveIn();
+    expect(children('f')).toEqual(['b', 'a']);
+    moveOut();
+    expect(children('r')).toEqual(['f', 'a']);
+  });
+  it('duplicate with all that hangs below', () => {
+    state().select('MainTree', ['f']);
+    duplicateSelection();
+    expect(types().sort()).toEqual(['Fallback', 'Fallback', 'Sequence', 'Turn', 'Turn', 'Turn']);
+  });
+  it('extract to a new tree in one step, undone with it, and inline again', () => {
+    state().select('MainTree', ['f']);
+    extractSelection();
+    expect(Object.keys(state().diagrams)).toEqual(['MainTree', 'FallbackTree']);
+    expect(types()).toEqual(['Sequence', 'Turn', 'SubTree']);
+    inlineSelection();
+    expect(types().sort()).toEqual(['Fallback', 'Sequence', 'Turn', 'Turn']);
+    state().undo();
+    state().undo();
+    expect(Object.keys(state().diagrams)).toEqual(['MainTree']);
+    expect(state().pendingChanges()).toEqual([]);
+  });
+  it('rename an action with its file, its class and its uses', () => {
+    state().renameAction('Turn', 'Spin');
+    expect(state().currentText('actions/Spin.py')).toBe('class Spin:\n    pass\n');
+    expect(types()).toEqual(['Sequence', 'Spin', 'Fallback', 'Spin']);
+  });
+  it('rename a tree wherever it is used', () => {
+    state().select('MainTree', ['f']);
+    extractSelection();
+    state().renameTree('FallbackTree', 'Escape');
+    expect(Object.values(state().diagrams['MainTree']!.nodes).find((node) => node.tree)?.tree).toBe('Escape');
+    expect(
+      state()
+        .pendingChanges()
+        .map((each) => each.path),
+    ).toContain('trees/Escape.json');
+  });
+  it('create an action that can be placed at once', () => {
+    createAction('Grasp', 'Condition');
+    expect(state().vocabulary.specs.get('Grasp')).toMatchObject({ family: 'condition', source: 'action' });
+    expect(state().currentText('actions/Grasp.py')).toContain('class Grasp(py_trees.behaviour.Behaviour)');
+  });
+});

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.diagnostic import Diagnostic, Place, Severity, diagnostic
 from translator.diagram import diagram_path
 from translator.tree import Node, Tree, reachable_trees
 
 if TYPE_CHECKING:
     from translator.catalog import NodeModel
     from translator.project import Project
+
+_INSTANTIATED = ("BT02", "BT03")  # ports and scripts, which are looked at when a tree is built
 
 
 @dataclass
@@ -47,7 +49,11 @@ class Context:
             line=node.span.line if node and node.span else None,
             column=node.span.column if node and node.span else None,
         )
-        self.found.append(diagnostic(code, place, **values))
+        found = diagnostic(code, place, **values)
+        if found.is_error and code.startswith(_INSTANTIATED) and tree.id not in self.reachable:
+            # The engine never builds a tree that nothing calls, so this does not keep the rest from running.
+            found = replace(found, severity=Severity.WARNING)
+        self.found.append(found)
 
 
 def located(found: list[Diagnostic], project: Project) -> list[Diagnostic]:

@@ -100,7 +100,8 @@ def _check_entry(context: Context, tree: Tree, node: Node, port: PortModel, entr
     """Reports an entry that two ports use with different types, which the engine refuses."""
     text = node.ports.get(port.name, port.default)
     key = pointer(text, port.name) if text is not None else None
-    if key is None or port.type in {"any", "script", "status"}:
+    # SetBlackboard copies a value of any type, although its port is a text in the catalogue.
+    if key is None or port.type in {"any", "script", "status"} or node.type == "SetBlackboard":
         return
     first = entries.setdefault(key, _Use(port.type, node, port.name))
     if first.type not in {port.type, "string"}:

@@ -33,8 +33,11 @@ def check_scripts(context: Context) -> None:
 
 
 def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
-    if not code.strip() and attribute in node.conditions:
-        context.report("BT0301", tree, node, attribute, attribute=attribute)
+    if not code.strip():
+        if (
+            attribute in node.conditions
+        ):  # a Script without code is nothing to do, a condition without is refused
+            context.report("BT0301", tree, node, attribute, attribute=attribute)
         return
     problem = script_names(code).problem
     if problem is None:

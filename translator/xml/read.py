@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from translator.catalog import NodeModel, PortModel
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
-from translator.text import clean, is_clean
+from translator.text import clean, is_clean, is_xml_name
 from translator.tree import SUBTREE, Node, Span, Tree
 from translator.xml.attributes import from_attributes
 from translator.xml.source import Element, Source, parse_source
@@ -207,6 +207,9 @@ class _Reader:
                 self.report("BT0717", child, tag=child.tag)
                 continue
             ports = [self.port(port) for port in child.children if port.tag in _DIRECTIONS]
+            for port in ports:
+                if not is_xml_name(port.name) or port.name.startswith("_") or port.name in {"name", "ID"}:
+                    self.report("BT0718", child, port=port.name, type=type_)
             low, high = {"control": (1, None), "decorator": (1, 1)}.get(kind, (0, 0))
             model = NodeModel(type_, kind, low, high, {port.name: port for port in ports if port.name})
             key = f"{SUBTREE}:{type_}" if kind == "subtree" else type_

@@ -1,0 +1,23 @@
+"""The reference page of the protocol."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from executor import protocol_page
+from executor.protocol_page import PAGE, main, page
+
+EXECUTOR = Path(protocol_page.__file__).parent
+
+
+def test_the_page_in_the_docs_is_up_to_date():
+    assert PAGE.read_text() == page()
+    assert main(["--check"]) == 0
+
+
+def test_every_error_code_is_explained():
+    sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in ("steps", "protocol", "server"))
+    codes = set(re.findall(r'(?:StepFailed\(|_refuse\(\w+, (?:\w+, )?)\s*"(\w+)"', sources))
+    assert {"cancelled", "wrong_state", "unknown_command", "tick_hangs"} <= codes
+    assert codes <= set(protocol_page._ERRORS)

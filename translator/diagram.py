@@ -17,7 +17,7 @@ from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.json_file import parse_json
 from translator.migrate import CURRENT_VERSION, migrate
 from translator.text import clean, is_clean, is_valid_id, safe_name
-from translator.tree import CONDITIONS, EMPTY, SUBTREE, Node, Tree
+from translator.tree import AUTOREMAP, CONDITIONS, EMPTY, SUBTREE, Node, Tree
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -92,14 +92,21 @@ class _Reader:
             return None
         if node_id != key:
             self.report("BT0012", node_id, field="id")
+        ports = self.texts(node_id, row, "ports")
+        attributes = self.texts(node_id, row, "attributes")
+        if (
+            row["type"] == SUBTREE and AUTOREMAP in ports
+        ):  # where editors may put it, since it is set like a port
+            attributes = {**attributes, AUTOREMAP: ports[AUTOREMAP]}
+            ports = {name: text for name, text in ports.items() if name != AUTOREMAP}
         return Node(
             id=node_id,
             type=self.text(node_id, row, "type"),
             name=self.text(node_id, row, "name"),
             tree=self.text(node_id, row, "tree") if row["type"] == SUBTREE else "",
-            ports=self.texts(node_id, row, "ports"),
+            ports=ports,
             conditions=self.conditions(node_id, row),
-            attributes=self.texts(node_id, row, "attributes"),
+            attributes=attributes,
             children=self.children(node_id, row),
             position=self.position(node_id, row),
             comment=self.text(node_id, row, "comment"),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from translator.catalog import PortModel
 
 SUBTREE = "SubTree"
+AUTOREMAP = "_autoremap"
 PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
 POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
@@ -56,7 +57,7 @@ class Node:
     @property
     def autoremap(self) -> bool:
         """Whether a SubTree shares the names of its caller."""
-        return self.attributes.get("_autoremap", "").lower() in {"true", "1"}
+        return self.attributes.get(AUTOREMAP, "").lower() in {"true", "1"}
 
     @property
     def label(self) -> str:

@@ -145,6 +145,13 @@ def test_examples_are_of_the_schemas(example):
     jsonschema.validate(json.loads(example.files["project.json"]), json_schema("project"))
 
 
+def test_autoremap_among_the_ports_is_understood():
+    tree, told = found(
+        document({"n1": {"type": "SubTree", "tree": "U", "ports": {"_autoremap": "1", "a": "b"}}})
+    )
+    assert (told, tree.nodes["n1"].autoremap, tree.nodes["n1"].ports) == ([], True, {"a": "b"})
+
+
 def test_one_line_a_node():
     tree, _ = found(document({"n1": {"type": "Sequence", "children": ["n2"]}, "n2": LEAF}))
     changed = tree.edited("n2", name="x")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from translator.catalog import did_you_mean
 from translator.check.port import RESERVED
 from translator.text import is_xml_name
+from translator.tree import AUTOREMAP
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -32,7 +33,7 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
         suggestion = did_you_mean(node.tree, trees, otherwise=otherwise)
         context.report("BT0501", tree, node, target=node.tree or "(none)", suggestion=suggestion)
         return
-    autoremap = node.attributes.get("_autoremap")
+    autoremap = node.attributes.get(AUTOREMAP)
     if autoremap is not None and autoremap not in {
         "0",
         "1",

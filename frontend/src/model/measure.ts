@@ -7,7 +7,7 @@ import type { NodeSpec } from './vocabulary';
  */
 export const BLOCK = {
   minWidth: 132,
-  maxWidth: 264,
+  maxWidth: 300,
   header: 44,
   tile: 44,
   portRow: 22,

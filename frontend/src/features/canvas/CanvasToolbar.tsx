@@ -16,7 +16,7 @@ import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/commands';
-import { setEditor, useEditorStore } from '@/store/project/editor';
+import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { FIT } from './useViewport';
 import classes from './Canvas.module.css';
@@ -52,7 +52,8 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
   const zoom = useStore((state) => Math.round(state.transform[2] * 100));
   const isHorizontal = useProjectStore((state) => state.diagrams[treeId]?.layout === 'horizontal');
   const hasSelection = useProjectStore((state) => state.activeTree === treeId && state.selection.length > 0);
-  const minimap = useEditorStore((state) => state.minimap);
+  const blocks = useProjectStore((state) => Object.keys(state.diagrams[treeId]?.nodes ?? {}).length);
+  const minimap = useEditorStore((state) => isMinimapShown(state.minimap, blocks));
 
   const fitSoon = (): void => {
     // After React has drawn the new layout.

@@ -11,7 +11,7 @@ import {
 } from '@xyflow/react';
 import { useCallback, useMemo, useRef, useState, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { setEditor, useEditorStore } from '@/store/project/editor';
+import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { Announcer } from './Announcer';
 import { Block } from './block/Block';
@@ -191,7 +191,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
           color="var(--bts-canvas-dot)"
           bgColor="var(--bts-canvas)"
         />
-        {minimap && nodes.length > 1 && (
+        {isMinimapShown(minimap, nodes.length) && (
           <MiniMap<BlockNode>
             pannable
             zoomable

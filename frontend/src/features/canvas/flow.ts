@@ -1,4 +1,4 @@
-import type { Edge, Node } from '@xyflow/react';
+import { Position, type Edge, type Node, type NodeHandle } from '@xyflow/react';
 import {
   childrenOf,
   displayName,
@@ -33,6 +33,21 @@ export interface FlowInput {
   readonly vocabulary: Vocabulary;
   readonly problems: ReadonlyMap<NodeId, ShownProblem>;
   readonly selection: ReadonlySet<NodeId>;
+}
+
+/** Where connections end: known without measuring, so that they are right at once when blocks change. */
+function handlesOf({ width, height }: Box, isHorizontal: boolean): NodeHandle[] {
+  const end = (type: 'source' | 'target', position: Position, x: number, y: number): NodeHandle => ({
+    type,
+    position,
+    x,
+    y,
+    width: 0,
+    height: 0,
+  });
+  return isHorizontal
+    ? [end('target', Position.Left, 0, height / 2), end('source', Position.Right, width, height / 2)]
+    : [end('target', Position.Top, width / 2, 0), end('source', Position.Bottom, width / 2, height)];
 }
 
 function sameData(a: BlockData, b: BlockData): boolean {
@@ -96,6 +111,7 @@ export class FlowProjection {
       width: box.width,
       height: box.height,
       measured: { width: box.width, height: box.height },
+      handles: handlesOf(box, data.isHorizontal),
       selected: selection.has(id),
       data: sameContent ? known.data : data,
       ariaLabel: displayName(node),

@@ -26,9 +26,8 @@ interface EditorState {
   readonly dragged: Kind | null;
   readonly slot: Slot | null;
   readonly find: boolean;
-  readonly minimap: boolean;
-  /** The view moves to the running leaf. */
-  readonly followRunning: boolean;
+  /** null: shown for trees that are too large to be seen at once. */
+  readonly minimap: boolean | null;
 }
 
 /** What the editor is busy with: nothing of it is saved or undone. */
@@ -38,8 +37,13 @@ export const useEditorStore = create<EditorState>()(() => ({
   dragged: null,
   slot: null,
   find: false,
-  minimap: true,
-  followRunning: false,
+  minimap: null,
 }));
 
 export const setEditor = useEditorStore.setState;
+
+const LARGE = 14;
+
+export function isMinimapShown(wish: boolean | null, blocks: number): boolean {
+  return wish ?? blocks > LARGE;
+}

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from translator import Diagnostic
 
 
 def package(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
@@ -24,8 +27,9 @@ def package(  # noqa: PLR0913, PLR0917 - these are the options of formats.md
 
     try:
         opened = cli.open_project(project, actions=actions, stubs=False)
+        found: tuple[Diagnostic, ...] = ()
         if dockerized:
-            raw, found, made = to_app_zip(opened), (), "app"
+            raw, made = to_app_zip(opened), "app"
         else:
             result = to_ros2_package(opened, name=name)
             raw, found, made = result.to_zip(), result.diagnostics, result.name

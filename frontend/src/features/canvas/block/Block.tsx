@@ -38,6 +38,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       data-draft={data.isDraft || undefined}
       data-target={isTarget || undefined}
       data-fault={fault === undefined ? undefined : ''}
+      data-problem={problem?.severity}
       style={color}
     >
       <BlockShape family={family} width={width} height={height} flash={flash} />

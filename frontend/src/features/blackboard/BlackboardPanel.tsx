@@ -1,4 +1,4 @@
-import { ScrollArea, Table } from '@mantine/core';
+import { ScrollArea } from '@mantine/core';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
@@ -23,13 +23,7 @@ export function BlackboardPanel() {
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
       {groups.length === 0 ? <p className={classes['empty']}>{t('empty')}</p> : null}
       {groups.map(([scope, rows]) => (
-        <Table
-          key={scope}
-          className={classes['table']}
-          verticalSpacing={4}
-          horizontalSpacing="sm"
-          layout="fixed"
-        >
+        <table key={scope} className={classes['table']}>
           <caption className={classes['scope']}>{scope || t('root')}</caption>
           <thead className={classes['head']}>
             <tr>
@@ -43,7 +37,7 @@ export function BlackboardPanel() {
               <BlackboardRow key={row.key} row={row} canEdit={isPaused && !row.preview} />
             ))}
           </tbody>
-        </Table>
+        </table>
       ))}
     </ScrollArea>
   );

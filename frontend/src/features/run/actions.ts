@@ -5,6 +5,7 @@ import {
   IconPlayerStopFilled,
   IconPower,
   IconRefresh,
+  IconRotateClockwise,
 } from '@tabler/icons-react';
 import { registerActions, type UserAction } from '@/actions/registry';
 import {
@@ -15,6 +16,7 @@ import {
   pause,
   end,
   resetWorld,
+  restartApplication,
   resume,
   step,
   stop,
@@ -73,6 +75,14 @@ const rows: UserAction[] = [
     inTextFields: true,
     enabled: hasApplication,
     run: () => void stop(),
+  },
+  {
+    id: 'run.restart',
+    group: 'run',
+    labelKey: 'run:action.restart',
+    icon: IconRotateClockwise,
+    enabled: hasApplication,
+    run: () => void restartApplication(),
   },
   {
     id: 'run.resetWorld',

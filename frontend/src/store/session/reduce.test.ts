@@ -101,6 +101,26 @@ describe('reduce', () => {
     expect(state.blackboard).toEqual({});
   });
 
+  it('shows the traceback of a fault in the console', () => {
+    const fault = {
+      kind: 'exception' as const,
+      message: 'boom',
+      hint: '',
+      node_id: 'n1',
+      tree_id: 'MainTree',
+      node_path: 'go',
+      file: 'actions/Go.py',
+      line: 3,
+      traceback: 'Traceback:\n  File "actions/Go.py", line 3\nboom',
+    };
+    const state = reduce(initialSession, message('fault', fault));
+    expect(state.faults).toEqual([fault]);
+    expect(state.logs.map(({ text, level }) => [level, text])).toContainEqual([
+      'error',
+      '  File "actions/Go.py", line 3',
+    ]);
+  });
+
   it('tells two scopes of one key apart', () => {
     const state = reduce(
       initialSession,

@@ -1,4 +1,4 @@
-import type { BlackboardEntry, Events, Log, ServerMessage } from '@/generated/messages';
+import type { BlackboardEntry, Events, Fault, Log, ServerMessage } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
 /** Older lines are dropped; about an hour of a talkative action. */
@@ -51,7 +51,10 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
   }),
   log: (state, data, { t }) => appendLogs(state, [{ ...data, time: data.time || t }]),
-  fault: (state, data) => ({ faults: [...state.faults, data] }),
+  fault: (state, data, { t }) => ({
+    faults: [...state.faults, data],
+    ...appendLogs(state, [logOf(data, t)]),
+  }),
   finished: (_, data) => ({ finished: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq }) => ({
@@ -94,6 +97,13 @@ function mergeBlackboard(
     else next[id] = { ...entry, changedAt };
   }
   return next;
+}
+
+/** A fault in the console: its traceback, whose lines can be clicked. */
+function logOf(fault: Fault, time: number): Log {
+  const source = fault.node_id || fault.kind === 'exception' ? 'action' : 'manager';
+  const text = fault.traceback || fault.message;
+  return { source, level: 'error', text, node_id: fault.node_id, node_path: fault.node_path, time };
 }
 
 /** Adds lines as the console shows them: one row a line of text, numbered. */

@@ -5,7 +5,6 @@ import type {
   Introspection,
   Log,
   Progress,
-  ServerMessage,
   Sim,
   State,
   TreeNode,
@@ -50,5 +49,3 @@ export interface SessionData {
   universe: string;
   lastSeq: number;
 }
-
-export type { ServerMessage };

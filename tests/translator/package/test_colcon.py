@@ -13,7 +13,7 @@ import pytest
 
 from tests.fakes import launch_modules
 from tests.translator.conftest import EXAMPLES, example_files
-from translator import load, open_path, to_ros2_package
+from translator import load, open_path, to_app_zip, to_ros2_package
 
 pytestmark = pytest.mark.timeout(400)
 
@@ -172,3 +172,22 @@ def test_the_launch_file_describes_the_node(workspace, name, monkeypatch):
     params, values = node.values["parameters"]
     assert Path(params).is_file()
     assert set(values) == {"tick_hz", "tree", "use_sim_time"}
+
+
+def test_the_app_for_the_manager_runs_by_itself(tmp_path):
+    (tmp_path / "app.zip").write_bytes(to_app_zip(load(example_files(EXAMPLES[0]))))
+    with zipfile.ZipFile(tmp_path / "app.zip") as archive:
+        archive.extractall(tmp_path / "app")
+    program = subprocess.Popen(
+        [sys.executable, "-u", "execute_docker.py"],
+        cwd=tmp_path / "app",
+        env=environment(tmp_path),
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert program.stdout.readline() == "Turning\n"
+    finally:
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=30)
+    assert program.returncode == 0

@@ -173,11 +173,11 @@ def fill(message: Any, fields: dict[str, Any]) -> None:
         if hasattr(current, "get_fields_and_field_types"):
             fill(current, value)
             continue
-        value = float(value) if isinstance(current, float) and type(value) is int else value
+        given = float(value) if isinstance(current, float) and type(value) is int else value
         try:
             # ROS checks fields only when it is told to; a wrong one would crash when it is sent.
-            type(message)(check_fields=True, **{name: value})
-            setattr(message, name, value)
+            type(message)(check_fields=True, **{name: given})
+            setattr(message, name, given)
         except (AssertionError, TypeError) as error:
             raise ValueError(f"{name}: {error}") from error
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor.channel import Channel, ChannelClosed
+from executor.confine import die_with_parent
 from executor.messages import CameraPose
 from executor.ros.environment import has_tf, ros_environment
 from executor.universes.document import DocumentError, Problem
@@ -24,6 +25,8 @@ from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rclpy.context import Context
 
     from executor.render.interface import Renderer
     from executor.world.clockwork import Clockwork
@@ -44,6 +47,7 @@ class WorldProcess:
         self._channel = channel
         self._clockwork: Clockwork | None = None
         self._renderer: Renderer | None = None
+        self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
 
     def run(self) -> None:
@@ -75,6 +79,19 @@ class WorldProcess:
         from executor.world import bullet, clockwork  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
+        self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
+
+    def _join(self, domain_id: int) -> Context:
+        """Enters a ROS graph; the one of the environment is entered ahead of `start`."""
+        if self._context is not None and self._context.get_domain_id() == domain_id:
+            return self._context
+        import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
+        from rclpy.context import Context  # noqa: PLC0415
+
+        context = Context()
+        rclpy.init(context=context, domain_id=domain_id)
+        self._close.append(context.try_shutdown)
+        return context
 
     def _obey(self, message: dict[str, Any]) -> None:
         try:
@@ -138,10 +155,7 @@ class WorldProcess:
         if self._clockwork is not None:
             self._say_error("already_started", "The world is running already.")
             return
-        import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
-        from rclpy.context import Context  # noqa: PLC0415
-
-        from executor.ros.node import WorldNode  # noqa: PLC0415
+        from executor.ros.node import WorldNode  # noqa: PLC0415 - ROS reads the environment when loaded
         from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.clockwork import Clockwork  # noqa: PLC0415
         from executor.world.launch import make_world  # noqa: PLC0415
@@ -159,9 +173,7 @@ class WorldProcess:
         sensors = Sensors(world, lambda: renderer)
         self._close.append(sensors.close)
         self._progress(0.6, "Joining the ROS graph")
-        context = Context()
-        rclpy.init(context=context, domain_id=int(message.get("domain_id") or 0))
-        self._close.append(context.try_shutdown)
+        context = self._join(int(message.get("domain_id") or 0))
         renamed = {place.id: place.topics for place in world.universe.robots}
         node = WorldNode(world, context, topics=renamed)
         self._close.append(node.close)
@@ -192,6 +204,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m executor.world.process", description=__doc__)
     parser.add_argument("--channel-fd", type=int, required=True)
     options = parser.parse_args(arguments)
+    die_with_parent()
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(name)s: %(message)s")
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)

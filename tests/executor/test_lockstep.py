@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -53,9 +54,7 @@ def count_turns(headings: list[float]) -> int:
     """Counts stretches in which the heading goes on changing."""
     import math
 
-    moving = [
-        abs(math.remainder(b - a, 2 * math.pi)) > 0.02 for a, b in zip(headings, headings[1:], strict=False)
-    ]
+    moving = [abs(math.remainder(b - a, 2 * math.pi)) > 0.02 for a, b in pairwise(headings)]
     return sum(now and not before for before, now in zip([False, *moving], moving, strict=False))
 
 

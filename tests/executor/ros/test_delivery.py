@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -49,7 +50,7 @@ def test_no_picture_is_lost_between_processes() -> None:
         channel.close()
     stamps = said["stamps"]
     assert len(stamps) == PICTURES
-    assert [round((b - a) * 15) for a, b in zip(stamps, stamps[1:], strict=False)] == [1] * (PICTURES - 1)
+    assert [round((b - a) * 15) for a, b in pairwise(stamps)] == [1] * (PICTURES - 1)
     assert said["scans"] > 0
     assert said["matched_s"] is not None
     assert world.returncode == 0

@@ -17,7 +17,7 @@ def test_every_builtin_loads_and_its_robots_stand_free(universe_id: str) -> None
 def test_an_unknown_builtin_suggests_the_near_one() -> None:
     with pytest.raises(UniverseError, match="did you mean 'walled_room'"):
         load_builtin("walled_rom")
-    with pytest.raises(UniverseError, match="there are: .*empty"):
+    with pytest.raises(UniverseError, match=r"there are: .*empty"):
         load_builtin("xyz")
 
 

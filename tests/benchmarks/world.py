@@ -1,0 +1,159 @@
+"""The simulated world: pictures against TinyRenderer, physics, lock-step, start, discovery, delivery."""
+
+from __future__ import annotations
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from executor.render import Viewpoint
+from executor.render.gl import GlRenderer
+from executor.render.tiny import TinyRenderer
+from executor.ros.environment import ros_environment
+from executor.universes import load_builtin
+from executor.world.bullet import BulletWorld
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+ROOT = Path(__file__).parents[2]
+DOMAIN_ID = 34
+SIZES = ((320, 240), (640, 480), (1280, 720))
+PICTURES = 45
+
+
+def main() -> None:
+    """Prints every figure."""
+    pictures()
+    physics()
+    lockstep("laser_bump_and_go", 60)
+    lockstep("visual_follow_person", 20)
+    processes()
+
+
+def median_ms(act: Callable[[], object], count: int) -> float:
+    """Returns the median time of an act."""
+    times = []
+    for _ in range(count):
+        began_s = time.perf_counter()
+        act()
+        times.append((time.perf_counter() - began_s) * 1000)
+    return statistics.median(times)
+
+
+def pictures() -> None:
+    """Draws the robot's camera with both renderers, turn by turn, the world moving in between."""
+    world = BulletWorld(load_builtin("person_in_green"))
+    camera = world.robots[0].config.cameras[0]
+    gl, tiny = GlRenderer(), TinyRenderer()
+    for renderer in (gl, tiny):
+        renderer.load(world.scene)
+    print(f"pictures of person_in_green with shadows, by {gl.name}:")
+    for width, height in SIZES:
+        times: dict[str, list[float]] = {"plain": [], "antialiased": [], "TinyRenderer": []}
+        for turn in range(20):
+            world.step(16)
+            poses, pose = world.poses(), world.robots[0].camera_pose(camera)
+            view = Viewpoint.of_pose(pose, camera.fov, camera.near, camera.far)
+            for name, renderer, smooth in (
+                ("plain", gl, False),
+                ("antialiased", gl, True),
+                ("TinyRenderer", tiny, False),
+            ):
+                if name == "TinyRenderer" and turn % 4:
+                    continue
+                began_s = time.perf_counter()
+                renderer.draw(poses, view, width, height, smooth=smooth)
+                times[name].append((time.perf_counter() - began_s) * 1000)
+        middle = {name: statistics.median(values) for name, values in times.items()}
+        print(
+            f"  {width:4}×{height:3}: {middle['plain']:6.1f} ms, "
+            f"antialiased {middle['antialiased']:6.1f} ms, TinyRenderer {middle['TinyRenderer']:7.1f} ms: "
+            f"{middle['TinyRenderer'] / middle['plain']:.0f} times"
+        )
+    gl.close()
+    tiny.close()
+    world.close()
+
+
+def physics() -> None:
+    """Times steps, scans and poses."""
+    for universe in ("walled_room", "person_in_green"):
+        world = BulletWorld(load_builtin(universe))
+        robot = world.robots[0]
+        robot.command(0.2, 0.5)
+        step = median_ms(lambda world=world: world.step(4), 500) / 4
+        scan = median_ms(lambda robot=robot: robot.scan(robot.config.lidars[0]), 100)
+        load = (step * 240 + scan * 10) / 10
+        costs = f"{step * 1000:.0f} µs a step, {scan:.2f} ms a scan"
+        print(f"{universe}: {costs}, {load:.1f} % of a core in real time")
+        world.close()
+
+
+def lockstep(example: str, duration_s: float) -> None:
+    """Runs an example in lock-step in a fresh process."""
+    command = [sys.executable, str(ROOT / "tests/executor/lockstep_run.py"), str(ROOT / "examples" / example)]
+    done = subprocess.run(
+        [*command, str(duration_s), "1"],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    report = json.loads(done.stdout)["report"]
+    print(
+        f"lock-step {example}: {report['real_time_factor']:.1f} times real time, "
+        f"{report['distance_m']:.1f} m, {report['collisions']} collisions"
+    )
+
+
+def processes() -> None:
+    """Starts a world and a plain rclpy program, and counts what arrives."""
+    from executor.channel import Channel, socket_pair
+
+    environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
+    ours, theirs = socket_pair()
+    command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
+    with subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment) as world:
+        theirs.close()
+        channel = Channel(ours.detach())
+        ready_s = _start(channel)
+        listener = str(ROOT / "tests/executor/ros/camera_listener.py")
+        heard = subprocess.Popen(
+            [sys.executable, listener, str(PICTURES)], env=environment, stdout=subprocess.PIPE, text=True
+        )
+        if heard.stdout is None:
+            raise RuntimeError("the listener has no output")
+        heard.stdout.readline()
+        channel.send({"type": "resume"})
+        said = json.loads(heard.communicate(timeout=120)[0])
+        channel.send({"type": "stop"})
+        world.wait(30)
+        channel.close()
+    stamps = said["stamps"]
+    lost = round((stamps[-1] - stamps[0]) * 15) + 1 - len(stamps)
+    print(f"world process: ready {ready_s:.2f} s after it was started cold")
+    print(f"discovery: {said['matched_s']:.2f} s from the later node's creation to the match")
+    print(f"pictures of 640×480 at 15 Hz between processes: {len(stamps)} arrived, {lost} lost")
+
+
+def _start(channel: object) -> float:
+    began_s = time.perf_counter()
+    channel.send(
+        {"type": "start", "universe": "walled_room", "seed": 1, "speed": 1.0, "domain_id": DOMAIN_ID}
+    )  # type: ignore[attr-defined]
+    while True:
+        message = channel.receive(120)  # type: ignore[attr-defined]
+        if message is None or message["type"] == "error":
+            raise RuntimeError(f"the world did not start: {message}")
+        if message["type"] == "ready":
+            return time.perf_counter() - began_s
+
+
+if __name__ == "__main__":
+    main()

@@ -124,7 +124,8 @@ class Row:
     def __str__(self) -> str:
         return (
             f"{self.what:9} {self.nodes:6} {self.ours:10.2f} {self.observed:10.2f} {self.stock:11.1f} "
-            f"{self.tree:11.1f} {self.cpp:10.2f} | {self.stock / self.ours:7.1f}x {self.tree / self.ours:7.1f}x "
+            f"{self.tree:11.1f} {self.cpp:10.2f} | "
+            f"{self.stock / self.ours:7.1f}x {self.tree / self.ours:7.1f}x "
             f"{self.cpp / self.ours:6.2f}x  {100 * (self.observed / self.ours - 1):+6.0f} %"
         )
 
@@ -213,7 +214,7 @@ def main() -> None:
         print(f"{size:6} nodes: ours {ours:8.2f}, BT.CPP {other:8.2f}, py_trees {by_hand:8.2f}")
     whole, behaviours, plain = memory()
     print(
-        f"\nbytes a node at 10,000 nodes: ours {whole:.0f}, of these {behaviours:.0f} the py_trees behaviours "
+        f"\nbytes a node at 10,000 nodes: ours {whole:.0f}, of these {behaviours:.0f} the behaviours "
         f"of the actions; stock py_trees {plain:.0f}"
     )
 

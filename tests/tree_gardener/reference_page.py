@@ -28,9 +28,9 @@ INTRODUCTION = """# Nodes
 
 <!-- Written by tests/tree_gardener/reference_page.py; do not edit. -->
 
-The nodes that `tree_gardener` brings. Names, ports and rules are those of BehaviorTree.CPP 4; where 4.9 or later
-is needed, it says so. Every node also takes the pre-conditions `_failureIf`, `_successIf`, `_skipIf`, `_while` and
-the post-conditions `_onSuccess`, `_onFailure`, `_post`, `_onHalted`.
+The nodes that `tree_gardener` brings. Names, ports and rules are those of BehaviorTree.CPP 4; where 4.9 or
+later is needed, it says so. Every node also takes the pre-conditions `_failureIf`, `_successIf`, `_skipIf`,
+`_while` and the post-conditions `_onSuccess`, `_onFailure`, `_post`, `_onHalted`.
 """
 
 

@@ -26,7 +26,8 @@ CRASH = f"""{HEAD}class Crash(py_trees.behaviour.Behaviour):
 
 
 def test_a_self_contained_document_needs_nothing_else() -> None:
-    text = f'<root>{subtree("M", "<Go/>")}<Code><Action name="Go" sha256=""><![CDATA[{GO}]]></Action></Code></root>'
+    code = f'<Code><Action name="Go" sha256=""><![CDATA[{GO}]]></Action></Code>'
+    text = f"<root>{subtree('M', '<Go/>')}{code}</root>"
     assert Tree.from_xml(text).tick_once() is Status.SUCCESS
 
 

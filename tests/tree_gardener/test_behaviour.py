@@ -131,7 +131,7 @@ def test_setup_gets_the_node_and_its_errors_are_located() -> None:
         def update(self) -> PyTreesStatus:
             return S
 
-    with pytest.raises(TickError, match="node 'b' .*no camera"):
+    with pytest.raises(TickError, match=r"node 'b' .*no camera"):
         load('<B name="b"/>', nodes={"B": NoSetup}).setup()
 
 

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-import random
 
 import pytest
 
 from tests.budget import count
-from tests.tree_gardener.fuzz.compare import difference, reference_traces, report
+from tests.tree_gardener.fuzz.compare import difference, reference_traces, report, shrink
 from tests.tree_gardener.fuzz.generate import generate
+from tree_gardener import Status
+from tree_gardener.decorators.repeat import Repeat
 
 BATCH = 100
 FIRST_SEED = int(os.environ.get("BT_STUDIO_FUZZ_SEED", "1"))
@@ -32,7 +33,22 @@ def test_random_trees_run_as_in_behaviortree_cpp(capsys: pytest.CaptureFixture[s
     assert refused <= 0.05 * total
 
 
+def test_a_broken_rule_is_found_and_shrunk(monkeypatch: pytest.MonkeyPatch) -> None:
+    def forgets_to_yield(self: Repeat) -> Status:
+        status = Repeat.TRUE_EXECUTE(self)  # type: ignore[attr-defined]
+        self.count = 0
+        return status
+
+    cases = [generate(seed) for seed in range(1, 61)]
+    references = reference_traces(cases)
+    monkeypatch.setattr(Repeat, "TRUE_EXECUTE", Repeat.execute, raising=False)
+    monkeypatch.setattr(Repeat, "execute", forgets_to_yield)
+    broken = [case for case, reference in zip(cases, references, strict=True) if difference(case, reference)]
+    assert broken
+    assert shrink(broken[0]).size <= 4
+
+
 def test_the_generator_makes_the_same_case_of_the_same_seed() -> None:
-    seed = random.Random(3).randrange(10**6)
+    seed = 271_828
     assert generate(seed) == generate(seed)
     assert generate(seed).xml() != generate(seed + 1).xml()

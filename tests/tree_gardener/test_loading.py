@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import py_trees
 import pytest
@@ -16,8 +16,8 @@ from tree_gardener.status import SUCCESS
 
 
 class Drive(py_trees.behaviour.Behaviour):
-    INPUT_PORTS = {"speed": Port(float, default=0.5), "goal": Port(str, required=True)}
-    OUTPUT_PORTS = {"seen": Port(int)}
+    INPUT_PORTS: ClassVar = {"speed": Port(float, default=0.5), "goal": Port(str, required=True)}
+    OUTPUT_PORTS: ClassVar = {"seen": Port(int)}
 
     def update(self) -> PyTreesStatus:
         return PyTreesStatus.SUCCESS
@@ -68,7 +68,7 @@ def test_subtrees_are_checked_where_they_are_called() -> None:
 
 
 def test_mutual_recursion_is_named() -> None:
-    with pytest.raises(LoadError, match="Main → A → B → A|A → B → A"):
+    with pytest.raises(LoadError, match="A → B → A"):
         load('<SubTree ID="A"/>', subtree("A", '<SubTree ID="B"/>'), subtree("B", '<SubTree ID="A"/>'))
 
 
@@ -142,7 +142,7 @@ class Twice(Decorator):
     """Ticks its child twice."""
 
     __slots__ = ()
-    INPUT_PORTS = {"times": Port(int, default=2)}
+    INPUT_PORTS: ClassVar = {"times": Port(int, default=2)}
 
     def execute(self) -> Status:
         self.start()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from typing import Any
+from typing import Any, ClassVar
 
 import py_trees
 import pytest
@@ -24,7 +24,7 @@ class Image:
 
 
 class Probe(py_trees.behaviour.Behaviour):
-    INPUT_PORTS = {
+    INPUT_PORTS: ClassVar = {
         "number": Port(int),
         "real": Port(float, default=1.5),
         "flag": Port(bool, default=False),
@@ -34,8 +34,8 @@ class Probe(py_trees.behaviour.Behaviour):
         "linked": Port(str, default="{=}"),
         "anything": Port(),
     }
-    OUTPUT_PORTS = {"result": Port(int), "picture": Port(Image)}
-    INOUT_PORTS = {"count": Port(int, default="{count}")}
+    OUTPUT_PORTS: ClassVar = {"result": Port(int), "picture": Port(Image)}
+    INOUT_PORTS: ClassVar = {"count": Port(int, default="{count}")}
 
     def update(self) -> PyTreesStatus:
         return PyTreesStatus.SUCCESS
@@ -102,7 +102,7 @@ def test_entries_convert_when_nothing_is_lost() -> None:
     assert get_input(probe('number="{n}"', n=2.0), "number") == 2
     assert get_input(probe('real="{n}"', n=2), "real") == 2.0
     assert get_input(probe('linked="{n}"', n=2.5), "linked") == "2.500000"
-    with pytest.raises(PortError, match="of type int: 2.5 is not an integer"):
+    with pytest.raises(PortError, match=r"of type int: 2\.5 is not an integer"):
         probe('number="{n}"', n=2.5)
     untyped = probe('anything="{n}"', n=2.5)
     untyped.tree_gardener_node.board["n"] = "text"
@@ -123,7 +123,7 @@ def test_objects_pass_by_reference() -> None:
     [
         (lambda b: get_input(b, "number"), "was given no value"),
         (lambda b: get_input(b, "nothing"), "is not a port of Probe"),
-        (lambda b: get_input(b, "result"), "has no default|is an output"),
+        (lambda b: get_input(b, "result"), "has no default"),
         (lambda b: set_output(b, "number", 1), "is an input"),
         (lambda b: set_output(b, "result", 1), "leads to no entry"),
         (lambda b: set_output(b, "nothing", 1), "is not a port of Probe"),
@@ -143,25 +143,6 @@ def test_ports_need_a_tree() -> None:
 def test_a_declared_entry_without_value_cannot_be_read() -> None:
     with pytest.raises(PortError, match="has no value yet"):
         get_input(probe('number="{n}"'), "number")
-
-
-class WithMixin(py_trees.ports.PortsMixin, py_trees.behaviour.Behaviour):
-    INPUT_PORTS = {"x": py_trees.ports.PortInformation(data_type=float, default_value=2.0)}
-    OUTPUT_PORTS = {"y": py_trees.ports.PortInformation(data_type=float)}
-
-    def update(self) -> PyTreesStatus:
-        self._set_output("y", self.get_input("x") * 2)
-        return PyTreesStatus.SUCCESS
-
-
-def test_classes_on_py_trees_ports_are_rebound() -> None:
-    tree = load('<Double y="{y}"/>', nodes={"Double": WithMixin})
-    assert tree.tick_once() is Status.SUCCESS
-    assert tree.blackboard["y"] == 4.0
-    behaviour = tree.nodes[0].behaviour
-    assert behaviour.get_input("none", default=7) == 7
-    with pytest.raises(PortError):
-        behaviour.get_input("none")
 
 
 class Legacy(py_trees.behaviour.Behaviour):

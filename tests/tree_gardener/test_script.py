@@ -81,9 +81,9 @@ def test_values_keep_the_kind_of_their_entry() -> None:
     assert run("typed := '7'", board) == 7
     assert run("flag := 0", board) is False
     assert run("flag := 3", board) == 3
+    board.unset("typed")
+    board.create("typed", INT)
     with pytest.raises(ScriptError, match="of type int"):
-        board.unset("typed")
-        board.create("typed", INT)
         run("typed := 'x'", board)
 
 
@@ -138,7 +138,8 @@ def test_any_text_parses_or_is_refused_inside_of_it(text: str) -> None:
     try:
         program = parse(text)
     except ScriptError as error:
-        assert 0 <= error.span[0] <= error.span[1] <= len(text)
+        start, end = error.span
+        assert 0 <= start <= end <= len(text)
     else:
         for statement in program.statements:
             assert 0 <= statement.span[0] < statement.span[1] <= len(text)

@@ -149,7 +149,7 @@ def test_an_include_that_fails_is_located(tmp_path: Path, include: str, message:
     with pytest.raises(LoadError, match=message) as refused:
         Tree.from_file(path, LEAVES)
     assert refused.value.diagnostics[0].line in (2, 1)
-    with pytest.raises(LoadError, match="base_path|not installed"):
+    with pytest.raises(LoadError, match=r"base_path|not installed"):
         Tree.from_xml(path.read_text(), LEAVES)
 
 
@@ -189,7 +189,8 @@ def test_an_error_deep_down_is_a_tick_error_as_any() -> None:
 def test_py_trees_tools_work_on_the_tree() -> None:
     tree = load(
         "<Sequence><Fallback><Failing/><Succeeding name='ok'/></Fallback>"
-        "<ParallelAll><Inverter><Failing/></Inverter></ParallelAll><Running name='drive'/><Script code='x:=1'/></Sequence>"
+        "<ParallelAll><Inverter><Failing/></Inverter></ParallelAll><Running name='drive'/>"
+        "<Script code='x:=1'/></Sequence>"
     )
     text = py_trees.display.ascii_tree(tree.root, show_status=True)
     assert "drive [-]" in text
@@ -224,7 +225,8 @@ def test_substitution_rules_replace_nodes() -> None:
 
 
 def test_a_test_node_takes_its_time_and_its_status_from_a_script() -> None:
-    rules = '{"TestNodeConfigs": {"t": {"return_status_script": "x", "async_delay": 100}}, "SubstitutionRules": {"a": "t"}}'
+    config = '{"t": {"return_status_script": "x", "async_delay": 100}}'
+    rules = f'{{"TestNodeConfigs": {config}, "SubstitutionRules": {{"a": "t"}}}}'
     clock = ManualClock()
     tree = load('<Succeeding name="a"/>', substitutions=rules, clock=clock)
     tree.blackboard["x"] = "SKIPPED"

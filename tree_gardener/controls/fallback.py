@@ -36,7 +36,7 @@ class Fallback(Control):
             status = tick()
             if status is not FAILURE:
                 return self.go_on(index, status)
-            index += 1
+            index += 1  # noqa: SIM113 - quicker than enumerate()
         return self.finish_all(FAILURE)
 
     def go_on(self, index: int, status: Status) -> Status:

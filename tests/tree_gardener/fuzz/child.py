@@ -13,7 +13,7 @@ import sys
 
 from tests.tree_gardener.fuzz.trace import run_reference
 
-ENDLESS_S = 5
+ENDLESS_S = 2
 
 
 def main() -> None:

@@ -1,8 +1,8 @@
 """Random trees that both engines can run.
 
 behaviortreepy's Python leaves have no ports, so that a leaf's script is a part of its name: ``L3.RRS``. Left
-out is what the two versions of BT.CPP do differently (`docs/explanation/engine.md`), and what crashes or never
-ends.
+out is what the two versions of BT.CPP do differently (`docs/explanation/engine.md`), and what crashes or
+never ends.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def generate(seed: int) -> Case:
 class _Generator:
     def __init__(self, seed: int) -> None:
         self.seed = seed
-        self.random = random.Random(seed)
+        self.random = random.Random(seed)  # noqa: S311 - a reproducible case, no secret
         self.count = 0
         self.trees: list[tuple[str, Spec]] = []
         self.mode = self.random.choice(("once", "exactly_once"))
@@ -211,7 +211,7 @@ class _Generator:
             ports += tuple((key, "{=}") for key in ("u0", "u1", "w"))
         return Spec("SubTree", (("ID", tree_id), *self.named(), *ports))
 
-    def leaf(self, *, sync: bool) -> Spec:
+    def leaf(self, *, sync: bool) -> Spec:  # noqa: PLR0911 - one for each kind
         rng = self.random
         kinds = (
             ["SyncLeaf", "Cond", "AlwaysSuccess", "AlwaysFailure"]

@@ -1,0 +1,78 @@
+"""Runs the engine's tests on other Pythons and with the oldest py_trees that we support.
+
+    python -m tests.tree_gardener.matrix
+
+Uses the interpreters 3.10 to 3.13 that pyenv or the PATH offer, each in a fresh environment outside of the
+clone.
+Left out are the tests that need what those environments lack: the command line, ROS, behaviortreepy.
+"""
+
+# ruff: noqa: T201 - it is a program
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+VERSIONS = ("3.10", "3.11", "3.12", "3.13")
+PY_TREES = ("py_trees==2.3.*", "py_trees")
+TESTS = (
+    *("test_actions", "test_behaviour", "test_blackboard", "test_conformance", "test_loading"),
+    *("test_observe", "test_ports", "test_runner", "test_script", "test_tree"),
+)
+
+
+def interpreter(version: str) -> str | None:
+    """The path of a Python, or None."""
+    found = shutil.which(f"python{version}")
+    pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
+    return next((str(path) for path in sorted(pyenv.glob(f"{version}.*/bin/python"))), found)
+
+
+def run(python: str, py_trees: str, folder: Path) -> bool:
+    """Runs the tests in a new environment."""
+    subprocess.run([python, "-m", "venv", folder], check=True)
+    own = folder / "bin" / "python"
+    packages = [py_trees, "lxml", "pytest", "pytest-timeout", "hypothesis"]
+    subprocess.run([own, "-m", "pip", "install", "-q", "--disable-pip-version-check", *packages], check=True)
+    settings = folder / "pytest.ini"
+    settings.write_text("[pytest]\nfilterwarnings = error\n")
+    tests = TESTS if "2.3" in py_trees else (*TESTS, "test_rebind")
+    files = [str(ROOT / "tests" / "tree_gardener" / f"{name}.py") for name in tests]
+    options = [
+        "-q",
+        "-c",
+        str(settings),
+        f"--rootdir={ROOT}",
+        "--import-mode=importlib",
+        "-p",
+        "no:cacheprovider",
+    ]
+    done = subprocess.run([own, "-m", "pytest", *options, *files], cwd=ROOT, check=False)
+    return done.returncode == 0
+
+
+def main() -> int:
+    """Runs all combinations; gives the exit status."""
+    failed = []
+    for version in VERSIONS:
+        python = interpreter(version)
+        if python is None:
+            print(f"Python {version} is not here")
+            continue
+        for py_trees in PY_TREES:
+            print(f"== Python {version}, {py_trees}", flush=True)
+            with tempfile.TemporaryDirectory() as folder:
+                if not run(python, py_trees, Path(folder) / "venv"):
+                    failed.append(f"Python {version}, {py_trees}")
+    print("failed: " + "; ".join(failed) if failed else "all passed")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

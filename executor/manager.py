@@ -43,6 +43,7 @@ from executor.processes import Limits, Program
 from executor.protocol import About, Session
 from executor.ros.environment import ros_environment
 from executor.server import SessionServer
+from executor.shared_memory import remove_abandoned_segments
 from executor.supervisor import Supervisor
 
 __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
@@ -176,6 +177,7 @@ class Manager:
         if self._tasks:
             await asyncio.wait(self._tasks)
         self._folders.remove()
+        await asyncio.to_thread(remove_abandoned_segments)
 
     def take(self, event: Event) -> None:
         """Lets the state machine handle an event. Those that effects cause wait for their turn."""

@@ -64,13 +64,13 @@ def page() -> str:
 
 def _ladder() -> Iterator[str]:
     yield "## Commands and states\n"
-    yield "V marks commands that viewers may send too. A dot says that the command leaves the state as it is.\n"
+    yield "V marks commands that viewers may send too; a dot leaves the state as it is.\n"
     states = " | ".join(f"`{state}`" for state in State)
     yield f"| command | {states} | V | does |"
     yield "| --- |" + " --- |" * (len(State) + 2)
     for name, row in TABLE.items():
-        cells = [f"`{row.target}`" if row.target else "·" for _ in State]
-        legal = [cell if state in row.sources else "" for state, cell in zip(State, cells, strict=True)]
+        target = f"`{row.target}`" if row.target else "·"
+        legal = [target if state in row.sources else "" for state in State]
         viewers = "V" if row.for_viewers else ""
         yield f"| `{name}` | {' | '.join(legal)} | {viewers} | {row.does} |"
     yield ""

@@ -13,6 +13,7 @@ import psutil
 from executor.confine import adopt_orphans
 from executor.events import ChildExited, ChildSaid, Effect, Event, Interrupt, Kill, Kind, Retire, Spawn, Tell
 from executor.processes import ChildProcess, Program
+from executor.shared_memory import remove_abandoned_segments
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Mapping
@@ -118,6 +119,7 @@ class Supervisor:
             self._apply_to(child, effect)
         await child.wait()
         del self._children[key]
+        await asyncio.to_thread(remove_abandoned_segments)
         _log.info("%s %d %s", spawn.kind, child.pid, child.reason)
         self._report(ChildExited(spawn.kind, spawn.number, child.reason, child.last_lines))
 

@@ -1,0 +1,79 @@
+"""`bt-studio run` and `bt-studio manager` as they are typed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+EXAMPLE = ROOT / "examples" / "laser_bump_and_go"
+MAIN = "from backend.cli.main import main; main()"
+
+
+def studio(*arguments):
+    return subprocess.run(
+        [sys.executable, "-c", MAIN, *map(str, arguments)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=100,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        check=False,
+    )
+
+
+@pytest.mark.simulation
+@pytest.mark.parametrize("how", [["--lockstep"], []])
+def test_a_run_writes_its_report(tmp_path, how):
+    report = tmp_path / "r.json"
+    done = studio("run", EXAMPLE, *how, "--duration", "3", "--seed", "1", "--report", report)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "The way is free" in done.stdout
+    written = json.loads(report.read_text())
+    assert written["root_status"] == "RUNNING"
+    assert written["distance_m"] > 0.3
+    assert written["collisions"] == 0
+    assert written["errors"] == []
+    assert written["trajectory"][-1][0] > 2.5
+    assert written["nodes"][0]["path"] == "bump and go"
+
+
+@pytest.mark.simulation
+@pytest.mark.parametrize("how", [["--lockstep"], []])
+def test_an_action_that_raises_is_told_with_its_line(tmp_path, how):
+    project = tmp_path / "project"
+    for file in EXAMPLE.rglob("*.*"):
+        if file.is_file() and "__pycache__" not in file.parts:
+            target = project / file.relative_to(EXAMPLE)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(file.read_bytes())
+    forward = project / "actions" / "Forward.py"
+    forward.write_text(forward.read_text().replace("twist = Twist()\n", "twist = Twost()\n"))
+    done = studio("run", project, *how, "--duration", "5")
+    assert done.returncode == 1
+    assert "actions/Forward.py:19:1" in done.stderr
+    assert "Twost" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_bad_arguments_are_told_in_one_line():
+    done = studio("run", "does/not/exist")
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_a_port_in_use_is_told_in_one_line():
+    import socket
+
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        done = studio("manager", "--port", taken.getsockname()[1])
+    assert done.returncode == 1
+    assert "cannot listen" in done.stderr
+    assert "Traceback" not in done.stderr

@@ -1,0 +1,28 @@
+"""Writes the JSON Schemas of our YAML formats: `python -m executor.universes.reference`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Final
+
+from executor.universes.model import Universe
+
+FOLDER: Final = Path(__file__).parents[2] / "docs" / "reference" / "schemas"
+
+
+def schemas() -> dict[str, str]:
+    """Returns the text of each schema by file name."""
+    document = {"$schema": "https://json-schema.org/draft/2020-12/schema", **Universe.model_json_schema()}
+    return {"universe.schema.json": json.dumps(document, indent=2, ensure_ascii=False) + "\n"}
+
+
+def main() -> None:
+    """Writes every schema."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    for name, text in schemas().items():
+        (FOLDER / name).write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

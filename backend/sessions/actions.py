@@ -33,6 +33,7 @@ log = logging.getLogger(__name__)
 
 # Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
 ROS_DOMAINS: Final = range(1, 102)
+DOMAIN_ATTEMPTS: Final = 3
 _launches: Final[dict[UUID, Future[None]]] = {}
 _launches_lock: Final = Lock()
 
@@ -65,21 +66,24 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     running = queries.live_session(project_id, user=acting_user)
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
-    try:
-        with transaction.atomic():
-            session = Session.objects.create(
-                project=project,
-                user=acting_user,
-                launcher=launcher().name,
-                ros_domain_id=_free_domain(),
-                created_at=timezone.now(),
-            )
-    except IntegrityError:
-        # Another request was faster; its session is the one.
-        running = queries.live_session(project_id, user=acting_user)
-        if running is None:
-            raise
-        return running
+    for attempt in range(DOMAIN_ATTEMPTS):
+        try:
+            with transaction.atomic():
+                session = Session.objects.create(
+                    project=project,
+                    user=acting_user,
+                    launcher=launcher().name,
+                    ros_domain_id=_free_domain(),
+                    created_at=timezone.now(),
+                )
+            break
+        except IntegrityError:
+            # Another request was faster: its session is the one, or only its domain is taken.
+            running = queries.live_session(project_id, user=acting_user)
+            if running is not None:
+                return running
+            if attempt == DOMAIN_ATTEMPTS - 1:
+                raise
     with _launches_lock:
         _launches[session.id] = _workers().submit(_launch, session)
     return session

@@ -39,7 +39,7 @@ async def echo(socket: ServerConnection) -> None:
 
 
 async def flood(socket: ServerConnection) -> None:
-    with Path(os.environ["FAKE_MANAGER_COUNTER"]).open("ab", buffering=0) as counter:
+    with Path(os.environ["FAKE_MANAGER_COUNTER"]).open("ab", buffering=0) as counter:  # noqa: ASYNC230
         while True:
             await socket.send(bytes(100_000))
             counter.write(b".")
@@ -56,7 +56,8 @@ async def listen(handler, ready_fd: int) -> None:
 def main() -> None:
     kind, arguments = sys.argv[1], sys.argv[2:]
     ready_fd = int(arguments[arguments.index("--ready-fd") + 1])
-    print("the fake manager starts", flush=True)
+    sys.stdout.write("the fake manager starts\n")
+    sys.stdout.flush()
     if kind == "failing":
         sys.exit(3)
     if kind == "never":

@@ -72,7 +72,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           type="button"
           className={classes['zoom']}
           onClick={() => void flow.zoomTo(1, { duration: 150 })}
-          aria-label={t('toolbar.zoomReset')}
+          aria-label={`${zoom}% · ${t('toolbar.zoomReset')}`}
         >
           {zoom}%
         </button>

@@ -17,6 +17,7 @@ import { Announcer } from './Announcer';
 import { Block } from './block/Block';
 import { Breadcrumbs } from './Breadcrumbs';
 import { CanvasToolbar } from './CanvasToolbar';
+import { clipboardHandlers } from './clipboardHandlers';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
@@ -133,6 +134,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         useProjectStore.getState().setActiveTree(treeId);
         if (!(event.target as HTMLElement).closest('input, button, [role="dialog"], [role="menu"]')) focus();
       }}
+      {...clipboardHandlers}
       onDragOver={palette.onDragOver}
       onDragLeave={palette.onDragLeave}
       onDrop={palette.onDrop}

@@ -8,11 +8,17 @@ import { useProjectStore } from './index';
 /** What was copied last, for browsers that refuse to give the clipboard back. */
 let remembered = '';
 
-export async function copySelection(): Promise<boolean> {
+/** The selected blocks as XML, or null when there are none. */
+export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
-  if (!diagram || selection.length === 0) return false;
+  if (!diagram || selection.length === 0) return null;
   remembered = fragmentToXml(fragmentOf(diagram, selection));
+  return remembered;
+}
+
+export async function copySelection(): Promise<boolean> {
+  if (copiedText() === null) return false;
   try {
     await navigator.clipboard.writeText(remembered);
   } catch {
@@ -33,9 +39,14 @@ async function clipboardText(): Promise<string> {
   }
 }
 
-/** Pastes into the selected block where it takes children, else after it, else as a draft. */
+/** Pastes what the clipboard holds: from a menu, where no paste event brings it. */
 export async function paste(): Promise<boolean> {
-  const fragment = xmlToFragment(await clipboardText());
+  return pasteText(await clipboardText());
+}
+
+/** Pastes into the selected block where it takes children, else after it, else as a draft. */
+export function pasteText(text: string): boolean {
+  const fragment = xmlToFragment(text);
   const diagram = activeDiagram();
   if (!fragment || !diagram) return false;
   const { vocabulary, selection } = useProjectStore.getState();

@@ -1,0 +1,79 @@
+import { describe, expect, it } from 'vitest';
+import { allChoices, matchScore, searchChoices, suits } from './choices';
+import { emptyDiagram } from './diagram';
+import { findNodes } from './find';
+import { outlineRows } from './outline';
+import { parseDiagram } from './serialize';
+import { vocabulary } from './testing';
+
+const diagram = parseDiagram({
+  format: 'bt-studio/diagram',
+  version: 1,
+  id: 'MainTree',
+  root: 'r',
+  nodes: {
+    r: { type: 'Sequence', name: 'patrol', children: ['a', 'b'] },
+    a: { type: 'Turn', ports: { ang_speed: '{speed}' }, comment: 'slowly' },
+    b: { type: 'Inverter', children: ['c'], collapsed: true },
+    c: { type: 'Turn' },
+    d: { type: 'Free' },
+  },
+});
+const labels = (search: string) =>
+  searchChoices(allChoices(diagram, vocabulary), search).map((each) => each.label);
+
+describe('choices', () => {
+  it('put the own actions first, and what is named so before what is described so', () => {
+    expect(labels('').slice(0, 2)).toEqual(['Turn', 'Free']);
+    expect(labels('seq').slice(0, 1)).toEqual(['Sequence']);
+    expect(labels('rus')[0]).toBe('RetryUntilSuccessful');
+    expect(labels('qqq')).toEqual([]);
+  });
+  it('leave out trees that would contain themselves', () => {
+    expect(labels('MainTree')).not.toContain('MainTree');
+  });
+  it('are those that can hold what is wrapped, or the children there are', () => {
+    const fit = (purpose: Parameters<typeof suits>[2]) =>
+      allChoices(diagram, vocabulary)
+        .filter((choice) => suits(choice, diagram, purpose))
+        .map((choice) => choice.label);
+    expect(fit({ for: 'wrap', count: 1 })).toContain('Inverter');
+    expect(fit({ for: 'wrap', count: 2 })).not.toContain('Inverter');
+    expect(fit({ for: 'morph', node: 'r' })).not.toContain('Turn');
+    expect(fit({ for: 'add' })).toContain('Turn');
+  });
+  it('score exact names highest', () => {
+    expect(matchScore('Turn', 'turn')).toBeGreaterThan(matchScore('TurnAround', 'turn'));
+    expect(matchScore('Turn', 'x')).toBe(0);
+  });
+});
+
+describe('findNodes', () => {
+  it.each([
+    ['patrol', ['r']],
+    ['turn', ['a', 'c']],
+    ['{speed', ['a']],
+    ['slow', ['a']],
+    [' ', []],
+  ])('finds %j', (text, expected) => {
+    expect(findNodes(diagram, text)).toEqual(expected);
+  });
+});
+
+describe('outlineRows', () => {
+  it('follow execution order, hide what is folded, and end with drafts', () => {
+    const rows = outlineRows(diagram).map(({ id, depth, isFolded, isDraft }) => [
+      id,
+      depth,
+      isFolded,
+      isDraft,
+    ]);
+    expect(rows).toEqual([
+      ['r', 0, false, false],
+      ['a', 1, false, false],
+      ['b', 1, true, false],
+      ['d', 0, false, true],
+    ]);
+    expect(outlineRows(emptyDiagram('T'))).toEqual([]);
+  });
+});

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import random
 import signal
@@ -42,7 +43,8 @@ class Storm:
         supervised = fakes()
         if children and supervised:
             victim = self.chance.choice(supervised)
-            os.kill(victim.pid, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(victim.pid, signal.SIGKILL)
 
     async def stall(self):
         supervised = fakes()
@@ -50,7 +52,8 @@ class Storm:
             victim = self.chance.choice(supervised)
             os.kill(victim.pid, signal.SIGSTOP)
             await asyncio.sleep(self.chance.random() * 0.2)
-            os.kill(victim.pid, signal.SIGCONT)
+            with contextlib.suppress(ProcessLookupError):  # it was ended meanwhile, as stopped as it was
+                os.kill(victim.pid, signal.SIGCONT)
 
     async def reconnect(self):
         await self.client.close()

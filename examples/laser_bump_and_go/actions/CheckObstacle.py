@@ -36,10 +36,11 @@ class CheckObstacle(py_trees.behaviour.Behaviour):
     def nearest_ahead(self):
         scan = self.scan
         half_width = math.radians(get_input(self, "amplitude"))
-        nearest = math.inf
-        for i, distance in enumerate(scan.ranges):
-            angle = scan.angle_min + i * scan.angle_increment
-            ahead = abs(math.atan2(math.sin(angle), math.cos(angle))) <= half_width
-            if ahead and scan.range_min <= distance <= scan.range_max:
-                nearest = min(nearest, distance)
-        return nearest
+        first, step = scan.angle_min, scan.angle_increment
+        ahead = (
+            distance
+            for i, distance in enumerate(scan.ranges)
+            if abs(math.remainder(first + i * step, math.tau)) <= half_width
+        )
+        seen = (distance for distance in ahead if scan.range_min <= distance <= scan.range_max)
+        return min(seen, default=math.inf)

@@ -14,8 +14,12 @@ class Move(py_trees.behaviour.Behaviour):
 
     INPUT_PORTS = {
         "person_pos": Port(float, required=True, description="Column of the person's centre, in pixels."),
-        "person_height": Port(float, default="{person_height}", description="Height as a fraction of the picture's."),
-        "image_x_center": Port(float, default=320.0, description="Column of the picture's centre, in pixels."),
+        "person_height": Port(
+            float, default="{person_height}", description="Height as a fraction of the picture's."
+        ),
+        "image_x_center": Port(
+            float, default=320.0, description="Column of the picture's centre, in pixels."
+        ),
     }
 
     def setup(self, **kwargs):

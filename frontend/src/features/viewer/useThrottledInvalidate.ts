@@ -4,6 +4,7 @@ import { isSoftwareWebGl } from './webgl';
 
 /** At most so often, and never more than a third of the time, where the processor draws. */
 const SHORTEST_PAUSE_MS = 80;
+const LONGEST_PAUSE_MS = 1000;
 const PAUSE_FOR_COST = 2;
 const POLL_MS = 10;
 
@@ -52,7 +53,7 @@ export function useThrottledInvalidate(): () => void {
               isBusy.current = false;
               if (isWanted.current) draw();
             },
-            Math.max(SHORTEST_PAUSE_MS, cost * PAUSE_FOR_COST),
+            Math.min(LONGEST_PAUSE_MS, Math.max(SHORTEST_PAUSE_MS, cost * PAUSE_FOR_COST)),
           );
         });
       });

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import sys
 import tempfile
 import traceback
 from pathlib import Path
@@ -93,4 +92,4 @@ def _write_report() -> Path:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,0 +1,32 @@
+"""`make generate`: writes every generated source and reference page again.
+
+A test beside each part compares what is committed with what its generator says.
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Final
+
+ROOT: Final = Path(__file__).resolve().parent.parent.parent
+GENERATORS: Final = (
+    [sys.executable, "-m", "tests.tree_gardener.reference_page"],
+    [sys.executable, "-m", "translator.reference"],
+    [sys.executable, "-m", "executor.protocol_page"],
+    [sys.executable, "-m", "executor.universes.reference"],
+    [sys.executable, "-m", "executor.typescript"],
+    [sys.executable, "-m", "backend.config.reference"],
+    ["npm", "run", "--silent", "--prefix", "frontend", "generate"],
+)
+
+
+def main() -> None:
+    """Runs the generators, each from the root of the repository."""
+    for command in GENERATORS:
+        subprocess.run(command, cwd=ROOT, check=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -78,7 +78,8 @@ def main() -> None:
             observer.close()
             client.call("DELETE", f"/sessions/{session}")
         print(
-            f"Run to first changed pose, warm: median {statistics.median(times):.2f} s, worst {max(times):.2f} s"
+            f"Run to first changed pose, warm: median {statistics.median(times):.2f} s,"
+            f" worst {max(times):.2f} s"
         )
 
         _, observer, session = run_to_motion_s(client, "visual_follow_person")

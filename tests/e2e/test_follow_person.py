@@ -27,7 +27,7 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
     detect = uid_of(observer, "DetectPerson")
     wait_until(lambda: seen_spans(observer, detect), "the person is found")
     first_seen = seen_spans(observer, detect)[0][0]
-    expect(studio.at("viewer-camera")).to_be_visible()
+    expect(studio.at("camera-inset").locator("canvas")).to_be_visible()
     studio.picture("following")
     expect(studio.at("console")).to_contain_text("Person in sight")
 

@@ -8,8 +8,10 @@ import { perform } from '@/actions/registry';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
+import { CameraInset } from './CameraInset';
 import { Stage } from './Stage';
 import { useStream } from './useStream';
+import { useUsesCamera } from './useUsesCamera';
 import { useVisible } from './useVisible';
 import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
@@ -36,6 +38,8 @@ export function Viewer3d() {
   const scene = useScene();
   const isDark = useComputedColorScheme('light', { getInitialValueInEffect: false }) === 'dark';
   const [options, setOptions] = useState<ViewOptions>(loadViewOptions);
+  const usesCamera = useUsesCamera();
+  const camera = options.camera ?? usesCamera;
   const isSimple = isSoftwareWebGl();
   useStream('poses', isVisible && hasWebGl(), { max_hz: POSES_HZ });
   useStream('scan', isVisible && hasWebGl() && options.rays, { max_hz: SCAN_HZ });
@@ -68,7 +72,8 @@ export function Viewer3d() {
           >
             <Stage scene={scene} options={options} isDark={isDark} />
           </Canvas>
-          <ViewerToolbar options={options} onChange={change} />
+          <ViewerToolbar options={{ ...options, camera }} onChange={change} />
+          {camera ? <CameraInset isVisible={isVisible} /> : null}
         </>
       ) : null}
     </div>

@@ -1,5 +1,6 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
 import {
+  IconCamera,
   IconCurrentLocation,
   IconFocusCentered,
   IconGrid4x4,
@@ -12,7 +13,7 @@ import type { ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
 
 interface ViewerToolbarProps {
-  readonly options: ViewOptions;
+  readonly options: ViewOptions & { readonly camera: boolean };
   readonly onChange: (part: Partial<ViewOptions>) => void;
 }
 
@@ -21,6 +22,7 @@ const TOGGLES = [
   { key: 'trail', icon: IconRoute },
   { key: 'grid', icon: IconGrid4x4 },
   { key: 'follow', icon: IconCurrentLocation },
+  { key: 'camera', icon: IconCamera },
 ] as const;
 
 const VIEWPOINTS = [

@@ -3,14 +3,16 @@ export interface ViewOptions {
   trail: boolean;
   grid: boolean;
   follow: boolean;
+  /** Whether the robot's camera is shown in a corner; null leaves it to whether the program uses pictures. */
+  camera: boolean | null;
   /** A new object moves the camera, also to where it already was asked to go. */
   viewpoint: { kind: 'default' | 'top' };
 }
 
-type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'follow'>;
+type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'follow' | 'camera'>;
 
 const KEY = 'bts.viewer';
-const DEFAULTS: Kept = { rays: true, trail: true, grid: true, follow: false };
+const DEFAULTS: Kept = { rays: true, trail: true, grid: true, follow: false, camera: null };
 
 export function loadViewOptions(): ViewOptions {
   let kept: Partial<Kept> = {};
@@ -22,6 +24,6 @@ export function loadViewOptions(): ViewOptions {
   return { ...DEFAULTS, ...kept, viewpoint: { kind: 'default' } };
 }
 
-export function keepViewOptions({ rays, trail, grid, follow }: ViewOptions): void {
-  localStorage.setItem(KEY, JSON.stringify({ rays, trail, grid, follow }));
+export function keepViewOptions({ rays, trail, grid, follow, camera }: ViewOptions): void {
+  localStorage.setItem(KEY, JSON.stringify({ rays, trail, grid, follow, camera }));
 }

@@ -20,8 +20,6 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from tests.e2e.server import wait_until
-
 _ids = itertools.count(1)
 
 
@@ -63,7 +61,6 @@ class Observer:
         for thread in observer.threads:
             thread.start()
         observer.send("subscribe", {"stream": "poses", "max_hz": 30})
-        wait_until(lambda: observer.objects, "the scene is sent")
         return observer
 
     def send(self, command: str, data: dict[str, Any] | None = None) -> str:
@@ -88,7 +85,9 @@ class Observer:
 
     def track(self, body: str) -> list[tuple[float, float, float]]:
         """Where a body was: (t in s, x and y in m) by time."""
-        return [(t, float(p[0]), float(p[1])) for t, p in list(self.poses.get(self.objects[body], []))]
+        return [
+            (t, float(p[0]), float(p[1])) for t, p in list(self.poses.get(self.objects.get(body, -1), []))
+        ]
 
     def distance_travelled(self, body: str) -> float:
         """Length in m of the way that a body went."""

@@ -99,6 +99,7 @@ def test_a_port_and_a_line_of_python_change_what_the_robot_does(studio: Studio) 
     studio.replace_code(source.replace('get_input(self, "lin_speed")', '-0.5 * get_input(self, "lin_speed")'))
     studio.run()
     observer = studio.observe()
+    wait_until(lambda: observer.track("robot"), "the scene is sent")
     start = observer.track("robot")[0]
     wait_until(lambda: observer.track("robot")[-1][1] < start[1] - 0.1, "the robot drives backwards")
     observer.close()

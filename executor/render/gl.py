@@ -9,7 +9,7 @@ import numpy as np
 
 from executor.render import geometry, shaders
 from executor.render.instances import GAMMA, Group, Instances
-from executor.render.interface import RenderError, Viewpoint
+from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,16 +19,17 @@ if TYPE_CHECKING:
 SAMPLES: Final = 4
 SHADOW_SIZE: Final = 1024
 SHADOW_REACH_M: Final = 14.0
-INSTANCE_BYTES: Final = 80
+INSTANCE_BYTES: Final = 96
 SKY_PIECES: Final = 12
 
 
 @dataclass(frozen=True)
 class _Batch:
-    """One draw call for the picture and one for the shadow."""
+    """One draw call for each of picture, shadow and measurement."""
 
     shown: Any
     shadow: Any
+    measured: Any
     rows: Any
     group: Group
 
@@ -46,6 +47,9 @@ class GlRenderer:
         self._samples = min(samples, int(self._context.max_samples))
         self._programs = self._compile()
         self._ground = self._vertex_array("ground", geometry.square())
+        self._measured_ground = self._vertex_array("measure_ground", geometry.square())
+        self._programs["measure_ground"]["ground"].value = GROUND
+        self._measure_targets: dict[tuple[int, int], Any] = {}
         self._sky = self._vertex_array("sky", geometry.grid(SKY_PIECES))
         self._shadow_map, self._shadow_target = self._make_shadow()
         self._targets: dict[tuple[int, int, bool], tuple[Any, Any]] = {}
@@ -85,6 +89,18 @@ class GlRenderer:
         resolved.read_into(picture, components=3, alignment=1)
         return picture
 
+    def depth(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.float32]:
+        """Returns how far ahead everything is, in m along the optical axis; +inf for nothing."""
+        return np.ascontiguousarray(self._measure(poses, view, width, height)[:, :, 0])
+
+    def segmentation(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.int32]:
+        """Returns for each pixel the row of the object in the scene, `GROUND` or `NOTHING`."""
+        return self._measure(poses, view, width, height)[:, :, 1].astype(np.int32)
+
     def close(self) -> None:
         """Frees the context and all that was made in it."""
         if self._context is not None:
@@ -98,6 +114,8 @@ class GlRenderer:
             "shadow": (shaders.SHADOW_VERTEX, shaders.SHADOW_FRAGMENT),
             "object": (shaders.OBJECT_VERTEX, shaders.OBJECT_FRAGMENT),
             "ground": (shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT),
+            "measure": (shaders.MEASURE_VERTEX, shaders.MEASURE_FRAGMENT),
+            "measure_ground": (shaders.MEASURE_GROUND_VERTEX, shaders.MEASURE_FRAGMENT),
             "sky": (shaders.SKY_VERTEX, shaders.SKY_FRAGMENT),
         }
         return {
@@ -110,11 +128,16 @@ class GlRenderer:
         return self._context.vertex_array(self._programs[program], [(buffer, "3f 3x4", "in_position")])
 
     def _batch(self, vertices: Any, indices: Any, rows: Any, group: Group) -> _Batch:
-        shown = [(vertices, "3f 3f", "in_position", "in_normal"), (rows, "16f 4f/i", "in_model", "in_color")]
-        shadow = [(vertices, "3f 3x4", "in_position"), (rows, "16f 4x4/i", "in_model")]
+        shown = [
+            (vertices, "3f 3f", "in_position", "in_normal"),
+            (rows, "16f 4f 4x4/i", "in_model", "in_color"),
+        ]
+        measured = [(vertices, "3f 3x4", "in_position"), (rows, "16f 4x4 1f 3x4/i", "in_model", "in_row")]
+        shadow = [(vertices, "3f 3x4", "in_position"), (rows, "16f 8x4/i", "in_model")]
         return _Batch(
             self._context.vertex_array(self._programs["object"], shown, indices),
             self._context.vertex_array(self._programs["shadow"], shadow, indices),
+            self._context.vertex_array(self._programs["measure"], measured, indices),
             rows,
             group,
         )
@@ -169,6 +192,31 @@ class GlRenderer:
         for batch in self._batches:
             batch.shadow.render(instances=batch.group.count)
 
+    def _measure(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.float32]:
+        self._place(poses)
+        target = self._measure_targets.get((width, height))
+        if target is None:
+            values = self._context.renderbuffer((width, height), 2, dtype="f4")
+            depth = self._context.depth_renderbuffer((width, height))
+            target = self._measure_targets[width, height] = self._context.framebuffer([values], depth)
+        target.use()
+        target.clear(np.inf, NOTHING, depth=1.0)
+        projection = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
+        for name in ("measure", "measure_ground"):
+            self._programs[name]["view_projection"].write(_bytes(projection @ view.view_matrix()))
+        self._programs["measure_ground"]["eye"].value = view.eye
+        self._context.enable_only(self._context.DEPTH_TEST | self._context.CULL_FACE)
+        self._context.front_face = "cw"
+        for batch in self._batches:
+            batch.measured.render(instances=batch.group.count)
+        self._context.enable_only(self._context.DEPTH_TEST)
+        self._measured_ground.render()
+        measured = np.empty((height, width, 2), np.float32)
+        target.read_into(measured, components=2, dtype="f4")
+        return measured
+
     def _paint(self, matrix: NDArray[np.float64], view: Viewpoint) -> None:
         programs, context = self._programs, self._context
         self._shadow_map.use(0)
@@ -191,6 +239,7 @@ class GlRenderer:
         for batch in self._batches:
             batch.shown.release()
             batch.shadow.release()
+            batch.measured.release()
         for buffer in self._buffers:
             buffer.release()
         self._batches, self._buffers, self._drawn_poses = [], [], None

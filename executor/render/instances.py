@@ -27,7 +27,10 @@ class Group:
 
 
 class Instances:
-    """All shapes of a scene, one row each: a 4×4 matrix (column after column) and a linear colour."""
+    """All shapes of a scene, one row each.
+
+    A row is a 4×4 matrix (column after column), a linear colour, the object's row, and three unused values.
+    """
 
     def __init__(self, scene: Scene) -> None:
         by_mesh: dict[tuple[object, ...], list[tuple[int, Shape]]] = {}
@@ -41,7 +44,8 @@ class Instances:
             members += group
         self._object_rows = np.array([row for row, _ in members], np.intp)
         self._local = np.array([_local_matrix(shape) for _, shape in members], np.float32).reshape(-1, 4, 4)
-        self._rows = np.zeros((len(members), 20), np.float32)
+        self._rows = np.zeros((len(members), 24), np.float32)
+        self._rows[:, 20] = self._object_rows
         for i, (_, shape) in enumerate(members):
             self._rows[i, 16:19] = np.array(shape.color[:3]) ** GAMMA
             self._rows[i, 19] = shape.color[3]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 import numpy as np
 
@@ -14,6 +14,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.messages import Scene
+
+
+NOTHING: Final = -1
+"""Of a segmentation: no object, and no ground."""
+GROUND: Final = -2
+"""Of a segmentation: the ground."""
 
 
 class RenderError(Exception):
@@ -100,6 +106,20 @@ class Renderer(Protocol):
             height: of the picture in pixels.
             smooth: with antialiasing, where the renderer has it; it costs as much again.
         """
+
+    def depth(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.float32]:
+        """Returns how far ahead everything is, in m along the optical axis (not the ray), the top row first.
+
+        Where there is nothing nearer than `view.far` it is +inf, as in REP-117. What is nearer than
+        `view.near` is cut away.
+        """
+
+    def segmentation(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.int32]:
+        """Returns each pixel's object (its row in the scene), `GROUND` or `NOTHING`, the top row first."""
 
     def close(self) -> None:
         """Frees what was taken. May be called twice."""

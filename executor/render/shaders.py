@@ -130,3 +130,37 @@ in vec3 color;
 out vec4 picture;
 void main() { picture = vec4(color, 1.0); }
 """
+
+# What a depth camera and a labelled picture see: metres ahead, and the row of the object.
+MEASURE_VERTEX: Final = """
+#version 330
+uniform mat4 view_projection;
+in vec3 in_position;
+in mat4 in_model;
+in float in_row;
+flat out float row;
+void main() {
+    row = in_row;
+    gl_Position = view_projection * (in_model * vec4(in_position, 1.0));
+}
+"""
+
+MEASURE_GROUND_VERTEX: Final = """
+#version 330
+uniform mat4 view_projection;
+uniform vec3 eye;
+uniform float ground;
+in vec3 in_position;
+flat out float row;
+void main() {
+    row = ground;
+    gl_Position = view_projection * vec4(eye.xy + in_position.xy * 240.0, 0.0, 1.0);
+}
+"""
+
+MEASURE_FRAGMENT: Final = """
+#version 330
+flat in float row;
+out vec2 measured;
+void main() { measured = vec2(1.0 / gl_FragCoord.w, row); }
+"""

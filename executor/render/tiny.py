@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from executor.render import geometry
+from executor.render.interface import GROUND, NOTHING
 from executor.world.engine import Bullet
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ class TinyRenderer:
     def __init__(self) -> None:
         self._bullet = Bullet()
         self._bodies: list[list[int]] = []
+        self._ground = 0
         self._sun = [-0.3, -0.4, 0.8]
 
     def load(self, scene: Scene) -> None:
@@ -37,7 +39,7 @@ class TinyRenderer:
         ground = self._bullet.createVisualShape(
             self._bullet.GEOM_BOX, halfExtents=half, rgbaColor=scene.ground_color
         )
-        self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
+        self._ground = self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
         self._sun = [-value for value in scene.lights[0].direction]
 
     def draw(
@@ -47,6 +49,30 @@ class TinyRenderer:
         del smooth  # it has no antialiasing
         picture = self._shoot(poses, view, width, height)[2]
         return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
+
+    def depth(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.float32]:
+        """Returns how far ahead everything is, in m along the optical axis; +inf for nothing."""
+        shot = self._shoot(poses, view, width, height)
+        buffer = np.reshape(shot[3], (height, width)).astype(np.float64)
+        near, far = view.near, view.far
+        metres: NDArray[np.float32] = (far * near / (far - (far - near) * buffer)).astype(np.float32)
+        metres[np.reshape(shot[4], (height, width)) < 0] = np.inf
+        return metres
+
+    def segmentation(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.int32]:
+        """Returns for each pixel the row of the object in the scene, `GROUND` or `NOTHING`."""
+        seen = np.reshape(self._shoot(poses, view, width, height)[4], (height, width))
+        # One more than the last body, so that the -1 of the sky finds the last entry.
+        rows = np.full(self._ground + 2, NOTHING, np.int32)
+        for row, uids in enumerate(self._bodies):
+            rows[uids] = row
+        rows[self._ground] = GROUND
+        found: NDArray[np.int32] = rows[seen]
+        return found
 
     def close(self) -> None:
         """Ends the physics server. May be called twice."""

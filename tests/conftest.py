@@ -12,5 +12,5 @@ BROWSER_TESTS = Path(__file__).parent / "e2e"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Run the browser's tests last: Playwright's event loop keeps the main thread, and no other may start there."""
+    """Run the browser's tests last: Playwright's event loop keeps the main thread to itself."""
     items.sort(key=lambda item: BROWSER_TESTS in item.path.parents)

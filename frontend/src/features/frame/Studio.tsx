@@ -15,7 +15,7 @@ import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
-import { registerFrameActions } from './actions';
+import { leaveInspector, registerFrameActions } from './actions';
 import { CommandPalette } from './CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
@@ -74,7 +74,9 @@ function Workbench({ projectId }: StudioProps) {
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
     });
+    window.addEventListener('keydown', leaveInspector);
     return () => {
+      window.removeEventListener('keydown', leaveInspector);
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });
     };

@@ -1,8 +1,10 @@
 import { spotlight } from '@mantine/spotlight';
 import {
+  IconAdjustments,
   IconCommand,
   IconDeviceFloppy,
   IconDownload,
+  IconGitFork,
   IconHome,
   IconLayout,
   IconPlus,
@@ -16,7 +18,8 @@ import { navigate } from '@/store/route';
 import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/features/code/newFile';
 import { resetLayout } from './Dock';
-import { showPanel } from './tabs';
+import { focusInspector } from './focus';
+import { openTab, showPanel } from './tabs';
 
 function download(): void {
   const { projectId } = useProjectStore.getState();
@@ -24,6 +27,26 @@ function download(): void {
   void saveNow()
     .catch(() => undefined)
     .then(() => window.location.assign(api.exportUrl(projectId)));
+}
+
+/** The tree that was edited last, with the keyboard in it. */
+function goToTree(): void {
+  const { activeTree, mainTree } = useProjectStore.getState();
+  openTab({ kind: 'tree', id: activeTree ?? mainTree });
+}
+
+/** The properties of the selected block, with the keyboard in the first of them. */
+function goToInspector(): void {
+  showPanel('inspector');
+  setTimeout(focusInspector);
+}
+
+/** Escape in a field of the inspector leads back to the block that it is about. */
+export function leaveInspector(event: KeyboardEvent): void {
+  const { target } = event;
+  if (event.key !== 'Escape' || event.defaultPrevented || !(target instanceof HTMLElement)) return;
+  if (!target.closest('[data-testid="inspector"]') || target.getAttribute('aria-expanded') === 'true') return;
+  goToTree();
 }
 
 const rows: UserAction[] = [
@@ -73,6 +96,25 @@ const rows: UserAction[] = [
     labelKey: 'frame:action.home',
     icon: IconHome,
     run: () => navigate('/'),
+  },
+  {
+    id: 'go.tree',
+    group: 'go',
+    labelKey: 'frame:action.goToTree',
+    icon: IconGitFork,
+    shortcut: 'Alt+KeyT',
+    inTextFields: true,
+    run: goToTree,
+  },
+  {
+    id: 'go.inspector',
+    group: 'go',
+    labelKey: 'frame:action.goToInspector',
+    icon: IconAdjustments,
+    shortcut: 'F4',
+    inTextFields: true,
+    enabled: () => useProjectStore.getState().selection.length > 0,
+    run: goToInspector,
   },
   {
     id: 'view.console',

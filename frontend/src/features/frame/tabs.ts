@@ -1,6 +1,7 @@
 import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Model } from 'flexlayout-react';
 import { create } from 'zustand';
 import { useProjectStore } from '@/store/project';
+import { focusDocument } from './focus';
 import { EDITORS, type FrameWidth, type PanelId } from './layoutModel';
 
 /** A document that is open in a tab. */
@@ -49,6 +50,7 @@ export function openTab(tab: DocumentTab, line?: number): void {
     requests += 1;
     useTabs.setState({ target: { path: tab.path, line, request: requests } });
   }
+  focusDocument(tab);
 }
 
 export function closeTab(tab: DocumentTab): void {

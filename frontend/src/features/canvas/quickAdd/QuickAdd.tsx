@@ -2,7 +2,7 @@ import { IconPlus } from '@tabler/icons-react';
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { allChoices, searchChoices, suits, type Purpose } from '@/model/choices';
-import { createAction } from '@/store/project/actionTemplate';
+import { createAction, type ActionKind } from '@/store/project/actionTemplate';
 import { achieve } from '@/store/project/commands';
 import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
@@ -18,6 +18,11 @@ function purposeOf({ goal }: QuickAddState): Purpose {
     case 'morph':
       return { for: 'morph', node: goal.node };
   }
+}
+
+/** A name that asks something is a condition more likely than not: that choice comes first. */
+function kindsFor(name: string): readonly ActionKind[] {
+  return /^(is|has|can|check)([A-Z_]|$)/i.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
 }
 
 interface QuickAddProps {
@@ -53,7 +58,8 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   }, [diagram, vocabulary, request, search]);
   const canCreate =
     request.goal.does === 'add' && /^[A-Za-z_]\w*$/.test(search) && !vocabulary.specs.has(search);
-  const count = found.length + (canCreate ? 1 : 0);
+  const made = canCreate ? kindsFor(search) : [];
+  const count = found.length + made.length;
   const active = Math.min(index, count - 1);
 
   useEffect(() => {
@@ -67,10 +73,12 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const choose = (at: number): void => {
     const choice = found[at];
     if (choice) achieve(request.goal, choice.kind);
-    else if (canCreate) {
-      createAction(search);
+    else {
+      const kind = made[at - found.length];
+      if (kind === undefined) return;
+      createAction(search, kind);
       achieve(request.goal, { type: search });
-    } else return;
+    }
     close();
   };
 
@@ -136,30 +144,32 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
             }}
           />
         ))}
-        {canCreate && (
+        {made.map((kind, at) => (
           <div
-            id={`quick-add-${found.length}`}
+            key={kind}
+            id={`quick-add-${found.length + at}`}
             role="option"
             tabIndex={-1}
-            aria-selected={active === found.length}
+            aria-selected={active === found.length + at}
             className={classes['row']}
           >
             <button
               type="button"
               tabIndex={-1}
               className={classes['choice']}
+              data-testid={`quick-add-new-${kind}`}
               onPointerDown={(event) => {
                 event.preventDefault();
-                choose(found.length);
+                choose(found.length + at);
               }}
             >
               <span className={classes['create']}>
                 <IconPlus size={16} aria-hidden="true" />
               </span>
-              <span className={classes['label']}>{t('quickAdd.create', { name: search })}</span>
+              <span className={classes['label']}>{t(`quickAdd.create${kind}`, { name: search })}</span>
             </button>
           </div>
-        )}
+        ))}
         {count === 0 && <div className={classes['nothing']}>{t('quickAdd.nothing')}</div>}
       </div>
       <div className={classes['keys']} aria-hidden="true">

@@ -1,0 +1,52 @@
+import type { DocumentTab } from './tabs';
+
+/** A document may still be loading its editor: so long it is waited for. */
+const PATIENCE_MS = 4000;
+/** A closing menu or palette gives the focus back to where it was: so long it may. */
+const SETTLED_MS = 250;
+const RETRY_MS = 20;
+
+let request = 0;
+
+function focusableOf(tab: DocumentTab): HTMLElement | null {
+  if (tab.kind === 'tree') {
+    return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
+  }
+  return document.querySelector(`[data-testid="code-editor"][data-path="${CSS.escape(tab.path)}"] .cm-content`);
+}
+
+/** Puts the keyboard where a document that was just opened is edited, once it is there. */
+export function focusDocument(tab: DocumentTab): void {
+  request += 1;
+  const mine = request;
+  const started = performance.now();
+  let firstSeen: number | null = null;
+
+  const attempt = () => {
+    const now = performance.now();
+    if (mine !== request || now - started > PATIENCE_MS) return;
+    const target = focusableOf(tab);
+    if (target?.checkVisibility() && !document.querySelector('[role="dialog"][aria-modal="true"]')) {
+      firstSeen ??= now;
+      if (!target.contains(document.activeElement)) target.focus({ preventScroll: true });
+    }
+    if (firstSeen === null || now - firstSeen < SETTLED_MS) setTimeout(attempt, RETRY_MS);
+  };
+  // Whoever points elsewhere has chosen where to be.
+  const giveUp = () => {
+    if (mine === request) request += 1;
+  };
+  window.addEventListener('pointerdown', giveUp, { once: true, capture: true });
+  setTimeout(attempt);
+}
+
+/** The first field of the selected block's properties, or the panel itself. */
+export function focusInspector(): void {
+  const panel = document.querySelector<HTMLElement>('[data-testid="inspector"]');
+  const field =
+    panel?.querySelector<HTMLElement>('[data-testid^="port-"]') ??
+    panel?.querySelector<HTMLElement>('input, textarea, select, button');
+  const input = field?.matches('input, textarea, button') ? field : field?.querySelector<HTMLElement>('input');
+  input?.focus();
+  if (input instanceof HTMLInputElement) input.select();
+}

@@ -114,6 +114,11 @@ def robot_ids() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in _FOLDER.glob("*/robot.yaml")))
 
 
+def preview_path(robot_id: str) -> Path:
+    """Returns where the picture of a robot that we ship is; `executor.previews` draws it."""
+    return _FOLDER / robot_id / "preview.webp"
+
+
 def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
     """Returns a robot by id: one of the project's own (`robots/<id>/` in `assets`) or one that we ship.
 

@@ -38,6 +38,11 @@ def builtin_path(universe_id: str) -> Path:
     return _FOLDER / f"{universe_id}.yaml"
 
 
+def preview_path(universe_id: str) -> Path:
+    """Returns where the picture of a universe that we ship is; `executor.previews` draws it."""
+    return _FOLDER / "previews" / f"{universe_id}.webp"
+
+
 def load_builtin(universe_id: str) -> Universe:
     """Returns a universe that we ship."""
     path = builtin_path(universe_id)

@@ -13,6 +13,7 @@ Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{
 Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
 Positive = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e4)]
 Pose = tuple[Finite, Finite, Finite, Finite, Finite, Finite]
+Point = tuple[Finite, Finite, Finite]
 
 SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "box": ("x", "y", "z"),
@@ -38,7 +39,10 @@ class Ground(_Strict):
 
 
 class Model(_Strict):
-    """A body of one shape; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what."""
+    """A body of one shape; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
+
+    What is not `solid` is only seen: paint, a carpet, a line on the floor. Robots and rays go through it.
+    """
 
     id: Name
     shape: Shape
@@ -47,6 +51,8 @@ class Model(_Strict):
     color: Color = "#9aa4b0"
     mass: float = Field(default=0.0, ge=0, le=1e5)
     friction: float = Field(default=0.6, ge=0, le=10)
+    restitution: float = Field(default=0.0, ge=0, le=1)
+    solid: bool = True
 
     @model_validator(mode="after")
     def _size_fits_shape(self) -> Model:
@@ -55,6 +61,8 @@ class Model(_Strict):
             raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
         if self.shape == "plane" and self.mass > 0:
             raise ValueError("a plane has no mass")
+        if not self.solid and self.mass > 0:
+            raise ValueError("what is not solid has no mass: it would fall through the floor")
         return self
 
 
@@ -95,6 +103,13 @@ class Light(_Strict):
         return value
 
 
+class View(_Strict):
+    """From where to look at the world first: eye and target in m."""
+
+    eye: Point = (-4.5, -5.0, 4.5)
+    target: Point = (0.0, 0.0, 0.2)
+
+
 class Universe(_Strict):
     """A world: ground, things, people, robots and light."""
 
@@ -107,6 +122,7 @@ class Universe(_Strict):
     actors: tuple[Actor, ...] = Field(default=(), max_length=100)
     robots: tuple[RobotPlace, ...] = Field(default=(RobotPlace(),), max_length=10)
     lights: tuple[Light, ...] = Field(default=(Light(),), min_length=1, max_length=4)
+    view: View = View()
     random: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
 
     @model_validator(mode="after")

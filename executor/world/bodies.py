@@ -40,11 +40,17 @@ def make_ground(bullet: Bullet, friction: float) -> int:
 def make_body(bullet: Bullet, model: Model) -> Body:
     """Makes the body of a primitive model."""
     pose = from_xyz_rpy(model.pose)
-    shape = _collision_shape(bullet, model)
-    uid: int = bullet.createMultiBody(model.mass, shape, basePosition=pose[:3], baseOrientation=pose[3:])
-    bullet.changeDynamics(
-        uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001
+    uid: int = bullet.createMultiBody(
+        model.mass,
+        _collision_shape(bullet, model) if model.solid else -1,
+        basePosition=pose[:3],
+        baseOrientation=pose[3:],
+        useMaximalCoordinates=model.mass == 0,  # a third of the cost of a step where much stands about
     )
+    bullet.changeDynamics(
+        uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001,
+        restitution=model.restitution,
+    )  # fmt: skip
     return Body(uid, is_dynamic=model.mass > 0)
 
 

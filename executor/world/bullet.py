@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from executor.universes.model import Universe
+    from executor.universes.model import Model, Universe
     from executor.world.collision import Collision
 
 STEP_HZ: Final = 240
@@ -46,6 +46,7 @@ class _Content:
 
     ground: int = -1
     bodies: dict[str, Body] = field(default_factory=dict)
+    objects: dict[str, int] = field(default_factory=dict)
     robots: list[BulletRobot] = field(default_factory=list)
     actors: list[BulletActor] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
@@ -176,6 +177,7 @@ class BulletWorld:
             if body not in self._content.bodies:
                 raise WorldError(f"there is no body {body!r} that can be moved")
             put_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
+            self._objects.place(self._content.objects[body], wanted)
         self._poses = None
 
     def take_collisions(self) -> list[tuple[str, Collision]]:
@@ -212,7 +214,7 @@ class BulletWorld:
         universe, content = self._universe, self._content
         content.ground = make_ground(self._bullet, universe.ground.friction)
         for model in universe.models:
-            self._add_model(model.id)
+            self._add_model(model)
         content.actors = [BulletActor(self._bullet, actor) for actor in universe.actors]
         content.robots = [
             BulletRobot(self._bullet, config, place, index=i, seed=self._seed)
@@ -229,15 +231,15 @@ class BulletWorld:
             fixedTimeStep=self.step_s, numSubSteps=0, numSolverIterations=30, deterministicOverlappingPairs=1
         )
 
-    def _add_model(self, model_id: str) -> None:
-        model = next(model for model in self._universe.models if model.id == model_id)
+    def _add_model(self, model: Model) -> None:
         body = make_body(self._bullet, model)
         self._content.bodies[model.id] = body
         self._content.names[body.uid] = model.id
         kind: Kind = "dynamic" if body.is_dynamic else "static"
         object_id = self._objects.add(model.id, "", kind, [scene_shape(model)], from_xyz_rpy(model.pose))
-        # Static bodies too: they can be dragged.
-        self._objects.add_mover(lambda: self._where(object_id, body.uid))
+        self._content.objects[model.id] = object_id
+        if body.is_dynamic:
+            self._objects.add_mover(lambda: self._where(object_id, body.uid))
 
     def _where(self, object_id: int, uid: int) -> Sequence[tuple[int, Pose]]:
         position, orientation = self._bullet.getBasePositionAndOrientation(uid)

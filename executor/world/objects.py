@@ -36,6 +36,13 @@ class SceneObjects:
         """Adds a function that says where some objects are now."""
         self._movers.append(where)
 
+    def place(self, object_id: int, pose: Pose) -> None:
+        """Takes note of where an object is put that nobody is asked about."""
+        self.objects[object_id].pose = list(pose)
+        if object_id < len(self._poses):
+            self._poses = self._poses.copy()  # who got the last array keeps it as it was
+            self._poses[object_id] = pose
+
     def update(self) -> NDArray[np.float32]:
         """Asks all that moves, and returns the poses of all objects in a new array."""
         if len(self._poses) != len(self.objects):

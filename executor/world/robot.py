@@ -101,6 +101,13 @@ class BulletRobot:
         pose = self.base_pose
         return pose[0], pose[1], yaw_of(pose[3:])
 
+    @property
+    def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Lowest and highest corner in m of the box round all that can collide."""
+        boxes = [self._bullet.getAABB(self.uid, link) for link in self._links.values()]
+        lows, highs = zip(*boxes, strict=True)
+        return tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
+
     def command(self, linear: float, angular: float) -> bool:
         """Sets the wanted twist; refuses one that is not finite."""
         return self._drive.command(linear, angular, self._clock_s)

@@ -4,10 +4,9 @@ A node's `execute` is its whole tick: it applies the node's rule, sets the node'
 result. Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a
 plain node costs one call, and only nodes with conditions or hooks take a longer way.
 
-While somebody observes the tree, `journal` is the recorder, and `last` what the node returned in this tick,
-as one of its `marks`, which are made once. A node tells of itself when it starts; of its results its parent
-tells, either when it resets its children (they flashed), or with `note_children` when it lets them keep their
-results. When nobody observes, `journal` is None, and to test that is all it costs.
+While somebody observes the tree, `journal` is the recorder. A node tells it when it starts (`touched`), and
+its results, each as one of its `marks`, which are made once (`results`); who resets a node tells of it where
+that is a change. When nobody observes, `journal` is None, and to test that is all it costs.
 """
 
 import enum
@@ -80,7 +79,6 @@ class Node:
             "inputs",
             "instance",
             "journal",
-            "last",
             "manifest",
             "marks",
         ),
@@ -108,7 +106,6 @@ class Node:
         self.guard: Guard | None = None
         self.journal: Recorder | None = None
         self.reported = IDLE
-        self.last: Mark | None = None
         self.marks: Marks
         self.view: Any = None
         self.board: Blackboard
@@ -191,26 +188,26 @@ class Node:
         if self.guard is not None:
             self.guard.halted(self)
         if self.journal is not None and self.reported is not IDLE:
-            self.journal.touch(self)
+            self.journal.touched.append(self)
 
     def complete(self, status: Status) -> Status:
         """Sets the node's own status to a result."""
         self.status = status
         if self.journal is not None:
-            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
+            self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
         return status
 
     def skipped(self) -> Status:
         """Returns SKIPPED, which leaves the node's status as it is."""
         if self.journal is not None:
-            self.last = self.marks[2]
+            self.journal.results.append(self.marks[2])
         return SKIPPED
 
     def start(self) -> None:
         """Makes the node RUNNING."""
         self.status = RUNNING
         if self.journal is not None:
-            self.journal.touch(self)
+            self.journal.touched.append(self)
 
     def _execute_guarded(self) -> Status:
         """Ticks a node that has pre- or post-conditions."""
@@ -288,16 +285,11 @@ class Control(Node):
             child.stop()
         child.status = IDLE
 
-    def note_children(self) -> None:
-        """Tells the observer, if there is one, of children that have results and are not reset."""
-        if self.journal is not None:
-            self.journal.note(self.children)
-
     def finish(self, status: Status) -> Status:
         """Resets all children and takes a result for the node's own status."""
         if self.journal is not None:
             self.journal.reset(self.children)
-            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
+            self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
         else:
             for child in self.children:
                 if child.status is RUNNING:
@@ -309,9 +301,11 @@ class Control(Node):
     def finish_all(self, status: Status) -> Status:
         """As `finish`, when every child has just succeeded or failed, so that none can be RUNNING."""
         if self.journal is not None:
-            return self.finish(status)
-        for child in self.children:
-            child.status = IDLE
+            self.journal.reset_done(self.children)
+            self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
+        else:
+            for child in self.children:
+                child.status = IDLE
         self.status = status
         return status
 
@@ -319,13 +313,6 @@ class Control(Node):
         """Resets all children and returns SKIPPED; the node's own status stays RUNNING."""
         self.reset_children()
         return self.skipped()
-
-    def skipped(self) -> Status:
-        """Returns SKIPPED, which leaves the status as it is; tells of the children."""
-        if self.journal is not None:
-            self.journal.note(self.children)
-            self.last = self.marks[2]
-        return SKIPPED
 
     def halt(self) -> None:
         """Halts all children and makes itself IDLE."""
@@ -358,7 +345,7 @@ class Decorator(Control):
         """Resets the child and takes a result."""
         if self.journal is not None:
             self.journal.reset(self.children)
-            self.last = self.marks[0] if status is SUCCESS else self.marks[1]
+            self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
         else:
             child = self.child
             if child.status is RUNNING:

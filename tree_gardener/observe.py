@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
-from tree_gardener.node import Node
+from tree_gardener.node import Mark, Node
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
@@ -76,31 +76,28 @@ class Recorder:
     """Collects the changes of a tree while it is observed.
 
     Attributes:
-        touched: nodes whose status may differ from what was reported.
-        touch: adds one of them.
-        flashed: results that nodes do not have any more.
+        touched: nodes that started, or were reset from what was reported.
+        results: what nodes returned in this tick, RUNNING left out, in order.
     """
+
+    __slots__ = ("entries", "observers", "results", "touched", "tree")
 
     def __init__(self, tree: "Tree") -> None:
         self.tree = tree
         self.observers: list[Observer] = []
         self.touched: list[Node] = []
-        self.touch = self.touched.append
-        self.flashed: list[tuple[int, Status]] = []
+        self.results: list[Mark] = []
         self.entries: dict[int, tuple[Entry, int]] = {}
 
     def attach(self) -> None:
         """Begins to record. All that is not IDLE, and all entries, count as changed."""
-        self.touched.clear()
-        self.flashed = []
+        self.results = []
         for node in self.tree.nodes:
             uid = node.uid
             node.marks = ((uid, SUCCESS), (uid, FAILURE), (uid, SKIPPED))
             node.reported = IDLE
-            node.last = None
             node.journal = self
-            if node.status is not IDLE:
-                self.touch(node)
+        self.touched = [node for node in self.tree.nodes if node.status is not IDLE]
         for board in self.tree.boards:
             board.journal = self.written
             for entry in board.entries.values():
@@ -117,23 +114,19 @@ class Recorder:
 
     def reset(self, children: Iterable[Node]) -> None:
         """Halts the children that are RUNNING and makes all of them IDLE, as `Control.reset_children`."""
-        flashed = [child.last for child in children if child.last is not None]
-        if flashed:
-            self.flashed += flashed
-        touch = self.touch
         for child in children:
             if child.status is RUNNING:
                 child.stop()
             child.status = IDLE
-            child.last = None
             if child.reported is not IDLE:
-                touch(child)
+                self.touched.append(child)
 
-    def note(self, children: Iterable[Node]) -> None:
-        """Takes the children that have a new status or result."""
-        self.touched += [
-            child for child in children if child.status is not child.reported or child.last is not None
-        ]
+    def reset_done(self, children: Iterable[Node]) -> None:
+        """Makes all children IDLE, of which none is RUNNING."""
+        for child in children:
+            child.status = IDLE
+            if child.reported is not IDLE:
+                self.touched.append(child)
 
     def written(self, entry: Entry, writer: int) -> None:
         """An entry was written or removed."""
@@ -145,8 +138,8 @@ class Recorder:
         try:
             status = function()
         except BaseException:
-            # Parents did not come to tell of their children.
-            self.note(self.tree.nodes)
+            # Nodes on the way up did not come to tell of themselves.
+            self.touched += self.tree.nodes
             self.tell(time.perf_counter() - start_s)
             raise
         self.tell(time.perf_counter() - start_s)
@@ -160,20 +153,20 @@ class Recorder:
 
     def collect(self, duration_s: float) -> TickChanges:
         """Makes the changes of what was recorded."""
-        touched = self.touched
-        touched.append(self.tree.nodes[0])
+        nodes = self.tree.nodes
+        touched, results = self.touched, self.results
+        self.touched, self.results = [], []
+        touched.append(nodes[0])
+        # Uids count from 1 in the order of the nodes.
+        flashed = [mark for mark in results if nodes[mark[0] - 1].status is not mark[1]]
+        if len(flashed) != len(results):
+            touched += [nodes[mark[0] - 1] for mark in results]
         changed: list[tuple[int, Status]] = []
-        flashed, self.flashed = self.flashed, []
         for node in touched:
-            last, status = node.last, node.status
-            if last is not None:
-                if last[1] is not status:
-                    flashed.append(last)
-                node.last = None
+            status = node.status
             if status is not node.reported:
                 node.reported = status
                 changed.append((node.uid, status))
-        touched.clear()
         entries: list[BlackboardChange] = []
         if self.entries:
             entries = [change(entry, writer) for entry, writer in self.entries.values()]

@@ -30,7 +30,7 @@ class Fallback(Control):
             self.skips = 0
         self.status = RUNNING
         if self.journal is not None:
-            self.journal.touch(self)
+            self.journal.touched.append(self)
         index = 0
         for tick in ticks:
             status = tick()
@@ -45,7 +45,6 @@ class Fallback(Control):
         while True:
             if status is RUNNING:
                 self.index = index
-                self.note_children()
                 return RUNNING
             if status is SUCCESS:
                 self.index = 0
@@ -92,7 +91,6 @@ class AsyncFallback(Fallback):
             before = children[self.index].status
             status = ticks[self.index]()
             if status is RUNNING:
-                self.note_children()
                 return RUNNING
             if status is SUCCESS:
                 self.index = 0
@@ -101,7 +99,6 @@ class AsyncFallback(Fallback):
             if status is FAILURE:
                 if before is IDLE and self.index < count:
                     self.tree.wake_up = True
-                    self.note_children()
                     return RUNNING
             else:
                 self.skips += 1

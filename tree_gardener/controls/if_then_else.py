@@ -36,11 +36,9 @@ class IfThenElse(Control):
             elif count == 3:
                 self.chosen = 2
             else:
-                self.note_children()
                 return self.complete(FAILURE)
         status = self.ticks[self.chosen]()
         if status is RUNNING:
-            self.note_children()
             return RUNNING
         self.chosen = 0
         return self.finish_skipped() if status is SKIPPED else self.finish(status)

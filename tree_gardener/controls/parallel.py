@@ -79,7 +79,6 @@ class Parallel(_Parallel):
             undecided = True
         if skips == count:
             return self.skipped()
-        self.note_children()
         return RUNNING
 
 
@@ -116,7 +115,6 @@ class ParallelAll(_Parallel):
         if skips == count:
             return self.skipped()
         if skips + len(done) < count:
-            self.note_children()
             return RUNNING
         failed = self.failures >= fatal
         self.forget()

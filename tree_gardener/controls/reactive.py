@@ -35,7 +35,7 @@ class ReactiveSequence(_Reactive):
         if self.status is not RUNNING:
             self.status = RUNNING
             if self.journal is not None:
-                self.journal.touch(self)
+                self.journal.touched.append(self)
         all_skipped = True
         for index, tick in enumerate(self.ticks):
             status = tick()
@@ -64,7 +64,7 @@ class ReactiveFallback(_Reactive):
         if self.status is not RUNNING:
             self.status = RUNNING
             if self.journal is not None:
-                self.journal.touch(self)
+                self.journal.touched.append(self)
         all_skipped = True
         for index, tick in enumerate(self.ticks):
             status = tick()

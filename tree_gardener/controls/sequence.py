@@ -32,7 +32,7 @@ class Sequence(Control):
             self.skips = 0
         self.status = RUNNING
         if self.journal is not None:
-            self.journal.touch(self)
+            self.journal.touched.append(self)
         index = 0
         for tick in ticks:
             status = tick()
@@ -47,7 +47,6 @@ class Sequence(Control):
         while True:
             if status is RUNNING:
                 self.index = index
-                self.note_children()
                 return RUNNING
             if status is FAILURE:
                 self.index = 0
@@ -91,7 +90,6 @@ class YieldingSequence(Sequence):
             before = children[self.index].status
             status = ticks[self.index]()
             if status is RUNNING:
-                self.note_children()
                 return RUNNING
             if status is FAILURE:
                 return self.fail()
@@ -99,7 +97,6 @@ class YieldingSequence(Sequence):
             if status is SUCCESS:
                 if before is IDLE and self.index < count:
                     self.tree.wake_up = True
-                    self.note_children()
                     return RUNNING
             else:
                 self.skips += 1
@@ -136,7 +133,6 @@ class SequenceWithMemory(YieldingSequence):
     def fail(self) -> Status:
         for index in range(self.index, len(self.children)):
             self.reset_child(index)
-        self.note_children()
         return self.complete(FAILURE)
 
     def halt(self) -> None:

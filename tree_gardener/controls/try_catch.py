@@ -35,7 +35,6 @@ class TryCatch(Control):
         while self.index < last:
             status = self.ticks[self.index]()
             if status is RUNNING:
-                self.note_children()
                 return RUNNING
             if status is FAILURE:
                 for index in range(last):

@@ -37,6 +37,5 @@ class WhileDoElse(Control):
         else:
             status = FAILURE
         if status is RUNNING:
-            self.note_children()
             return RUNNING
         return self.finish_skipped() if status is SKIPPED else self.finish(status)

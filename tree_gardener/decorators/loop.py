@@ -46,8 +46,6 @@ class Loop(Decorator):
             return self.finish(FAILURE)
         if status is SUCCESS:
             self.reset()
-        elif status is SKIPPED:
-            self.note_children()
         return RUNNING
 
     def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule

@@ -70,6 +70,4 @@ class KeepRunningUntilFailure(Decorator):
             return self.finish(FAILURE)
         if status is SUCCESS:
             self.reset()
-        else:
-            self.note_children()
         return RUNNING

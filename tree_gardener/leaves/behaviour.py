@@ -120,7 +120,7 @@ class StatefulLeaf(BehaviourLeaf):
                 self.instance_behaviour.status = PY_SUCCESS
                 self.status = SUCCESS
                 if self.journal is not None:
-                    self.last = self.marks[0]
+                    self.journal.results.append(self.marks[0])
                 return SUCCESS
             if returned is PY_RUNNING:
                 if before is not RUNNING:

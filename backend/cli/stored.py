@@ -48,9 +48,10 @@ def find_project(name_or_id: str) -> Project:
 
     from backend.accounts.actions import local_user
     from backend.projects import queries
+    from backend.projects.access import Need
 
     try:
         project_id = UUID(name_or_id)
     except ValueError:
         return queries.project_named(name_or_id, user=local_user())
-    return queries.project(project_id, user=local_user())
+    return queries.project(project_id, user=local_user(), need=Need.MANAGE)

@@ -23,3 +23,8 @@ def user_of(request: Request) -> User:
     """Who asks; permissions have seen to it that there is someone."""
     assert isinstance(request.user, User)  # noqa: S101 - for the type checker
     return request.user
+
+
+def if_match(request: Request) -> str:
+    """The header that says on what a write is based; empty without one."""
+    return request.headers.get("If-Match", "")

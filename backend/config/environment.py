@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import Literal
 
 from pydantic import Field, SecretStr, ValidationError, field_validator
-from pydantic_settings import BaseSettings, SettingsConfigDict, SettingsError
+from pydantic_settings import SettingsConfigDict, SettingsError
+
+from backend.config.team import MissingSettingError, TeamSettings
 
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -19,7 +21,7 @@ class InvalidEnvironmentError(ValueError):
     """A setting has a value that cannot be used; the text names the variable."""
 
 
-class Environment(BaseSettings):
+class Environment(TeamSettings):
     """The settings of the web server; each field is the variable `BT_STUDIO_<FIELD>`."""
 
     model_config = SettingsConfigDict(env_prefix=PREFIX, extra="ignore", frozen=True)
@@ -36,7 +38,7 @@ class Environment(BaseSettings):
         description="Folder of the projects that the start page offers as templates.",
     )
     host: str = Field(
-        default="127.0.0.1", description="Address that `serve` listens on; without accounts loopback only."
+        default="127.0.0.1", description="Address that `serve` listens on; beyond loopback in team mode only."
     )
     port: int = Field(
         default=8000, ge=0, le=65535, description="Port that `serve` listens on; 0 takes a free one."
@@ -49,8 +51,25 @@ class Environment(BaseSettings):
         default=SecretStr(""),
         description="Token of the link that `serve` prints; made anew at each start when it is empty.",
     )
-    launcher: Literal["process"] = Field(
-        default="process", description="What starts the executor of a running project."
+    launcher: Literal["process", "docker"] = Field(
+        default="process",
+        description="What starts the executor of a running project: a child process, or the keeper a container.",
+    )
+    keeper_folder: Path = Field(
+        default=Path("/run/bt-studio-keeper"),
+        description="Folder shared with the keeper, with the sockets of the executors that it started.",
+    )
+    max_sessions: int = Field(
+        default=0, ge=0, description="How many executors may run at once; further ones wait. 0: no limit."
+    )
+    session_idle_minutes: float = Field(
+        default=0,
+        ge=0,
+        description="An executor that nobody told anything for so long is ended, after a warning. 0: never.",
+    )
+    published_on_loopback: bool = Field(
+        default=False,
+        description="Local mode in a container: its port is published on the loopback interface of the host only.",
     )
     session_start_timeout_s: float = Field(
         default=30.0, gt=0, description="How long an executor may take to report that it is ready."
@@ -72,11 +91,20 @@ class Environment(BaseSettings):
         default=30, ge=0, description="Days after which a deleted project can no longer be restored."
     )
     draft_days: int = Field(default=30, ge=1, description="Days after which an unsaved draft is forgotten.")
+    max_language_servers: int = Field(
+        default=16, ge=0, description="Number of editors that get help with Python at a time; 0 for none."
+    )
+    language_idle_s: float = Field(
+        default=900.0, gt=0, description="After how long without typing a language server is ended."
+    )
+    language_memory_mib: int = Field(
+        default=1024, gt=0, description="Memory that one language server may take before it is ended."
+    )
     log_level: Literal["debug", "info", "warning", "error"] = Field(
         default="info", description="Least severe log line that is printed."
     )
 
-    @field_validator("data_dir", "frontend_dir", "templates_dir")
+    @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder")
     @classmethod
     def _absolute(cls, value: Path) -> Path:
         return value.expanduser().absolute()
@@ -86,9 +114,20 @@ def sentence(error: ValidationError) -> str:
     """Says in one line which variables are wrong, and why."""
     parts = []
     for problem in error.errors():
-        name = PREFIX + "_".join(str(part) for part in problem["loc"][:1]).upper()
-        parts.append(f"{name}: {problem['msg']} (it is {problem['input']!r})")
+        cause = problem.get("ctx", {}).get("error")
+        if isinstance(cause, MissingSettingError):
+            parts.append(f"{PREFIX}{cause.name.upper()}: {cause}")
+            continue
+        field = "_".join(str(part) for part in problem["loc"][:1])
+        reason = problem["msg"].removeprefix("Value error, ")
+        parts.append(f"{PREFIX}{field.upper()}: {reason}" + _shown(field, problem["input"]))
     return "; ".join(parts)
+
+
+def _shown(field: str, value: object) -> str:
+    """The wrong value, unless it is a secret."""
+    known = Environment.model_fields.get(field)
+    return "" if known is not None and known.annotation is SecretStr else f" (it is {value!r})"
 
 
 @lru_cache(maxsize=1)

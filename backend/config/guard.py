@@ -1,6 +1,6 @@
-"""Who may talk to a server on localhost, decided without any I/O.
+"""Who may talk to the server, decided without any I/O.
 
-Three rules, the same for pages, the API and sockets:
+Three rules on localhost, the first two on a server with accounts, the same for pages, the API and sockets:
 
 * the `Host` is one of ours, so that a rebound DNS name of a foreign page gets nothing (421);
 * an `Origin`, when the browser sends one, is that host itself (403). Sockets must send one, for a
@@ -93,15 +93,22 @@ def cookie_name(host: str) -> str:
     return f"{COOKIE_PREFIX}_{port}" if port.isdigit() else COOKIE_PREFIX
 
 
-def judge(facts: Facts, keys: Keys, *, extra_hosts: tuple[str, ...] = ()) -> Refusal | None:
-    """Returns why the request is refused, or None when it may pass."""
+def judge(
+    facts: Facts, keys: Keys, *, extra_hosts: tuple[str, ...] = (), accounts: bool = False
+) -> Refusal | None:
+    """Returns why the request is refused, or None when it may pass.
+
+    With `accounts` there is no link to know; who asks is told by their own session, later.
+    """
     if host_name(facts.host) not in LOOPBACK_HOSTS and host_name(facts.host) not in extra_hosts:
         return Refusal(
             421,
             "host_refused",
             f"This server does not answer for the host “{facts.host[:100]}”.",
-            "Open it as http://127.0.0.1, or name the host in BT_STUDIO_ALLOWED_HOSTS.",
+            "Open it under its own address, or name the host in BT_STUDIO_ALLOWED_HOSTS.",
         )
+    if accounts:
+        return _judge_origin(facts)
     is_program = keys.is_token(facts.bearer)
     if not is_program and (refusal := _judge_origin(facts)):
         return refusal
@@ -131,3 +138,15 @@ def _judge_origin(facts: Facts) -> Refusal | None:
         f"A page of {facts.origin or 'another site'} may not use this server."[:200],
         "Use the page that this server itself serves.",
     )
+
+
+def known_hosts() -> tuple[str, ...]:
+    """The names besides loopback's that this server answers for."""
+    settings = environment()
+    public = (host_name(settings.public_host),) if settings.public_url else ()
+    return public + tuple(host.lower() for host in settings.allowed_hosts)
+
+
+def check(facts: Facts) -> Refusal | None:
+    """Judges with the settings of this server."""
+    return judge(facts, keys(), extra_hosts=known_hosts(), accounts=environment().is_team)

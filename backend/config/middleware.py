@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
 from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
 from typing import Final
 from urllib.parse import urlencode
 
@@ -12,6 +13,7 @@ from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.http.response import HttpResponseBase
 from django.shortcuts import render
 
+from backend.accounts.audit import client_address
 from backend.config import guard
 from backend.config.environment import environment
 from backend.config.problems import problem, problem_response
@@ -97,18 +99,26 @@ class Guard(Middleware):
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
         """Answers refused requests and the link with the token."""
+        client_address.set(address_of(request))
         facts = facts_of(request)
         keys = guard.keys()
         link = request.method == "GET" and request.path_info == "/" and "token" in request.GET
-        if link and keys.is_token(request.GET["token"]):
-            refusal = guard.judge(
-                guard.Facts("GET", facts.host, cookie=keys.cookie_value),
-                keys,
-                extra_hosts=environment().allowed_hosts,
-            )
+        if link and not environment().is_team and keys.is_token(request.GET["token"]):
+            refusal = guard.check(guard.Facts("GET", facts.host, cookie=keys.cookie_value))
             return refuse(request, refusal) if refusal else exchange(request, facts.host)
-        refusal = guard.judge(facts, keys, extra_hosts=environment().allowed_hosts)
+        refusal = guard.check(facts)
         return refuse(request, refusal) if refusal else None
+
+
+def address_of(request: HttpRequest) -> str | None:
+    """The client's address: what the outermost proxy that we believe wrote down, or the connection's."""
+    hops = environment().proxy_hops
+    forwarded = [part.strip() for part in request.META.get("HTTP_X_FORWARDED_FOR", "").split(",")]
+    address = forwarded[-hops] if 0 < hops <= len(forwarded) else request.META.get("REMOTE_ADDR", "")
+    try:
+        return str(ip_address(address))
+    except ValueError:
+        return None
 
 
 def facts_of(request: HttpRequest) -> guard.Facts:

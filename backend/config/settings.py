@@ -7,13 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from backend import __version__
+from backend.config import team
 from backend.config.environment import environment
 
 ENVIRONMENT = environment()
 
 
 def _secret_key() -> str:
-    """The key that `serve` keeps in the data folder, or one for this process alone."""
+    """The key of the environment, the one that `serve` keeps in the data folder, or one for this process."""
+    if given := ENVIRONMENT.secret_key.get_secret_value():
+        return given
     try:
         return (ENVIRONMENT.data_dir / "secret_key").read_text(encoding="ascii").strip()
     except FileNotFoundError:
@@ -24,65 +27,160 @@ SECRET_KEY = _secret_key()
 DEBUG = False
 # The guard judges hosts, for pages and sockets alike (`backend/config/guard.py`).
 ALLOWED_HOSTS = ["*"]
-ROOT_URLCONF = "backend.config.urls"
 ASGI_APPLICATION = "backend.config.asgi.application"
+# The same apps, and so the same tables, in both modes; what differs is who answers which address.
 INSTALLED_APPS = [
     "django.contrib.auth",
     "django.contrib.contenttypes",
+    "django.contrib.sessions",
+    "django.contrib.messages",
+    "django.contrib.staticfiles",
+    "django.contrib.admin.apps.SimpleAdminConfig",
+    "allauth",
+    "backend.accounts.vendor.Account",
+    "allauth.socialaccount",
+    "allauth.socialaccount.providers.openid_connect",
+    "allauth.mfa",
     "rest_framework",
     "drf_spectacular",
+    "drf_spectacular_sidecar",
     "backend.accounts",
     "backend.catalog",
     "backend.projects",
     "backend.sessions",
 ]
-MIDDLEWARE = [
+LOCAL_URLS, TEAM_URLS = "backend.config.urls", "backend.config.urls_team"
+LOCAL_MIDDLEWARE = [
     "backend.config.middleware.SecurityHeaders",
     "backend.config.middleware.Guard",
     "backend.config.static.FrontEndFiles",
     "django.middleware.http.ConditionalGetMiddleware",
 ]
+# The API reads its session itself; what pages need costs it nothing.
+TEAM_MIDDLEWARE = [
+    *LOCAL_MIDDLEWARE,
+    "backend.accounts.middleware.PageSession",
+    "backend.accounts.middleware.PageLocale",
+    "backend.accounts.middleware.PageCsrf",
+    "backend.accounts.middleware.PageUser",
+    "backend.accounts.middleware.PageMessages",
+    "allauth.account.middleware.AccountMiddleware",
+]
+ROOT_URLCONF = TEAM_URLS if ENVIRONMENT.is_team else LOCAL_URLS
+MIDDLEWARE = TEAM_MIDDLEWARE if ENVIRONMENT.is_team else LOCAL_MIDDLEWARE
 TEMPLATES: list[dict[str, Any]] = [
     {
         "BACKEND": "django.template.backends.django.DjangoTemplates",
-        "DIRS": [Path(__file__).parent / "templates"],
-        "OPTIONS": {},
+        "DIRS": [Path(__file__).parent / "templates", Path(__file__).parents[1] / "accounts" / "templates"],
+        "APP_DIRS": True,
+        "OPTIONS": {
+            "context_processors": [
+                "django.template.context_processors.request",
+                "django.contrib.auth.context_processors.auth",
+                "django.contrib.messages.context_processors.messages",
+                "backend.accounts.pages.context",
+            ]
+        },
     }
 ]
 AUTH_USER_MODEL = "accounts.User"
 DEFAULT_AUTO_FIELD = "django.db.models.BigAutoField"
-DATABASES: dict[str, dict[str, Any]] = {
-    "default": {
-        "ENGINE": "django.db.backends.sqlite3",
-        "NAME": ENVIRONMENT.data_dir / "bt-studio.sqlite3",
-        "OPTIONS": {
-            # A writer takes its lock at BEGIN, so that no transaction fails half way with "locked".
-            "transaction_mode": "IMMEDIATE",
-            "timeout": 20,
-            # synchronous=FULL: an acknowledged save survives a loss of power, too.
-            "init_command": (
-                "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON;"
-                "PRAGMA temp_store=MEMORY; PRAGMA mmap_size=134217728; PRAGMA cache_size=-16000;"
-            ),
-        },
-    }
-}
+DATABASES = {"default": team.database(ENVIRONMENT.database_url.get_secret_value(), ENVIRONMENT.data_dir)}
 USE_TZ = True
 TIME_ZONE = "UTC"
 LANGUAGE_CODE = "en"
-USE_I18N = False
+USE_I18N = True
+LANGUAGES = [("en", "English"), ("es", "Español")]
+LANGUAGE_COOKIE_NAME = "bt_studio_language"
 STATIC_URL = "/static/"
+STATICFILES_DIRS = [Path(__file__).parents[1] / "accounts" / "static"]
+WHITENOISE_USE_FINDERS = True
 WHITENOISE_ROOT = str(ENVIRONMENT.frontend_dir)
 WHITENOISE_AUTOREFRESH = True  # a new build of the front end needs no restart
 WHITENOISE_ALLOW_ALL_ORIGINS = False
 DATA_UPLOAD_MAX_MEMORY_SIZE = ENVIRONMENT.max_request_bytes
 FILE_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
 SECURE_CONTENT_TYPE_NOSNIFF = True
+# Small notices only, such as that a project has a new revision; never frames, logs or files.
+CHANNEL_LAYERS: dict[str, dict[str, Any]] = {"default": {"BACKEND": "channels.layers.InMemoryChannelLayer"}}
 LOGGING_CONFIG = None
+SILENCED_SYSTEM_CHECKS = [
+    "admin.E408",  # the admin's pages exist in team mode only, and so do sessions and messages
+    "admin.E409",
+    "admin.E410",
+]
+
+# --- accounts: used in team mode alone --------------------------------------------------------------
+
+_REDIS = ENVIRONMENT.redis_url.get_secret_value()
+CACHES: dict[str, dict[str, Any]] = {
+    "default": {"BACKEND": "django.core.cache.backends.redis.RedisCache", "LOCATION": _REDIS}
+    if _REDIS
+    else {"BACKEND": "django.core.cache.backends.locmem.LocMemCache"}
+}
+SESSION_ENGINE = "django.contrib.sessions.backends.cached_db"
+SESSION_COOKIE_NAME = ("__Host-" if ENVIRONMENT.is_https else "") + "bt_studio_session"
+SESSION_COOKIE_AGE = 14 * 24 * 3600
+SESSION_COOKIE_SECURE = ENVIRONMENT.is_https
+SESSION_COOKIE_HTTPONLY = True
+SESSION_COOKIE_SAMESITE = "Lax"  # a link in a mail must find its reader signed in
+CSRF_COOKIE_NAME = ("__Host-" if ENVIRONMENT.is_https else "") + "bt_studio_csrf"
+CSRF_COOKIE_SECURE = ENVIRONMENT.is_https
+CSRF_COOKIE_HTTPONLY = True
+CSRF_COOKIE_SAMESITE = "Lax"
+CSRF_TRUSTED_ORIGINS = [ENVIRONMENT.public_url] if ENVIRONMENT.public_url else []
+CSRF_FAILURE_VIEW = "backend.accounts.pages.csrf_failure"
+SECURE_PROXY_SSL_HEADER = ("HTTP_X_FORWARDED_PROTO", "https") if ENVIRONMENT.proxy_hops else None
+globals().update(team.mail(ENVIRONMENT.smtp_url.get_secret_value(), ENVIRONMENT.mail_from))
+
+AUTHENTICATION_BACKENDS = ["allauth.account.auth_backends.AuthenticationBackend"]
+AUTH_PASSWORD_VALIDATORS = [
+    {"NAME": f"django.contrib.auth.password_validation.{name}"}
+    for name in (
+        "UserAttributeSimilarityValidator",
+        "MinimumLengthValidator",
+        "CommonPasswordValidator",
+        "NumericPasswordValidator",
+    )
+]
+LOGIN_URL = "/accounts/login/"
+LOGIN_REDIRECT_URL = "/"
+ACCOUNT_ADAPTER = "backend.accounts.adapters.AccountAdapter"
+ACCOUNT_LOGIN_METHODS = {"email", "username"}
+ACCOUNT_SIGNUP_FIELDS = ["username*", "email*", "password1*", "password2*"]
+ACCOUNT_UNIQUE_EMAIL = True
+# Without a mail server nobody could follow the link.
+ACCOUNT_EMAIL_VERIFICATION = "mandatory" if ENVIRONMENT.smtp_url.get_secret_value() else "none"
+ACCOUNT_EMAIL_SUBJECT_PREFIX = ""
+ACCOUNT_DEFAULT_HTTP_PROTOCOL = "https" if ENVIRONMENT.is_https else "http"
+ACCOUNT_LOGOUT_REDIRECT_URL = "/accounts/login/"
+ACCOUNT_PREVENT_ENUMERATION = True
+ACCOUNT_SESSION_REMEMBER = True
+ACCOUNT_USERNAME_MIN_LENGTH = 2
+ACCOUNT_USERNAME_BLACKLIST = ["local", "admin", "root", "system"]
+ACCOUNT_RATE_LIMITS = {"login": "30/m/ip", "login_failed": "10/m/ip,5/5m/key"}
+SOCIALACCOUNT_ADAPTER = "backend.accounts.adapters.SocialAccountAdapter"
+SOCIALACCOUNT_LOGIN_ON_GET = False
+SOCIALACCOUNT_ONLY = False
+SOCIALACCOUNT_EMAIL_AUTHENTICATION = False
+SOCIALACCOUNT_PROVIDERS: dict[str, Any] = {"openid_connect": {"OAUTH_PKCE_ENABLED": True, "APPS": []}}
+if ENVIRONMENT.oidc_issuer:
+    SOCIALACCOUNT_PROVIDERS["openid_connect"]["APPS"].append(
+        {
+            "provider_id": "oidc",
+            "name": ENVIRONMENT.oidc_name,
+            "client_id": ENVIRONMENT.oidc_client_id,
+            "secret": ENVIRONMENT.oidc_client_secret.get_secret_value(),
+            "settings": {"server_url": ENVIRONMENT.oidc_issuer},
+        }
+    )
+MFA_SUPPORTED_TYPES = ["totp", "recovery_codes"]
+MFA_TOTP_ISSUER = "BT Studio"
 
 REST_FRAMEWORK: dict[str, Any] = {
     "DEFAULT_AUTHENTICATION_CLASSES": ["backend.accounts.authentication.GuardAuthentication"],
-    "DEFAULT_PERMISSION_CLASSES": ["rest_framework.permissions.IsAuthenticated"],
+    "DEFAULT_PERMISSION_CLASSES": ["backend.accounts.permissions.MayAsk"],
+    "DEFAULT_THROTTLE_CLASSES": ["backend.accounts.permissions.ExpensiveCalls"],
     "DEFAULT_PARSER_CLASSES": ["backend.config.parsers.StrictJSONParser"],
     "DEFAULT_RENDERER_CLASSES": ["rest_framework.renderers.JSONRenderer"],
     "DEFAULT_SCHEMA_CLASS": "backend.config.openapi.ProblemSchema",

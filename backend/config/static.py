@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+from urllib.parse import urlencode
 
 from django.conf import settings
-from django.http import HttpRequest, HttpResponse
+from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.shortcuts import render
 from django.views.decorators.http import require_safe
 from whitenoise.middleware import WhiteNoiseMiddleware
+
+from backend.accounts.identity import identify
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -51,3 +54,13 @@ def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
     response = HttpResponse(content, content_type="text/html; charset=utf-8")
     response.headers["Cache-Control"] = "no-cache"
     return response
+
+
+@require_safe
+def signed_in_page(request: HttpRequest, project_id: object = None) -> HttpResponse:
+    """The same page for whoever is signed in or came by a link; the others sign in first."""
+    user = identify(request.COOKIES)
+    if user is None or (user.is_guest and request.path_info == "/"):
+        following = urlencode({"next": request.get_full_path()}) if request.path_info != "/" else ""
+        return HttpResponseRedirect(f"{settings.LOGIN_URL}?{following}".rstrip("?"))
+    return page(request, project_id)

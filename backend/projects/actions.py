@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from django.db import IntegrityError, transaction
 from django.db.models import Sum
 from django.utils import timezone
 
+from backend.accounts.audit import note
 from backend.config.environment import environment
+from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError, NotFoundError
 from backend.projects import names, queries
+from backend.projects.access import Need
 from backend.projects.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.errors import (
     NameTakenError,
-    PreconditionFailedError,
     QuotaExceededError,
     RevisionConflictError,
+    matches,
 )
 from backend.projects.manifest import MANIFEST, Manifest, read, write
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, IdempotencyKey, Project
@@ -28,6 +31,8 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
+
+BLOBS: Final = "blobs"
 
 
 @transaction.atomic
@@ -49,8 +54,10 @@ def create_project(
     """
     checked = {names.file_path(path): data for path, data in files.items()}
     manifest = read(checked.get(MANIFEST, b"{}"))
+    transaction_lock(f"projects of {acting_user.pk}")
     taken = set(Project.objects.filter(owner=acting_user, deleted_at=None).values_list("name_key", flat=True))
-    if len(taken) >= environment().max_user_projects:
+    allowed = acting_user.max_projects
+    if len(taken) >= (environment().max_user_projects if allowed is None else allowed):
         raise QuotaExceededError(
             f"You have {len(taken)} projects, and more are not allowed.",
             hint="Delete some that you no longer need.",
@@ -67,6 +74,7 @@ def create_project(
     _save_name(project, force_insert=True)
     wanted = [FileChange(path, 0, Content.of(data)) for path, data in sorted(checked.items())]
     _apply(project, wanted, acting_user=acting_user, message=message, now=now)
+    note("project.create", actor=acting_user, subject=final, subject_id=project.id, message=message)
     return project
 
 
@@ -156,10 +164,13 @@ def _keeping_name(change: FileChange, project: Project) -> FileChange:
 
 
 @transaction.atomic
-def label_revision(project_id: UUID, number: int, label: str, *, acting_user: User) -> ChangeSet:
-    """Names a revision, or takes its name away."""
+def label_revision(
+    project_id: UUID, number: int, label: str, *, acting_user: User, if_match: str = ""
+) -> ChangeSet:
+    """Names a revision, or takes its name away; `if_match` is the ETag of the revision."""
     project = _locked(project_id, acting_user)
     change = queries.change_set(project, number)
+    matches(if_match, queries.revision_etag(change), "The label of this revision has changed.")
     change.label = label.strip()
     change.save(update_fields=["label"])
     return change
@@ -168,7 +179,7 @@ def label_revision(project_id: UUID, number: int, label: str, *, acting_user: Us
 @transaction.atomic
 def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") -> Project:
     """Makes a new project of the current files; it starts its own history."""
-    source = queries.project(project_id, user=acting_user)
+    source = queries.project(project_id, user=acting_user, need=Need.COPY)
     files = {path: file.data for path, file in queries.current_files(source).items()}
     return create_project(files, acting_user=acting_user, name=name, message=f"Duplicate of {source.name}")
 
@@ -176,19 +187,22 @@ def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") ->
 @transaction.atomic
 def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -> None:
     """Takes a project away; `restore_project` brings it back until garbage is collected."""
-    project = _locked(project_id, acting_user)
+    project = _locked(project_id, acting_user, Need.MANAGE)
     require_match(project, if_match)
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
+    note("project.delete", actor=acting_user, subject=project.name, subject_id=project.id)
     transaction.on_commit(lambda: project_deleted.send(Project, project_id=project.id))
 
 
 @transaction.atomic
-def restore_project(project_id: UUID, *, acting_user: User) -> Project:
+def restore_project(project_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
     """Brings a deleted project back, under another name where its own was taken since."""
     project = queries.deleted_project(project_id, user=acting_user)
+    require_match(project, if_match)
     if project.deleted_at is None:
         return project
+    transaction_lock(f"projects of {acting_user.pk}")
     taken = set(
         Project.objects.filter(owner=project.owner, deleted_at=None).values_list("name_key", flat=True)
     )
@@ -197,6 +211,7 @@ def restore_project(project_id: UUID, *, acting_user: User) -> Project:
     project.save(update_fields=["deleted_at"]) if name == project.name else _revive(
         project, name, acting_user
     )
+    note("project.restore", actor=acting_user, subject=name, subject_id=project.id)
     return project
 
 
@@ -212,35 +227,13 @@ def _revive(project: Project, name: str, acting_user: User) -> None:
 
 
 @transaction.atomic
-def set_archived(project_id: UUID, *, acting_user: User, archived: bool) -> Project:
+def set_archived(project_id: UUID, *, acting_user: User, archived: bool, if_match: str = "") -> Project:
     """Moves a project out of the list of those in use, or back."""
-    project = _locked(project_id, acting_user)
+    project = _locked(project_id, acting_user, Need.MANAGE)
+    require_match(project, if_match)
     project.archived_at = (project.archived_at or timezone.now()) if archived else None
     project.save(update_fields=["archived_at"])
     return project
-
-
-@transaction.atomic
-def save_draft(project_id: UUID, path: str, *, acting_user: User, base_revision: int, content: str) -> Draft:
-    """Keeps what a user typed and did not save; the newest replaces the one before."""
-    project = _locked(project_id, acting_user)
-    path = names.file_path(path)
-    if len(content.encode()) > environment().max_file_bytes:
-        raise _too_large(path)
-    draft, _ = Draft.objects.update_or_create(
-        project=project,
-        author=acting_user,
-        path=path,
-        defaults={"base_revision": base_revision, "content": content, "updated_at": timezone.now()},
-    )
-    return draft
-
-
-@transaction.atomic
-def discard_draft(project_id: UUID, path: str, *, acting_user: User) -> None:
-    """Forgets a draft; there need not be one."""
-    project = queries.project(project_id, user=acting_user)
-    Draft.objects.filter(project=project, author=acting_user, path=names.file_path(path)).delete()
 
 
 @transaction.atomic
@@ -248,6 +241,8 @@ def collect_garbage(*, now: datetime | None = None) -> int:
     """Removes what nobody can reach any more, and returns the number of blobs that went."""
     now = now or timezone.now()
     limits = environment()
+    # A save may be about to use a blob that nothing holds yet.
+    transaction_lock(BLOBS)
     Project.objects.filter(deleted_at__lt=now - timedelta(days=limits.deleted_project_days)).delete()
     Draft.objects.filter(updated_at__lt=now - timedelta(days=limits.draft_days)).delete()
     IdempotencyKey.objects.filter(created_at__lt=now - timedelta(days=1)).delete()
@@ -256,19 +251,11 @@ def collect_garbage(*, now: datetime | None = None) -> int:
 
 def require_match(project: Project, if_match: str) -> None:
     """Raises PreconditionFailedError when an `If-Match` header does not name the newest revision."""
-    if not if_match or if_match.strip() == "*":
-        return
-    tags = {tag.strip().removeprefix("W/") for tag in if_match.split(",")}
-    if queries.etag(project) not in tags:
-        raise PreconditionFailedError(
-            f"The newest revision is {project.revision}.",
-            hint="Load the project again.",
-            revision=project.revision,
-        )
+    matches(if_match, queries.etag(project), f"The newest revision is {project.revision}.", project.revision)
 
 
-def _locked(project_id: UUID, user: User) -> Project:
-    return queries.project(project_id, user=user, lock=True)
+def _locked(project_id: UUID, user: User, need: Need = Need.WRITE) -> Project:
+    return queries.project(project_id, user=user, need=need, lock=True)
 
 
 def _checked(change: FileChange) -> FileChange:
@@ -295,12 +282,14 @@ def _apply(
     manifest = _manifest_after(result)
     size = _size_after(project, current, result)
     number = project.revision + 1
+    transaction_lock(BLOBS, shared=True)
     change = ChangeSet.objects.create(
         project=project, number=number, author=acting_user, message=message[:500], created_at=now
     )
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
     Blob.objects.bulk_create(
-        [Blob(sha256=sha256, size=c.size, data=c.data) for sha256, c in contents.items()],
+        # In one order, so that two saves of the same blobs never wait for each other.
+        [Blob(sha256=sha256, size=c.size, data=c.data) for sha256, c in sorted(contents.items())],
         ignore_conflicts=True,
     )
     FileRevision.objects.bulk_create(
@@ -351,7 +340,7 @@ def _size_after(project: Project, current: Mapping[str, Existing], result: Plan)
     sizes = {path: existing.size for path, existing in current.items() if path not in result.removed}
     for written in result.written:
         if written.size > limits.max_file_bytes:
-            raise _too_large(written.path)
+            raise too_large(written.path)
         sizes[written.path] = written.size
     if len(sizes) > limits.max_project_files:
         raise QuotaExceededError(f"A project has at most {limits.max_project_files} files.", field="files")
@@ -363,15 +352,18 @@ def _size_after(project: Project, current: Mapping[str, Existing], result: Plan)
     if total > project.size:
         others = Project.objects.filter(owner=project.owner, deleted_at=None).exclude(id=project.id)
         used = others.aggregate(total=Sum("size"))["total"] or 0
-        if used + total > limits.max_user_bytes:
+        allowed = project.owner.max_bytes
+        room = limits.max_user_bytes if allowed is None else allowed
+        if used + total > room:
             raise QuotaExceededError(
-                f"Your projects together take at most {limits.max_user_bytes:,} bytes.",
+                f"The projects of one user together take at most {room:,} bytes.",
                 hint="Delete projects that you no longer need.",
             )
     return total
 
 
-def _too_large(path: str) -> QuotaExceededError:
+def too_large(path: str) -> QuotaExceededError:
+    """The error of a file beyond `BT_STUDIO_MAX_FILE_BYTES`."""
     return QuotaExceededError(
         f"“{names.shown(path)}” is larger than the {environment().max_file_bytes:,} bytes of a file.",
         field="files",

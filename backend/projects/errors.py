@@ -59,3 +59,11 @@ class IdempotencyError(StudioError):
     status = 422
     code = "idempotency_key_reused"
     title = "The idempotency key was used for another request"
+
+
+def matches(if_match: str, etag: str, sentence: str, revision: int | None = None) -> None:
+    """Raises PreconditionFailedError with this sentence when an `If-Match` header names another ETag."""
+    if not if_match or if_match.strip() == "*":
+        return
+    if etag not in {tag.strip().removeprefix("W/") for tag in if_match.split(",")}:
+        raise PreconditionFailedError(sentence, hint="Load it again.", revision=revision)

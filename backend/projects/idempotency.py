@@ -10,6 +10,7 @@ from django.db import transaction
 from django.utils import timezone
 from rest_framework.response import Response
 
+from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError
 from backend.projects.errors import IdempotencyError
 from backend.projects.models import IdempotencyKey
@@ -34,7 +35,8 @@ def once(request: Request, user: User, effect: Callable[[], Response]) -> Respon
         raise InvalidInputError(f"An idempotency key has at most {MAX_KEY} visible characters.", field=HEADER)
     fingerprint = _fingerprint(request)
     with transaction.atomic():
-        known = IdempotencyKey.objects.select_for_update().filter(author=user, key=key).first()
+        transaction_lock(f"key {user.pk} {key}")
+        known = IdempotencyKey.objects.filter(author=user, key=key).first()
         if known is not None:
             if known.fingerprint != fingerprint:
                 raise IdempotencyError(

@@ -14,6 +14,8 @@ from django.conf import settings
 from django.db import models
 from django.db.models import Q
 
+from backend.accounts.models import Group
+from backend.projects.choices import SHARED_ROLES, Role
 from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 
 
@@ -42,6 +44,9 @@ class Project(models.Model):
     archived_at = models.DateTimeField(null=True, blank=True)
     deleted_at = models.DateTimeField(null=True, blank=True)
 
+    # No column: what the user who asked may do with it, as `queries` found out.
+    role: Role = Role.OWNER
+
     class Meta:
         constraints = [
             models.UniqueConstraint(
@@ -51,6 +56,41 @@ class Project(models.Model):
 
     def __str__(self) -> str:
         return self.name
+
+
+class Membership(models.Model):
+    """A project shared with one person; the owner has no row."""
+
+    project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="memberships")
+    user = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE, related_name="memberships")
+    role = models.PositiveSmallIntegerField(choices=[(role.value, role.label) for role in SHARED_ROLES])
+    created_at = models.DateTimeField()
+
+    class Meta:
+        constraints = [models.UniqueConstraint(fields=["project", "user"], name="membership_unique")]
+
+
+class GroupShare(models.Model):
+    """A project shared with everybody in a group."""
+
+    project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="group_shares")
+    group = models.ForeignKey(Group, on_delete=models.CASCADE, related_name="shares")
+    role = models.PositiveSmallIntegerField(choices=[(role.value, role.label) for role in SHARED_ROLES])
+    created_at = models.DateTimeField()
+
+    class Meta:
+        constraints = [models.UniqueConstraint(fields=["project", "group"], name="group_share_unique")]
+
+
+class ShareLink(models.Model):
+    """A link by which anybody may read a project. The link is signed, not stored."""
+
+    id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
+    project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="links")
+    created_by = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.SET_NULL, null=True)
+    created_at = models.DateTimeField()
+    expires_at = models.DateTimeField(null=True, blank=True)
+    revoked_at = models.DateTimeField(null=True, blank=True)
 
 
 class ChangeSet(models.Model):

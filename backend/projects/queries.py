@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from django.db.models import F, Max, Q, QuerySet, Value
 from django.db.models.functions import Concat, Lower
 
 from backend import __version__
 from backend.config.problems import NotFoundError
-from backend.projects import names
+from backend.projects import access, names
+from backend.projects.access import Need
 from backend.projects.changes import Existing
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
 
@@ -24,7 +26,6 @@ if TYPE_CHECKING:
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
-NOT_FOUND: Final = "There is no such project."
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,20 +57,33 @@ def as_text(data: bytes) -> str | None:
 def etag(project: Project) -> str:
     """Changes with every revision, and with what else an opened project shows."""
     shelf = "archived" if project.archived_at else "current"
-    return f'"{project.revision}-{shelf}-{__version__}"'
+    return f'"{project.revision}-{shelf}-{project.role.label}-{__version__}"'
 
 
-def project(project_id: UUID, *, user: User, lock: bool = False) -> Project:
-    """The project, if this user may see it; with `lock`, until the end of the transaction."""
-    rows = Project.objects.select_for_update() if lock else Project.objects.all()
-    found = rows.filter(id=project_id, owner=user, deleted_at=None).first()
-    if found is None:
-        raise NotFoundError(NOT_FOUND)
-    return found
+def revision_etag(change: ChangeSet) -> str:
+    """Changes with the label of a revision, which is all that can change of it."""
+    return f'"{change.number}-{hashlib.sha256(change.label.encode()).hexdigest()[:16]}"'
+
+
+def draft_etag(draft: Draft | None) -> str:
+    """Changes with every save of a draft; one that does not exist has a tag, too."""
+    return f'"{draft.updated_at.isoformat()}"' if draft is not None else '"none"'
+
+
+def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> Project:
+    """The project, if this user may do this with it; with `lock`, until the end of the transaction.
+
+    Raises:
+        NotFoundError: there is none, or none that this user may know of.
+        RoleTooLowError: the user may see it, but not do this.
+    """
+    rows = Project.objects.select_for_update(of=("self",)) if lock else Project.objects.all()
+    found = access.with_role(rows.filter(id=project_id, deleted_at=None), user).first()
+    return access.gate(found, user=user, need=need)
 
 
 def project_named(name: str, *, user: User) -> Project:
-    """The project of this name."""
+    """The user's own project of this name."""
     found = Project.objects.filter(owner=user, name_key=names.key(name), deleted_at=None).first()
     if found is None:
         raise NotFoundError(f"There is no project named “{names.shown(name)}”.")
@@ -77,22 +91,24 @@ def project_named(name: str, *, user: User) -> Project:
 
 
 def deleted_project(project_id: UUID, *, user: User) -> Project:
-    """The project, deleted or not."""
-    found = Project.objects.select_for_update().filter(id=project_id, owner=user).first()
-    if found is None:
-        raise NotFoundError(NOT_FOUND)
-    return found
+    """The project, deleted or not, for its owner; locked until the end of the transaction."""
+    rows = Project.objects.select_for_update(of=("self",)).filter(id=project_id)
+    found = access.with_role(rows, user).first()
+    if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
+        found = None  # whoever may no longer see it is told as much as everybody else
+    return access.gate(found, user=user, need=Need.MANAGE)
 
 
 def projects(
     *, user: User, search: str = "", sort: Sort = "-updated_at", shelf: Shelf = "current"
 ) -> QuerySet[Project]:
-    """The user's projects whose name or description contains each word of the search."""
-    rows = Project.objects.filter(owner=user)
+    """The user's projects and those shared with them, with each word of the search in name or description."""
     if shelf == "deleted":
-        rows = rows.exclude(deleted_at=None)
+        rows = access.with_role(Project.objects.filter(owner=user), user).exclude(deleted_at=None)
     else:
-        rows = rows.filter(deleted_at=None, archived_at__isnull=shelf == "current")
+        rows = access.visible(Project.objects.select_related("owner"), user).filter(
+            deleted_at=None, archived_at__isnull=shelf == "current"
+        )
     for word in search.split()[:10]:
         rows = rows.filter(Q(name_key__contains=names.key(word)) | Q(description__icontains=word))
     backwards, column = sort.startswith("-"), sort.removeprefix("-")

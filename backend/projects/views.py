@@ -8,10 +8,11 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import parsed, user_of
+from backend.config.api import if_match, parsed, user_of
 from backend.config.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
 from backend.projects import actions, checking, names, presentation, queries, templates
 from backend.projects import serializers as s
+from backend.projects.access import Need
 from backend.projects.idempotency import once
 from backend.projects.schema import ConflictProblemSerializer
 
@@ -81,7 +82,7 @@ class OneProject(APIView):
     )
     def get(self, request: Request, project_id: UUID) -> Response:
         """Opens a project: its files, actions and problems."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         if queries.etag(project) in request.headers.get("If-None-Match", ""):
             return Response(status=304, headers={"ETag": queries.etag(project)})
         return detail_response(project)
@@ -97,9 +98,9 @@ class OneProject(APIView):
     def patch(self, request: Request, project_id: UUID) -> Response:
         """Renames a project or changes its settings."""
         asked = parsed(s.EditProjectSerializer, request.data)
-        if_match = request.headers.get("If-Match", "")
+        user = user_of(request)
         return detail_response(
-            actions.edit_settings(project_id, acting_user=user_of(request), if_match=if_match, **asked)
+            actions.edit_settings(project_id, acting_user=user, if_match=if_match(request), **asked)
         )
 
     @extend_schema(
@@ -107,9 +108,7 @@ class OneProject(APIView):
     )
     def delete(self, request: Request, project_id: UUID) -> Response:
         """Deletes a project; `restore` brings it back."""
-        actions.delete_project(
-            project_id, acting_user=user_of(request), if_match=request.headers.get("If-Match", "")
-        )
+        actions.delete_project(project_id, acting_user=user_of(request), if_match=if_match(request))
         return Response(status=204)
 
 
@@ -117,33 +116,52 @@ class Restore(APIView):
     """Undo of a deletion."""
 
     @extend_schema(
-        operation_id="restore_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+        operation_id="restore_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
     )
     def post(self, request: Request, project_id: UUID) -> Response:
         """Brings a deleted project back, under another name where its own was taken since."""
-        return detail_response(actions.restore_project(project_id, acting_user=user_of(request)))
+        user = user_of(request)
+        return detail_response(
+            actions.restore_project(project_id, acting_user=user, if_match=if_match(request))
+        )
 
 
 class Archive(APIView):
     """Puts a project out of the way."""
 
     @extend_schema(
-        operation_id="archive_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+        operation_id="archive_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
     )
     def post(self, request: Request, project_id: UUID) -> Response:
         """Moves a project to the archive."""
-        return detail_response(actions.set_archived(project_id, acting_user=user_of(request), archived=True))
+        user, tag = user_of(request), if_match(request)
+        project = actions.set_archived(project_id, acting_user=user, archived=True, if_match=tag)
+        return detail_response(project)
 
 
 class Unarchive(APIView):
     """Takes a project back into use."""
 
     @extend_schema(
-        operation_id="unarchive_project", request=None, responses=s.ProjectDetailSerializer, tags=["projects"]
+        operation_id="unarchive_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
     )
     def post(self, request: Request, project_id: UUID) -> Response:
         """Moves a project out of the archive."""
-        return detail_response(actions.set_archived(project_id, acting_user=user_of(request), archived=False))
+        user, tag = user_of(request), if_match(request)
+        project = actions.set_archived(project_id, acting_user=user, archived=False, if_match=tag)
+        return detail_response(project)
 
 
 class Duplicate(APIView):
@@ -191,7 +209,7 @@ class Changes(APIView):
                 s.file_changes(asked),
                 acting_user=user,
                 message=asked["message"],
-                if_match=request.headers.get("If-Match", ""),
+                if_match=if_match(request),
             )
             return Response(presentation.changed(project), headers={"ETag": queries.etag(project)})
 
@@ -210,7 +228,7 @@ class Check(APIView):
     def post(self, request: Request, project_id: UUID) -> Response:
         """Checks the project as it would be with these files."""
         asked = parsed(s.CheckSerializer, request.data)
-        files = queries.contents(queries.project(project_id, user=user_of(request)))
+        files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
         found = checking.report(files)
@@ -223,7 +241,7 @@ class App(APIView):
     @extend_schema(operation_id="get_app", responses=s.AppSerializer, tags=["projects"])
     def get(self, request: Request, project_id: UUID) -> Response:
         """What the executor needs to run the project; 422 with `diagnostics` when it has errors."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return Response(checking.app(queries.contents(project)))
 
 

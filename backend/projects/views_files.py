@@ -19,6 +19,7 @@ from backend.config.openapi import IDEMPOTENCY_KEY
 from backend.config.problems import InvalidInputError
 from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
+from backend.projects.access import Need
 from backend.projects.errors import QuotaExceededError
 from backend.projects.idempotency import once
 from backend.projects.views import detail_response
@@ -55,7 +56,7 @@ class File(APIView):
     )
     def get(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
         """The bytes of a current file."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return file_response(queries.current_file(project, names.file_path(path)))
 
 
@@ -78,7 +79,7 @@ class Xml(APIView):
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponse:
         """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         text = checking.xml(queries.contents(project), self_contained=flag(request, "self_contained"))
         return download(text, "text/xml; charset=utf-8", f"{project.name}.xml")
 
@@ -93,7 +94,7 @@ class Export(APIView):
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponse:
         """The current files as a zip; the same revision gives the same bytes."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return download(archive.pack(queries.contents(project)), "application/zip", f"{project.name}.zip")
 
 
@@ -111,7 +112,7 @@ class Package(APIView):
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponse:
         """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         if flag(request, "dockerized"):
             return download(checking.app_zip(files), "application/zip", f"{project.name}.zip")
@@ -146,7 +147,7 @@ class PackagePreview(APIView):
     )
     def get(self, request: Request, project_id: UUID) -> Response:
         """What the ROS 2 package will hold, before it is downloaded."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         package = checking.package(queries.contents(project), request.query_params.get("name") or None)
         manifest = package.files.get(f"{package.name}/package.xml", b"")
         return Response(

@@ -9,10 +9,11 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import parsed, user_of
+from backend.config.api import if_match, parsed, user_of
 from backend.config.openapi import IF_MATCH
-from backend.projects import actions, names, presentation, queries
+from backend.projects import actions, draft_actions, names, presentation, queries
 from backend.projects import serializers as s
+from backend.projects.access import Need
 from backend.projects.diffs import diff
 from backend.projects.views import detail_response
 from backend.projects.views_files import file_response
@@ -36,7 +37,7 @@ class Revisions(APIView):
     def get(self, request: Request, project_id: UUID) -> Response:
         """The change sets, the newest first; all, or those that touched one file."""
         asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         limit = asked["limit"]
         found = queries.history(project, path=asked["path"], before=asked.get("before"), limit=limit + 1)
         page = found[:limit]
@@ -49,6 +50,7 @@ class Revision(APIView):
 
     @extend_schema(
         operation_id="label_revision",
+        parameters=[IF_MATCH],
         request=s.LabelSerializer,
         responses=s.RevisionSerializer,
         tags=["revisions"],
@@ -56,8 +58,10 @@ class Revision(APIView):
     def patch(self, request: Request, project_id: UUID, number: int) -> Response:
         """Gives a revision a name, or takes it away."""
         asked = parsed(s.LabelSerializer, request.data)
-        row = actions.label_revision(project_id, number, asked["label"], acting_user=user_of(request))
-        return Response(presentation.revision(row))
+        row = actions.label_revision(
+            project_id, number, asked["label"], acting_user=user_of(request), if_match=if_match(request)
+        )
+        return Response(presentation.revision(row), headers={"ETag": queries.revision_etag(row)})
 
 
 class RevisionFile(APIView):
@@ -70,7 +74,7 @@ class RevisionFile(APIView):
     )
     def get(self, request: Request, project_id: UUID, number: int, path: str) -> HttpResponse:
         """The bytes of a file as it was after a revision."""
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return file_response(queries.file_at(project, number, names.file_path(path)))
 
 
@@ -86,7 +90,7 @@ class RevisionDiff(APIView):
     def get(self, request: Request, project_id: UUID, number: int) -> Response:
         """Compares a revision with the one before, or with `against` (0 is the empty project)."""
         asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
-        project = queries.project(project_id, user=user_of(request))
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
         newer = queries.files_at(project, number)
         against = asked.get("against", number - 1)
         older = queries.files_at(project, against) if against else {}
@@ -111,7 +115,7 @@ class RestoreRevision(APIView):
             number,
             acting_user=user_of(request),
             paths=[names.file_path(path, field="paths") for path in asked["paths"]],
-            if_match=request.headers.get("If-Match", ""),
+            if_match=if_match(request),
         )
         return detail_response(project)
 
@@ -123,7 +127,7 @@ class Drafts(APIView):
     def get(self, request: Request, project_id: UUID) -> Response:
         """The user's drafts in this project."""
         user = user_of(request)
-        rows = queries.drafts(queries.project(project_id, user=user), user=user)
+        rows = queries.drafts(queries.project(project_id, user=user, need=Need.WRITE), user=user)
         return Response({"items": [presentation.draft(row) for row in rows]})
 
 
@@ -131,16 +135,26 @@ class OneDraft(APIView):
     """The draft of one file."""
 
     @extend_schema(
-        operation_id="save_draft", request=s.SaveDraftSerializer, responses=s.DraftSerializer, tags=["drafts"]
+        operation_id="save_draft",
+        parameters=[IF_MATCH],
+        request=s.SaveDraftSerializer,
+        responses=s.DraftSerializer,
+        tags=["drafts"],
     )
     def put(self, request: Request, project_id: UUID, path: str) -> Response:
         """Keeps a draft; saving the file ends it."""
         asked = parsed(s.SaveDraftSerializer, request.data)
-        row = actions.save_draft(project_id, path, acting_user=user_of(request), **asked)
-        return Response(presentation.draft(row))
+        row = draft_actions.save_draft(
+            project_id, path, acting_user=user_of(request), if_match=if_match(request), **asked
+        )
+        return Response(presentation.draft(row), headers={"ETag": queries.draft_etag(row)})
 
-    @extend_schema(operation_id="discard_draft", responses={204: None}, tags=["drafts"])
+    @extend_schema(
+        operation_id="discard_draft", parameters=[IF_MATCH], responses={204: None}, tags=["drafts"]
+    )
     def delete(self, request: Request, project_id: UUID, path: str) -> Response:
         """Forgets a draft."""
-        actions.discard_draft(project_id, path, acting_user=user_of(request))
+        draft_actions.discard_draft(
+            project_id, path, acting_user=user_of(request), if_match=if_match(request)
+        )
         return Response(status=204)

@@ -17,6 +17,7 @@ from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.projects import queries as projects
+from backend.projects.access import Need
 from backend.sessions import queries
 from backend.sessions.choices import SessionState
 from backend.sessions.errors import HostFullError, LaunchError
@@ -62,7 +63,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     Raises:
         HostFullError: there is no free ROS domain.
     """
-    project = projects.project(project_id, user=acting_user)
+    project = projects.project(project_id, user=acting_user, need=Need.RUN)
     running = queries.live_session(project_id, user=acting_user)
     if running is not None and refresh(running).state in LIVE_STATES:
         return running

@@ -19,9 +19,8 @@ from asgiref.sync import sync_to_async
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
-from backend.accounts.actions import local_user
+from backend.accounts.identity import identify
 from backend.config import guard
-from backend.config.environment import environment
 from backend.config.middleware import cookies_of
 from backend.config.problems import NotFoundError
 from backend.sessions import actions, queries
@@ -30,6 +29,7 @@ from backend.sessions.choices import SessionState
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
 
+    from backend.accounts.models import User
     from backend.sessions.models import Session
 
 log = logging.getLogger(__name__)
@@ -59,22 +59,39 @@ async def relay_sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, sen
     await receive()  # websocket.connect
     address = ADDRESS.match(scope["path"])
     if address is None or _refusal(scope) is not None:
-        # A close before the accept makes the server answer the handshake with 403.
-        await send({"type": "websocket.close", "code": 1008, "reason": ""})
+        await _refuse(send)
+        return
+    # Who owns the session is asked below: a guest or a stranger owns none.
+    user = await sync_to_async(identify)(_cookies(scope))
+    if user is None or user.is_guest:
+        await _refuse(send)
         return
     offered = list(scope.get("subprotocols") or [])
     subprotocol = PROTOCOL if PROTOCOL in offered else None
     await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
     closed = await _serve(
-        UUID(address[1]), address[2], scope["query_string"].decode("latin-1"), receive, send
+        UUID(address[1]), user, address[2], scope["query_string"].decode("latin-1"), receive, send
     )
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": closed.reason})
 
 
+async def _refuse(send: ASGISendCallable) -> None:
+    """A close before the accept makes the server answer the handshake with 403."""
+    await send({"type": "websocket.close", "code": 1008, "reason": ""})
+
+
+def _headers(scope: WebSocketScope) -> dict[str, str]:
+    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+
+
+def _cookies(scope: WebSocketScope) -> dict[str, str]:
+    return cookies_of(_headers(scope).get("cookie", ""))
+
+
 def _refusal(scope: WebSocketScope) -> guard.Refusal | None:
-    headers = {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+    headers = _headers(scope)
     scheme, _, bearer = headers.get("authorization", "").partition(" ")
     host = headers.get("host", "")
     facts = guard.Facts(
@@ -85,15 +102,20 @@ def _refusal(scope: WebSocketScope) -> guard.Refusal | None:
         bearer=bearer if scheme.lower() == "bearer" else None,
         socket=True,
     )
-    return guard.judge(facts, guard.keys(), extra_hosts=environment().allowed_hosts)
+    return guard.check(facts)
 
 
-async def _serve(
-    session_id: UUID, channel: str, query: str, receive: ASGIReceiveCallable, send: ASGISendCallable
+async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
+    session_id: UUID,
+    user: User,
+    channel: str,
+    query: str,
+    receive: ASGIReceiveCallable,
+    send: ASGISendCallable,
 ) -> Closed | None:
     """Relays until a side ends; returns what the browser is told, None when it has gone itself."""
     try:
-        session = await _when_ready(session_id)
+        session = await _when_ready(session_id, user)
     except NotFoundError as error:
         return Closed(NO_SUCH_SESSION, error.detail)
     if session.state != SessionState.READY:
@@ -130,9 +152,9 @@ async def _explained(session: Session, closed: Closed) -> Closed:
     return closed
 
 
-async def _when_ready(session_id: UUID) -> Session:
+async def _when_ready(session_id: UUID, user: User) -> Session:
     """The session, as soon as it is no longer starting."""
-    find = sync_to_async(lambda: queries.session(session_id, user=local_user()))
+    find = sync_to_async(lambda: queries.session(session_id, user=user))
     # Another web server may be starting it, so the database tells, and no event of this process.
     while (session := await find()).state == SessionState.STARTING:  # noqa: ASYNC110
         await asyncio.sleep(POLL_S)

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from backend.config import guard
 from backend.config.schema_view import document
 from backend.projects import queries
+from backend.projects.access import Need
 from backend.sessions import actions
 from backend.sessions.models import Session
 from tests.budget import count
@@ -40,7 +41,7 @@ def known_project(project, monkeypatch):
     """A project that requests can meet; the transaction of the test outlives its requests."""
 
     def start(project_id, *, acting_user):
-        found = queries.project(project_id, user=acting_user)
+        found = queries.project(project_id, user=acting_user, need=Need.RUN)
         return Session(project=found, user=acting_user, created_at=timezone.now())
 
     monkeypatch.setattr(actions, "start_session", start)

@@ -12,6 +12,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, ru
 
 from backend.accounts.actions import local_user
 from backend.projects import actions, queries
+from backend.projects.access import Need
 from backend.projects.changes import Content, FileChange
 from backend.projects.errors import RevisionConflictError
 from backend.projects.manifest import MANIFEST
@@ -38,7 +39,7 @@ class TwoClients(RuleBasedStateMachine):
 
     @rule(client=clients)
     def load(self, client):
-        project = queries.project(self.project, user=self.user)
+        project = queries.project(self.project, user=self.user, need=Need.READ)
         self.known[client] = {
             path: (file.revision, file.data) for path, file in queries.current_files(project, PATHS).items()
         }
@@ -60,7 +61,7 @@ class TwoClients(RuleBasedStateMachine):
 
     @rule(client=clients, data=st.data())
     def restore(self, client, data):
-        project = queries.project(self.project, user=self.user)
+        project = queries.project(self.project, user=self.user, need=Need.READ)
         number = data.draw(st.integers(1, project.revision))
         then = queries.files_at(project, number, PATHS)
         actions.restore_revision(self.project, number, acting_user=self.user, paths=PATHS)
@@ -89,13 +90,13 @@ class TwoClients(RuleBasedStateMachine):
 
     @invariant()
     def every_acknowledged_line_is_there(self):
-        project = queries.project(self.project, user=self.user)
+        project = queries.project(self.project, user=self.user, need=Need.READ)
         found = queries.current_files(project)
         assert {path: found[path].data.decode().splitlines() for path in PATHS} == self.lines
 
     @invariant()
     def the_current_files_are_those_of_the_newest_revision(self):
-        project = queries.project(self.project, user=self.user)
+        project = queries.project(self.project, user=self.user, need=Need.READ)
         assert queries.current_files(project) == dict(queries.files_at(project, project.revision))
         assert project.size == sum(len(data) for data in queries.contents(project).values())
 

@@ -1,0 +1,212 @@
+"""The administrator's pages: users with their limits and disk use, groups, invitations, audit log, mail."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from allauth.account.decorators import secure_admin_login
+from django.contrib import admin, messages
+from django.contrib.auth.admin import UserAdmin
+from django.core.mail import send_mail
+from django.db.models import Count, Q, Sum
+from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
+from django.template.defaultfilters import filesizeformat
+from django.template.response import TemplateResponse
+from django.urls import path
+
+from backend.accounts import passwords
+from backend.accounts.audit import note
+from backend.accounts.models import AuditEntry, Group, GroupMember, Invitation, User
+from backend.config.environment import environment
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from django.db.models import Model, QuerySet
+
+
+class Site(admin.AdminSite):
+    """Django's administration, with the sign-in of everybody, second factor included."""
+
+    site_header = "BT Studio – administration"
+    site_title = "BT Studio"
+    index_title = "This server"
+    enable_nav_sidebar = True
+
+    def get_urls(self) -> list[Any]:
+        """Adds the page that sends a test mail."""
+        return [path("mail/", self.admin_view(self.mail), name="mail"), *super().get_urls()]
+
+    def mail(self, request: HttpRequest) -> HttpResponse:
+        """Sends a mail to whoever presses the button."""
+        if request.method == "POST":
+            self._send(request)
+            return HttpResponseRedirect(request.path)
+        values = {
+            **self.each_context(request),
+            "title": "Mail",
+            "sends_mail": bool(environment().smtp_url.get_secret_value()),
+            "sender": environment().mail_from,
+        }
+        return TemplateResponse(request, "admin/mail.html", values)
+
+    @staticmethod
+    def _send(request: HttpRequest) -> None:
+        user = request.user
+        if not isinstance(user, User) or not user.email:
+            messages.error(request, "Your account has no e-mail address to send to.")
+            return
+        try:
+            send_mail("BT Studio: test", "The mail server works.", None, [user.email])
+        except OSError as error:
+            messages.error(request, f"The mail server refused: {error}")
+        else:
+            note("mail.test", actor=user)
+            messages.success(request, f"Sent to {user.email}.")
+
+
+site = Site(name="admin")
+site.login = secure_admin_login(site.login)  # type: ignore[method-assign]
+
+
+class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
+    """Tells the audit log what administrators change."""
+
+    def log_addition(self, request: HttpRequest, obj: Any, message: Any) -> Any:
+        """After adding."""
+        self._note("add", request, obj)
+        return super().log_addition(request, obj, message)
+
+    def log_change(self, request: HttpRequest, obj: Any, message: Any) -> Any:
+        """After changing; the names of the fields, never their values."""
+        changed = [row["changed"].get("fields", []) for row in message if "changed" in row]
+        self._note("change", request, obj, fields=[str(name) for names in changed for name in names])
+        return super().log_change(request, obj, message)
+
+    def log_deletions(self, request: HttpRequest, queryset: QuerySet[Any]) -> Any:
+        """Before deleting."""
+        for row in queryset:
+            self._note("delete", request, row)
+        return super().log_deletions(request, queryset)
+
+    @staticmethod
+    def _note(verb: str, request: HttpRequest, row: Model, fields: Sequence[str] = ()) -> None:
+        actor = request.user if isinstance(request.user, User) else None
+        kind = row._meta.model_name
+        note(f"admin.{verb}_{kind}", actor=actor, subject=str(row), subject_id=row.pk, fields=[*fields])
+
+
+class ReadOnly(admin.ModelAdmin):  # type: ignore[type-arg]
+    """Looks, and changes nothing."""
+
+    def has_add_permission(self, request: HttpRequest, obj: Any = None) -> bool:
+        """Nobody."""
+        return False
+
+    def has_change_permission(self, request: HttpRequest, obj: Any = None) -> bool:
+        """Nobody."""
+        return False
+
+    def has_delete_permission(self, request: HttpRequest, obj: Any = None) -> bool:
+        """Nobody."""
+        return False
+
+
+class Users(Audited, UserAdmin):  # type: ignore[type-arg]
+    """Accounts, their rights, limits and disk use."""
+
+    list_display = ("username", "email", "role", "is_active", "projects_kept", "room_used", "last_login")
+    list_filter = ("is_active", "is_teacher", "is_staff", "is_superuser")
+    actions = ("make_password_link", "deactivate")
+    fieldsets = (
+        (None, {"fields": ("username", "password")}),
+        ("Person", {"fields": ("first_name", "last_name", "email")}),
+        ("Rights", {"fields": ("is_active", "is_teacher", "is_staff", "is_superuser")}),
+        ("Limits", {"fields": ("max_bytes", "max_projects")}),
+        ("Dates", {"fields": ("last_login", "date_joined")}),
+    )
+    readonly_fields = ("last_login", "date_joined")
+
+    def get_queryset(self, request: HttpRequest) -> QuerySet[User]:
+        """With what each one stores."""
+        kept = Q(projects__deleted_at=None)
+        rows: QuerySet[User] = super().get_queryset(request)
+        return rows.annotate(kept=Count("projects", filter=kept), used=Sum("projects__size", filter=kept))
+
+    @admin.display(description="role")
+    def role(self, row: User) -> str:
+        """The highest right."""
+        return "administrator" if row.is_superuser else "teacher" if row.is_teacher else "user"
+
+    @admin.display(description="projects", ordering="kept")
+    def projects_kept(self, row: Any) -> int:
+        """How many."""
+        return int(row.kept)
+
+    @admin.display(description="room", ordering="used")
+    def room_used(self, row: Any) -> str:
+        """Bytes of the current files."""
+        return str(filesizeformat(row.used or 0))
+
+    @admin.action(description="Make a link that sets a new password")
+    def make_password_link(self, request: HttpRequest, rows: QuerySet[User]) -> None:
+        """For people who get no mail; the link works once, for three days."""
+        for user in rows:
+            note("password.link", actor=_actor(request), subject=user.username, subject_id=user.pk)
+            messages.info(request, f"{user.username}: {passwords.link(user)}")
+
+    @admin.action(description="Deactivate (projects are kept)")
+    def deactivate(self, request: HttpRequest, rows: QuerySet[User]) -> None:
+        """Ends every right of these accounts at once."""
+        for user in rows.exclude(pk=request.user.pk or 0):
+            user.is_active = False
+            user.save(update_fields=["is_active"])
+            note("account.deactivate", actor=_actor(request), subject=user.username, subject_id=user.pk)
+
+
+def _actor(request: HttpRequest) -> User | None:
+    return request.user if isinstance(request.user, User) else None
+
+
+class Members(admin.TabularInline):  # type: ignore[type-arg]
+    """Who is in a group."""
+
+    model = GroupMember
+    extra = 0
+    autocomplete_fields = ("user",)
+
+
+class Groups(Audited):
+    """Classes."""
+
+    list_display = ("name", "owner", "created_at")
+    search_fields = ("name", "owner__username")
+    autocomplete_fields = ("owner",)
+    inlines = (Members,)
+
+
+class Invitations(ReadOnly):
+    """Links that still let people in, and those that did."""
+
+    list_display = ("created_by", "group", "created_at", "expires_at", "uses", "max_uses", "revoked_at")
+    list_filter = ("group",)
+
+
+class AuditLog(ReadOnly):
+    """Who did what."""
+
+    list_display = ("at", "actor_name", "action", "subject", "address")
+    list_filter = ("action",)
+    search_fields = ("actor_name", "subject", "subject_id")
+    date_hierarchy = "at"
+    show_full_result_count = False
+
+
+REGISTERED: Sequence[tuple[type[Model], type[Any]]] = (
+    (User, Users),
+    (Group, Groups),
+    (Invitation, Invitations),
+    (AuditEntry, AuditLog),
+)
+for model, page in REGISTERED:
+    site.register(model, page)

@@ -1,0 +1,59 @@
+"""Who did what. Nothing is written on localhost, where there is one user."""
+
+from __future__ import annotations
+
+from contextvars import ContextVar
+from datetime import timedelta
+from typing import TYPE_CHECKING
+
+from django.utils import timezone
+
+from backend.accounts.models import AuditEntry
+from backend.config.environment import environment
+
+if TYPE_CHECKING:
+    from datetime import datetime
+
+    from backend.accounts.models import User
+
+client_address: ContextVar[str | None] = ContextVar("client_address", default=None)
+"""The address of the client whose request is answered; the guard sets it."""
+
+
+def note(
+    action: str,
+    *,
+    actor: User | None,
+    actor_name: str = "",
+    subject: str = "",
+    subject_id: object = "",
+    **detail: object,
+) -> None:
+    """Adds an entry, in the transaction of what it tells about.
+
+    Args:
+        action: `noun.verb`, such as `project.delete`.
+        actor: who did it; guests and failed sign-ins have a name at most.
+        actor_name: what a failed sign-in called itself.
+        subject: the name of what it was done to, as it was then.
+        subject_id: its key.
+        detail: whatever else explains the entry; nothing secret.
+    """
+    if not environment().is_team:
+        return
+    stored = actor if actor is not None and actor.pk is not None else None
+    AuditEntry.objects.create(
+        at=timezone.now(),
+        actor=stored,
+        actor_name=(stored.username if stored else actor_name)[:150],
+        action=action,
+        subject=subject[:200],
+        subject_id=str(subject_id)[:64],
+        address=client_address.get(),
+        detail=detail,
+    )
+
+
+def forget_old(now: datetime) -> int:
+    """Removes the entries that are older than `BT_STUDIO_AUDIT_DAYS`; returns how many went."""
+    return AuditEntry.objects.filter(at__lt=now - timedelta(days=environment().audit_days)).delete()[0]

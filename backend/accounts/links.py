@@ -1,0 +1,32 @@
+"""Links that carry a right: signed with the server's key, so that the database alone opens nothing."""
+
+from __future__ import annotations
+
+from typing import Final
+from uuid import UUID
+
+from django.core.signing import BadSignature, Signer
+
+from backend.config.environment import environment
+
+MAX_TOKEN: Final = 120
+
+
+def token_of(kind: str, identity: UUID) -> str:
+    """The secret part of the link of an invitation (`join`) or of a project (`shared`)."""
+    return Signer(salt=f"bt-studio {kind}", sep=".").sign(identity.hex)
+
+
+def identity_of(kind: str, token: str) -> UUID | None:
+    """The row that a link names, if this server made the link."""
+    if len(token) > MAX_TOKEN:
+        return None
+    try:
+        return UUID(hex=Signer(salt=f"bt-studio {kind}", sep=".").unsign(token))
+    except (BadSignature, ValueError):
+        return None
+
+
+def link_of(kind: str, identity: UUID) -> str:
+    """The whole link, as users copy it."""
+    return f"{environment().public_url}/{kind}/{token_of(kind, identity)}"

@@ -1,0 +1,80 @@
+"""What is asked of everybody before a view begins: an account, patience with expensive calls.
+
+What someone may do with a project is decided where projects are found (`backend.projects.access`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from rest_framework.permissions import SAFE_METHODS, BasePermission
+from rest_framework.throttling import SimpleRateThrottle
+
+from backend.accounts.models import User
+from backend.config.environment import environment
+from backend.config.problems import StudioError
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
+    from rest_framework.views import APIView
+
+
+class SignInRequiredError(StudioError):
+    """Nobody is signed in."""
+
+    status = 401
+    code = "sign_in_required"
+    title = "Sign in first"
+
+
+class AccountRequiredError(StudioError):
+    """A guest, who came by a read-only link, wants something that takes an account."""
+
+    status = 403
+    code = "account_required"
+    title = "This takes an account"
+
+
+class TeacherRequiredError(StudioError):
+    """Groups and invitations are for teachers and administrators."""
+
+    status = 403
+    code = "teacher_required"
+    title = "Not allowed"
+
+
+class MayAsk(BasePermission):
+    """Users may ask anything; guests may read projects, and what a view says is `open_to_guests`."""
+
+    def has_permission(self, request: Request, view: APIView) -> bool:
+        """Raises what the user is told."""
+        user = request.user
+        if not isinstance(user, User):
+            raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")
+        of_project = "project_id" in getattr(view, "kwargs", {})
+        if user.is_guest and not (
+            request.method in SAFE_METHODS and (of_project or getattr(view, "open_to_guests", False))
+        ):
+            raise AccountRequiredError("You came by a read-only link.", hint="Sign in to do this.")
+        return True
+
+
+class ExpensiveCalls(SimpleRateThrottle):
+    """Bounds the calls a minute to views that say they are `expensive`; on team servers only."""
+
+    scope = "expensive"
+
+    def get_rate(self) -> str:
+        """From the environment."""
+        return f"{environment().expensive_calls_per_minute}/min"
+
+    def allow_request(self, request: Request, view: APIView) -> bool:
+        """Whether there is a call left."""
+        methods: Any = getattr(view, "expensive", ())
+        if not environment().is_team or request.method not in methods:
+            return True
+        return super().allow_request(request, view)
+
+    def get_cache_key(self, request: Request, view: APIView) -> str:
+        """One count a user; guests share one an address."""
+        return f"expensive-{request.user.pk or self.get_ident(request)}"

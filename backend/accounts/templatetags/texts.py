@@ -1,0 +1,15 @@
+"""`{% text "key" name=value %}` in templates."""
+
+from __future__ import annotations
+
+from django import template
+
+from backend.accounts.texts import text as find
+
+register = template.Library()
+
+
+@register.simple_tag
+def text(key: str, **values: object) -> str:
+    """The text in the language of the page."""
+    return find(key, **values)

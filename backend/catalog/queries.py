@@ -28,28 +28,32 @@ def nodes() -> dict[str, Any]:
 @lru_cache(maxsize=1)
 def universes() -> list[dict[str, str]]:
     """The built-in universes, by id."""
-    return [_universe(path) for path in sorted(UNIVERSES.glob("*.yaml"))]
-
-
-def _universe(path: Path) -> dict[str, str]:
-    document = yaml.safe_load(path.read_text(encoding="utf-8"))
-    return {
-        "id": path.stem,
-        "name": str(document.get("name", path.stem)),
-        "description": str(document.get("description", "")),
-    }
+    return [_entry("universes", path.stem, path) for path in sorted(UNIVERSES.glob("*.yaml"))]
 
 
 @lru_cache(maxsize=1)
 def robots() -> list[dict[str, str]]:
     """The built-in robots, by id: each is a folder with its description."""
-    return [_robot(path) for path in sorted(ROBOTS.iterdir()) if path.is_dir() and any(path.glob("*.yaml"))]
+    return [_entry("robots", path.parent.name, path) for path in sorted(ROBOTS.glob("*/robot.yaml"))]
 
 
-def _robot(path: Path) -> dict[str, str]:
-    document = yaml.safe_load(min(path.glob("*.yaml")).read_text(encoding="utf-8"))
+def universe_preview(universe_id: str) -> Path | None:
+    """Where the picture of a built-in universe is, if there is one."""
+    known = {entry["id"] for entry in universes()}
+    return UNIVERSES / "previews" / f"{universe_id}.webp" if universe_id in known else None
+
+
+def robot_preview(robot_id: str) -> Path | None:
+    """Where the picture of a built-in robot is, if there is one."""
+    known = {entry["id"] for entry in robots()}
+    return ROBOTS / robot_id / "preview.webp" if robot_id in known else None
+
+
+def _entry(kind: str, entry_id: str, path: Path) -> dict[str, str]:
+    document = yaml.load(path.read_bytes(), Loader=yaml.CSafeLoader)
     return {
-        "id": path.name,
-        "name": str(document.get("name", path.name)),
+        "id": entry_id,
+        "name": str(document.get("name", entry_id)),
         "description": str(document.get("description", "")),
+        "preview": f"/api/v1/catalog/{kind}/{entry_id}/preview",
     }

@@ -17,12 +17,18 @@ class NodesSerializer(serializers.Serializer[Any]):
     nodes = serializers.ListField(child=ObjectField())
 
 
-class EntrySerializer(serializers.Serializer[Any]):
-    """A universe or a robot."""
+class NamedSerializer(serializers.Serializer[Any]):
+    """Something to choose."""
 
     id = serializers.CharField()
     name = serializers.CharField()
     description = serializers.CharField()
+
+
+class EntrySerializer(NamedSerializer):
+    """A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels."""
+
+    preview = serializers.CharField()
 
 
 class EntryListSerializer(serializers.Serializer[Any]):
@@ -31,7 +37,7 @@ class EntryListSerializer(serializers.Serializer[Any]):
     items = EntrySerializer(many=True)
 
 
-class TemplateSerializer(EntrySerializer):
+class TemplateSerializer(NamedSerializer):
     """A project that new ones start from."""
 
     universe = serializers.CharField()

@@ -5,15 +5,20 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
+from django.http import HttpResponse
+from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.catalog import queries
 from backend.catalog import serializers as s
+from backend.config.problems import NotFoundError
 from backend.projects.templates import templates
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from rest_framework.request import Request
 
 
@@ -35,6 +40,19 @@ class Universes(APIView):
         return Response({"items": queries.universes()})
 
 
+class UniversePreview(APIView):
+    """What a built-in world looks like."""
+
+    @extend_schema(
+        operation_id="get_universe_preview",
+        responses={(200, "image/webp"): OpenApiTypes.BINARY},
+        tags=["catalog"],
+    )
+    def get(self, request: Request, universe_id: str) -> HttpResponse:
+        """A picture of 480 by 270 pixels."""
+        return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
+
+
 class Robots(APIView):
     """Built-in robots."""
 
@@ -44,6 +62,19 @@ class Robots(APIView):
         return Response({"items": queries.robots()})
 
 
+class RobotPreview(APIView):
+    """What a built-in robot looks like."""
+
+    @extend_schema(
+        operation_id="get_robot_preview",
+        responses={(200, "image/webp"): OpenApiTypes.BINARY},
+        tags=["catalog"],
+    )
+    def get(self, request: Request, robot_id: str) -> HttpResponse:
+        """A picture of 480 by 270 pixels."""
+        return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
+
+
 class Templates(APIView):
     """Projects that new ones start from."""
 
@@ -51,3 +82,11 @@ class Templates(APIView):
     def get(self, request: Request) -> Response:
         """The empty project and the examples."""
         return Response({"items": [asdict(template) for template in templates()]})
+
+
+def _picture(path: Path | None, what: str) -> HttpResponse:
+    if path is None or not path.is_file():
+        raise NotFoundError(f"There is no picture of a {what}.")
+    response = HttpResponse(path.read_bytes(), content_type="image/webp")
+    response.headers["Cache-Control"] = "private, max-age=3600"
+    return response

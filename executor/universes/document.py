@@ -64,17 +64,32 @@ def read_yaml(text: str, file: str = "") -> Located:
     if len(text) > MAX_BYTES:
         raise DocumentError([Problem(f"the document is larger than {MAX_BYTES} bytes", code="BTU002")], file)
     try:
-        root = yaml.compose(text, Loader=yaml.SafeLoader)
+        _measure(text, file)
+        root = yaml.compose(text, Loader=yaml.CSafeLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
         raise DocumentError([Problem(str(error.problem or error), line, column)], file) from error
-    except (yaml.YAMLError, RecursionError) as error:
+    except yaml.YAMLError as error:
         raise DocumentError([Problem(str(error).splitlines()[0])], file) from error
     if root is None:
         raise DocumentError([Problem("the document is empty")], file)
     reader = _Reader(file)
     return Located(reader.read(root, ()), reader.places)
+
+
+def _measure(text: str, file: str) -> None:
+    """Refuses what is nested too deeply before anything recurses into it."""
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.CSafeLoader):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > MAX_DEPTH:
+                line, column = event.start_mark.line + 1, event.start_mark.column + 1
+                problem = Problem(f"the document is nested deeper than {MAX_DEPTH}", line, column)
+                raise DocumentError([problem], file)
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
 
 
 class _Reader:

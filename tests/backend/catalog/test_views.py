@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 from backend.catalog.queries import NODES
 
 
@@ -16,6 +18,17 @@ def test_universes_and_robots_have_an_id_and_a_name(api):
     assert {"walled_room", "person_in_green"} <= set(universes)
     assert universes["walled_room"]["name"] == "Walled room"
     assert "turtle2" in {entry["id"] for entry in api.get("catalog/robots")["items"]}
+
+
+@pytest.mark.parametrize("kind", ["universes", "robots"])
+def test_each_universe_and_robot_has_a_picture(api, kind):
+    for entry in api.get(f"catalog/{kind}")["items"]:
+        answer = api.client.get(entry["preview"])
+        assert answer.status_code == 200
+        assert answer["Content-Type"] == "image/webp"
+        assert answer.content[:4] == b"RIFF"
+    assert api.client.get(f"/api/v1/catalog/{kind}/ghost/preview").status_code == 404
+    assert api.client.get(f"/api/v1/catalog/{kind}/..%2Fempty/preview").status_code == 404
 
 
 def test_templates_are_the_empty_project_and_the_examples(api):

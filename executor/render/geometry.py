@@ -14,14 +14,16 @@ if TYPE_CHECKING:
     Vertices = NDArray[np.float32]
 
 SEGMENTS: Final = 24
-RINGS: Final = 12
-CAPSULE_RINGS: Final = 5
 
 
 def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
-    """Returns each vertex once, and the order in which they make the triangles."""
-    unique, order = np.unique(np.round(vertices, 6), axis=0, return_inverse=True)
-    return unique.astype(np.float32), order.ravel().astype(np.uint32)
+    """Returns each vertex once, and the order in which they make the triangles that have an area."""
+    unique, inverse = np.unique(np.round(vertices, 6), axis=0, return_inverse=True)
+    order = inverse.reshape(-1, 3)
+    # Round things end in poles, where vertices have the same place and different normals.
+    corners = unique[order, :3]
+    sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).min(axis=1, initial=np.inf)
+    return unique.astype(np.float32), order[sides > 0].ravel().astype(np.uint32)
 
 
 def grid(count: int) -> Vertices:
@@ -57,10 +59,10 @@ def square() -> Vertices:
     return _pack([(corners[i], up) for i in (0, 1, 2, 0, 2, 3)])
 
 
-def cylinder() -> Vertices:
+def cylinder(segments: int = SEGMENTS) -> Vertices:
     """A cylinder of radius 1 m and length 1 m along z, round the origin."""
     triangles: list[tuple[Any, Any]] = []
-    circle = _circle()
+    circle = _circle(segments)
     up = np.array([0.0, 0.0, 1.0])
     half = up / 2
     for a, b in itertools.pairwise(circle):
@@ -77,15 +79,15 @@ def cylinder() -> Vertices:
     return _pack(triangles)
 
 
-def capsule(radius: float, length: float) -> Vertices:
+def capsule(radius: float, length: float, segments: int = SEGMENTS) -> Vertices:
     """A cylinder of a length along z, closed by two half spheres; a sphere if the length is 0."""
-    rings = CAPSULE_RINGS if length > 0 else RINGS // 2
+    rings = max(2, segments // 4 - 1) if length > 0 else max(2, segments // 4)
     latitudes = [-math.pi / 2 + math.pi / 2 * i / rings for i in range(rings + 1)]
     rows = [(lat, -length / 2) for lat in latitudes] + [(-lat, length / 2) for lat in reversed(latitudes)]
     if length <= 0:
         rows = rows[: rings + 1] + rows[rings + 2 :]
     triangles: list[tuple[Any, Any]] = []
-    circle = _circle()
+    circle = _circle(segments)
     for (lat0, z0), (lat1, z1) in itertools.pairwise(rows):
         for c0, c1 in itertools.pairwise(circle):
             normals = [_on_sphere(c0, lat0), _on_sphere(c1, lat0), _on_sphere(c1, lat1), _on_sphere(c0, lat1)]
@@ -102,8 +104,8 @@ def from_mesh(positions: bytes, normals: bytes, indices: bytes) -> Vertices:
     return np.hstack([points[order], directions[order]]).astype(np.float32)
 
 
-def _circle() -> list[NDArray[np.float64]]:
-    angles = [2 * math.pi * i / SEGMENTS for i in range(SEGMENTS + 1)]
+def _circle(segments: int) -> list[NDArray[np.float64]]:
+    angles = [2 * math.pi * i / segments for i in range(segments + 1)]
     return [np.array([math.cos(angle), math.sin(angle), 0.0]) for angle in angles]
 
 

@@ -1,15 +1,23 @@
-"""The renderer in OpenGL, without a window: on the GPU where there is one, else in software."""
+"""The renderer in OpenGL, without a window: on the GPU where there is one, else in software.
+
+A scene is one stock of triangles on the GPU; a picture is one draw call of those that may be seen, from near
+to far, so that what is hidden costs nothing. Poses go into a texture. Shadows are drawn again only where
+something moved.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+import cv2
 import numpy as np
 
-from executor.render import geometry, shaders
-from executor.render.instances import GAMMA, Group, Instances
+from executor.render import geometry, programs, shadow
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
+from executor.render.pieces import VERTEX, Pieces, matrices
+from executor.render.shadow import ShadowPlan
+from executor.render.smoothing import smoothed
+from executor.render.targets import Targets
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,21 +25,13 @@ if TYPE_CHECKING:
     from executor.messages import Scene
 
 SAMPLES: Final = 4
-SHADOW_SIZE: Final = 1024
-SHADOW_REACH_M: Final = 14.0
-INSTANCE_BYTES: Final = 96
-SKY_PIECES: Final = 12
-
-
-@dataclass(frozen=True)
-class _Batch:
-    """One draw call for each of picture, shadow and measurement."""
-
-    shown: Any
-    shadow: Any
-    measured: Any
-    rows: Any
-    group: Group
+SKY_PIECES: Final = 8
+GAMMA: Final = 2.0  # as in the shaders
+SUN_COLOR: Final = (0.78, 0.74, 0.68)
+GROUND_SKY: Final = (0.52, 0.55, 0.60)
+SOFTWARE: Final = ("llvmpipe", "softpipe", "swrast")
+MATRICES_UNIT: Final = 0
+SHADOW_UNIT: Final = 1
 
 
 class GlRenderer:
@@ -41,53 +41,53 @@ class GlRenderer:
         RenderError: there is no EGL, or it is older than OpenGL 3.3.
     """
 
-    def __init__(self, samples: int = SAMPLES) -> None:
+    def __init__(self) -> None:
         self._context = _make_context()
-        self.name = f"moderngl on {self._context.info['GL_RENDERER']}"
-        self._samples = min(samples, int(self._context.max_samples))
-        self._programs = self._compile()
-        self._ground = self._vertex_array("ground", geometry.square())
-        self._measured_ground = self._vertex_array("measure_ground", geometry.square())
+        card = str(self._context.info["GL_RENDERER"])
+        self.name = f"moderngl on {card}"
+        self._is_software = any(name in card.lower() for name in SOFTWARE)
+        self._programs = programs.compile_all(self._context, gather=self._is_software)
+        for program in self._programs.values():
+            for name, unit in (("matrices", MATRICES_UNIT), ("shadow_map", SHADOW_UNIT)):
+                if name in program:
+                    program[name].value = unit
         self._programs["measure_ground"]["ground"].value = GROUND
-        self._measure_targets: dict[tuple[int, int], Any] = {}
-        self._sky = self._vertex_array("sky", geometry.grid(SKY_PIECES))
-        self._shadow_map, self._shadow_target = self._make_shadow()
-        self._targets: dict[tuple[int, int, bool], tuple[Any, Any]] = {}
-        self._batches: list[_Batch] = []
-        self._buffers: list[Any] = []
-        self._instances: Instances | None = None
+        self._ground = self._quad("ground", geometry.square())
+        self._measured_ground = self._quad("measure_ground", geometry.square())
+        self._sky = self._quad("sky", geometry.grid(SKY_PIECES))
+        self._shadow_map = self._context.depth_texture((shadow.SIZE, shadow.SIZE))
+        self._shadow_map.compare_func = "<="
+        self._shadow_map.repeat_x = self._shadow_map.repeat_y = False
+        self._shadow_target = self._context.framebuffer(depth_attachment=self._shadow_map)
+        samples = 1 if self._is_software else min(SAMPLES, int(self._context.max_samples))
+        self._targets = Targets(self._context, samples)
+        self._stock: _Stock | None = None
+        self._plan: ShadowPlan | None = None
+        self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
+        self._placed = np.empty((0, 3, 4), np.float32)
 
     def load(self, scene: Scene) -> None:
         """Takes a scene in place of the last one."""
-        self._release_scene()
-        self._instances = Instances(scene)
-        for group in self._instances.groups:
-            points, order = geometry.indexed(group.vertices)
-            vertices, indices = self._context.buffer(points.tobytes()), self._context.buffer(order.tobytes())
-            rows = self._context.buffer(reserve=group.count * INSTANCE_BYTES, dynamic=True)
-            self._buffers += [vertices, indices, rows]
-            self._batches.append(self._batch(vertices, indices, rows, group))
+        if self._stock is not None:
+            self._stock.release()
+        self._stock = _Stock(self._context, self._programs, scene)
+        self._plan, self._drawn_poses = None, None
         self._set_light(scene)
 
     def draw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
     ) -> NDArray[np.uint8]:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
-        self._place(poses)
-        shown, resolved = self._target(width, height, smooth=smooth)
-        # Upside down, so that the rows come out of the buffer from top to bottom.
-        projection = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
-        matrix = view.view_matrix()
-        self._cast_shadow(view)
+        stock = self._place(poses)
+        self._cast_shadow(stock, view)
+        shown = self._targets.picture(width, height, smooth=smooth)
         shown.use()
-        shown.clear(depth=1.0)
-        self._paint(projection @ matrix, view)
-        if resolved is not shown:
-            self._context.copy_framebuffer(resolved, shown)
-        picture = np.empty((height, width, 3), np.uint8)
-        resolved.read_into(picture, components=3, alignment=1)
-        return picture
+        self._context.clear(depth=1.0)
+        count = stock.choose(stock.pieces.seen(self._placed, view, width, height))
+        self._paint(stock, count, _upside_down(view, width, height), view)
+        picture: NDArray[np.uint8] = cv2.cvtColor(self._targets.read(width, height), cv2.COLOR_RGBA2RGB)  # type: ignore[assignment]
+        return smoothed(picture) if smooth and self._is_software else picture
 
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
@@ -109,124 +109,60 @@ class GlRenderer:
 
     # --- inside ---
 
-    def _compile(self) -> dict[str, Any]:
-        sources = {
-            "shadow": (shaders.SHADOW_VERTEX, shaders.SHADOW_FRAGMENT),
-            "object": (shaders.OBJECT_VERTEX, shaders.OBJECT_FRAGMENT),
-            "ground": (shaders.GROUND_VERTEX, shaders.GROUND_FRAGMENT),
-            "measure": (shaders.MEASURE_VERTEX, shaders.MEASURE_FRAGMENT),
-            "measure_ground": (shaders.MEASURE_GROUND_VERTEX, shaders.MEASURE_FRAGMENT),
-            "sky": (shaders.SKY_VERTEX, shaders.SKY_FRAGMENT),
-        }
-        return {
-            name: self._context.program(vertex_shader=vertex, fragment_shader=fragment)
-            for name, (vertex, fragment) in sources.items()
-        }
-
-    def _vertex_array(self, program: str, vertices: NDArray[np.float32]) -> Any:
-        buffer = self._context.buffer(vertices.tobytes())
-        return self._context.vertex_array(self._programs[program], [(buffer, "3f 3x4", "in_position")])
-
-    def _batch(self, vertices: Any, indices: Any, rows: Any, group: Group) -> _Batch:
-        shown = [
-            (vertices, "3f 3f", "in_position", "in_normal"),
-            (rows, "16f 4f 4x4/i", "in_model", "in_color"),
-        ]
-        measured = [(vertices, "3f 3x4", "in_position"), (rows, "16f 4x4 1f 3x4/i", "in_model", "in_row")]
-        shadow = [(vertices, "3f 3x4", "in_position"), (rows, "16f 8x4/i", "in_model")]
-        return _Batch(
-            self._context.vertex_array(self._programs["object"], shown, indices),
-            self._context.vertex_array(self._programs["shadow"], shadow, indices),
-            self._context.vertex_array(self._programs["measure"], measured, indices),
-            rows,
-            group,
-        )
-
-    def _make_shadow(self) -> tuple[Any, Any]:
-        depth = self._context.depth_texture((SHADOW_SIZE, SHADOW_SIZE))
-        depth.compare_func = "<="
-        depth.repeat_x = depth.repeat_y = False
-        return depth, self._context.framebuffer(depth_attachment=depth)
-
-    def _target(self, width: int, height: int, *, smooth: bool) -> tuple[Any, Any]:
-        """Returns the framebuffer to draw into and the one to read from."""
-        key = (width, height, smooth and self._samples > 1)
-        if key not in self._targets:
-            size = (width, height)
-            resolved = self._framebuffer(size, 0)
-            self._targets[key] = (self._framebuffer(size, self._samples) if key[2] else resolved, resolved)
-        return self._targets[key]
-
-    def _framebuffer(self, size: tuple[int, int], samples: int) -> Any:
-        color = self._context.renderbuffer(size, 4, samples=samples)
-        depth = self._context.depth_renderbuffer(size, samples=samples)
-        return self._context.framebuffer([color], depth)
+    def _quad(self, program: str, vertices: NDArray[np.float32]) -> Any:
+        points, order = geometry.indexed(vertices)
+        buffer, indices = self._context.buffer(points[:, :3].tobytes()), self._context.buffer(order.tobytes())
+        return self._context.vertex_array(self._programs[program], [(buffer, "3f", "in_position")], indices)
 
     def _set_light(self, scene: Scene) -> None:
         light = scene.lights[0]
-        direction = np.array(light.direction) / np.linalg.norm(light.direction)
-        self._sun = direction
-        for name in ("object", "ground"):
-            program = self._programs[name]
-            program["sun_direction"].value = tuple(direction)
-            program["sun_color"].value = tuple(light.intensity * np.array([0.78, 0.74, 0.68]))
-        self._programs["ground"]["ground_color"].value = tuple(np.array(scene.ground_color[:3]) ** GAMMA)
+        self._sun = np.array(light.direction) / np.linalg.norm(light.direction)
+        color = light.intensity * np.array(SUN_COLOR)
+        self._programs["object"]["sun_direction"].value = tuple(self._sun)
+        self._programs["object"]["sun_color"].value = tuple(color)
+        base = np.array(scene.ground_color[:3]) ** GAMMA
+        dark = base * GROUND_SKY
+        self._programs["ground"]["dark"].value = tuple(dark)
+        self._programs["ground"]["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
 
-    def _place(self, poses: NDArray[np.float32]) -> None:
-        if self._instances is None:
+    def _place(self, poses: NDArray[np.float32]) -> _Stock:
+        if self._stock is None:
             raise RuntimeError("load a scene first")
-        if len(self._instances) and poses is not self._drawn_poses:
-            rows = self._instances.update(poses)
-            for batch in self._batches:
-                first = batch.group.first
-                batch.rows.write(rows[first : first + batch.group.count].tobytes())
+        if poses is not self._drawn_poses:
+            self._placed = matrices(poses)
+            self._stock.place(self._placed)
             self._drawn_poses = poses
+        self._stock.matrices.use(MATRICES_UNIT)
+        return self._stock
 
-    def _cast_shadow(self, view: Viewpoint) -> None:
-        matrix = _light_matrix(self._sun, view)
+    def _cast_shadow(self, stock: _Stock, view: Viewpoint) -> None:
+        if self._plan is None:
+            self._plan = ShadowPlan(stock.pieces, self._placed, self._sun)
+        work = self._plan.dirty(self._placed, view)
+        if not work:
+            return
+        matrix = _bytes(self._plan.matrix)
         for name in ("shadow", "object", "ground"):
-            self._programs[name]["light"].write(_bytes(matrix))
-        self._shadow_target.use()
-        self._shadow_target.clear(depth=1.0)
-        self._context.enable_only(self._context.DEPTH_TEST)
-        for batch in self._batches:
-            batch.shadow.render(instances=batch.group.count)
+            self._programs[name]["light"].write(matrix)
+        target = self._shadow_target
+        for rectangle, order in work:
+            target.scissor = rectangle
+            target.use()
+            target.clear(depth=1.0, viewport=rectangle)
+            self._context.enable_only(self._context.DEPTH_TEST)
+            stock.shadow.render(vertices=stock.choose(order))
+        target.scissor = None
 
-    def _measure(
-        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
-    ) -> NDArray[np.float32]:
-        self._place(poses)
-        target = self._measure_targets.get((width, height))
-        if target is None:
-            values = self._context.renderbuffer((width, height), 2, dtype="f4")
-            depth = self._context.depth_renderbuffer((width, height))
-            target = self._measure_targets[width, height] = self._context.framebuffer([values], depth)
-        target.use()
-        target.clear(np.inf, NOTHING, depth=1.0)
-        projection = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
-        for name in ("measure", "measure_ground"):
-            self._programs[name]["view_projection"].write(_bytes(projection @ view.view_matrix()))
-        self._programs["measure_ground"]["eye"].value = view.eye
-        self._context.enable_only(self._context.DEPTH_TEST | self._context.CULL_FACE)
-        self._context.front_face = "cw"
-        for batch in self._batches:
-            batch.measured.render(instances=batch.group.count)
-        self._context.enable_only(self._context.DEPTH_TEST)
-        self._measured_ground.render()
-        measured = np.empty((height, width, 2), np.float32)
-        target.read_into(measured, components=2, dtype="f4")
-        return measured
-
-    def _paint(self, matrix: NDArray[np.float64], view: Viewpoint) -> None:
+    def _paint(self, stock: _Stock, count: int, matrix: NDArray[np.float64], view: Viewpoint) -> None:
         programs, context = self._programs, self._context
-        self._shadow_map.use(0)
+        self._shadow_map.use(SHADOW_UNIT)
         for name in ("object", "ground"):
             programs[name]["view_projection"].write(_bytes(matrix))
         programs["ground"]["eye"].value = view.eye
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
         context.front_face = "cw"  # the picture is upside down
-        for batch in self._batches:
-            batch.shown.render(instances=batch.group.count)
+        if count:
+            stock.shown.render(vertices=count)
         context.enable_only(context.DEPTH_TEST)
         self._ground.render()
         turn = matrix @ _translation(view.eye)
@@ -235,14 +171,65 @@ class GlRenderer:
         self._sky.render()
         context.depth_func = "<"
 
-    def _release_scene(self) -> None:
-        for batch in self._batches:
-            batch.shown.release()
-            batch.shadow.release()
-            batch.measured.release()
-        for buffer in self._buffers:
-            buffer.release()
-        self._batches, self._buffers, self._drawn_poses = [], [], None
+    def _measure(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.float32]:
+        """Returns metres ahead and row of the object for each pixel."""
+        stock, context = self._place(poses), self._context
+        target = self._targets.measured(width, height)
+        target.use()
+        target.clear(np.inf, NOTHING, depth=1.0)
+        matrix = _bytes(_upside_down(view, width, height))
+        for name in ("measure", "measure_ground"):
+            self._programs[name]["view_projection"].write(matrix)
+        self._programs["measure_ground"]["eye"].value = view.eye
+        context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
+        context.front_face = "cw"
+        count = stock.choose(stock.pieces.seen(self._placed, view, width, height))
+        if count:
+            stock.measured.render(vertices=count)
+        context.enable_only(context.DEPTH_TEST)
+        self._measured_ground.render()
+        measured = np.empty((height, width, 2), np.float32)
+        target.read_into(measured, components=2, dtype="f4")
+        return measured
+
+
+class _Stock:
+    """A scene's triangles on the GPU."""
+
+    def __init__(self, context: Any, programs: dict[str, Any], scene: Scene) -> None:
+        self.pieces = Pieces(scene)
+        self._chosen: Any = None
+        # Never empty: OpenGL has no empty buffers.
+        self._vertices = context.buffer(self.pieces.vertices.tobytes() or bytes(VERTEX.itemsize))
+        self._order = context.buffer(reserve=max(4 * self.pieces.largest_order(), 4), dynamic=True)
+        self.matrices = context.texture((3, max(len(scene.objects), 1)), 4, dtype="f4")
+        self.matrices.filter = (context.NEAREST, context.NEAREST)
+
+        def array(program: str, layout: str, *names: str) -> Any:
+            return context.vertex_array(programs[program], [(self._vertices, layout, *names)], self._order)
+
+        self.shown = array("object", "3f 3f 4f1 1f", "in_position", "in_normal", "in_color", "in_row")
+        self.shadow = array("shadow", "3f 16x 1f", "in_position", "in_row")
+        self.measured = array("measure", "3f 16x 1f", "in_position", "in_row")
+
+    def place(self, placed: NDArray[np.float32]) -> None:
+        """Takes the objects' 3×4 matrices."""
+        if len(placed):
+            self.matrices.write(np.ascontiguousarray(placed).tobytes())
+
+    def choose(self, order: NDArray[np.uint32]) -> int:
+        """Takes the triangles to draw next; returns how many indices they have."""
+        if len(order):
+            self._order.orphan()
+            self._order.write(order)
+        return len(order)
+
+    def release(self) -> None:
+        """Frees it."""
+        for thing in (self.shown, self.shadow, self.measured, self._vertices, self._order, self.matrices):
+            thing.release()
 
 
 def _make_context() -> Any:
@@ -255,23 +242,10 @@ def _make_context() -> Any:
         raise RenderError(str(error).splitlines()[0] if str(error) else type(error).__name__) from error
 
 
-def _light_matrix(sun: NDArray[np.float64], view: Viewpoint) -> NDArray[np.float64]:
-    """Returns the transform to the light's clip space: a box round what is ahead of the viewer."""
-    reach = SHADOW_REACH_M
-    center = np.array(view.eye) + np.array(view.ahead) * reach * 0.6
-    center[2] = 0.0
-    texel = 2 * reach / SHADOW_SIZE
-    # In whole texels, so that shadows' edges do not swim when the viewer moves.
-    center[:2] = np.round(center[:2] / (texel * 8)) * texel * 8
-    side = np.cross(sun, [0.0, 0.0, 1.0])
-    if np.linalg.norm(side) < 1e-6:
-        side = np.array([1.0, 0.0, 0.0])
-    side /= np.linalg.norm(side)
-    rotation = np.array([side, np.cross(side, sun), -sun])
-    matrix = np.eye(4)
-    matrix[:3, :3] = rotation
-    matrix[:3, 3] = -rotation @ center
-    return np.diag([1 / reach, 1 / reach, -1 / (2 * reach), 1.0]) @ matrix
+def _upside_down(view: Viewpoint, width: int, height: int) -> NDArray[np.float64]:
+    """Returns the transform from the world to clip space, so that rows come out from top to bottom."""
+    matrix: NDArray[np.float64] = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
+    return matrix @ view.view_matrix()
 
 
 def _translation(by: tuple[float, float, float]) -> NDArray[np.float64]:

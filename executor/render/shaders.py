@@ -1,152 +1,176 @@
-"""The GL renderer's shader programs. Colours are linear inside and (nearly) sRGB in the picture."""
+"""The GL renderer's shader programs. Colours are linear inside and (nearly) sRGB in the picture.
+
+They are written for a CPU that plays GPU: there every varying and every texel costs, `if` saves nothing, and
+triangles cost more than pixels. So light is reckoned at the vertices, and the fragments only mix.
+"""
 
 from __future__ import annotations
 
 from typing import Final
 
-SHADOW_VERTEX: Final = """
-#version 330
-uniform mat4 light;
-in vec3 in_position;
-in mat4 in_model;
-void main() { gl_Position = light * (in_model * vec4(in_position, 1.0)); }
+HORIZON: Final = "vec3(0.62, 0.71, 0.80)"
+
+_PLACE: Final = """
+uniform sampler2D matrices;
+
+mat4x3 placing(float row) {
+    int at = int(row);
+    return transpose(mat3x4(texelFetch(matrices, ivec2(0, at), 0), texelFetch(matrices, ivec2(1, at), 0),
+                            texelFetch(matrices, ivec2(2, at), 0)));
+}
 """
 
-SHADOW_FRAGMENT: Final = """
-#version 330
-void main() {}
-"""
-
-_LIGHTING: Final = """
+_LIGHT: Final = """
 uniform vec3 sun_direction;
 uniform vec3 sun_color;
 uniform mat4 light;
-uniform sampler2DShadow shadow_map;
 
-float lit(vec3 place, vec3 normal) {
-    vec4 at = light * vec4(place + normal * 0.015, 1.0);
-    vec3 uvd = at.xyz * 0.5 + 0.5;
-    if (any(lessThan(uvd, vec3(0.0))) || any(greaterThan(uvd, vec3(1.0)))) return 1.0;
-    return texture(shadow_map, vec3(uvd.xy, uvd.z - 0.0012));
+vec3 sky_light(vec3 normal) {
+    return mix(vec3(0.30, 0.29, 0.28), vec3(0.52, 0.55, 0.60), normal.z * 0.5 + 0.5);
 }
 
-vec3 shade(vec3 color, vec3 place, vec3 normal) {
-    float facing = max(dot(normal, -sun_direction), 0.0);
-    float sun = facing > 0.0 ? facing * lit(place, normal) : 0.0;
-    vec3 sky = mix(vec3(0.30, 0.29, 0.28), vec3(0.52, 0.55, 0.60), normal.z * 0.5 + 0.5);
-    return color * (sky + sun * sun_color);
-}
+vec3 sun_light(vec3 normal) { return max(dot(normal, -sun_direction), 0.0) * sun_color; }
 
-vec3 finish(vec3 color) {
-    // 1 / gl_FragCoord.w is how far ahead it is. A gamma of 2 for 2.2: powers are what a CPU is slow at.
-    float haze = clamp((1.0 / gl_FragCoord.w - 18.0) / 40.0, 0.0, 1.0);
-    return sqrt(mix(color, vec3(0.62, 0.71, 0.80), haze));
+vec3 in_light(vec3 place, vec3 normal) {
+    return (light * vec4(place + normal * 0.02, 1.0)).xyz;
 }
 """
 
-OBJECT_VERTEX: Final = """
-#version 330
+_FINISH: Final = f"""
+uniform sampler2DShadow shadow_map;
+
+float lit(vec3 uvd) {{
+#ifdef GATHER
+    // The four texels round the place in one go: for a CPU the ready-made filter is four times as much work.
+    vec4 near = textureGather(shadow_map, uvd.xy, uvd.z - 0.0006);
+    vec2 at = fract(uvd.xy * SHADOW_SIZE - 0.5);
+    vec2 columns = mix(near.wx, near.zy, at.x);
+    return mix(columns.x, columns.y, at.y);
+#else
+    return texture(shadow_map, vec3(uvd.xy, uvd.z - 0.0006));
+#endif
+}}
+
+vec4 finish(vec3 color) {{
+    // 1 / gl_FragCoord.w is how far ahead it is. A gamma of 2 for 2.2: powers are what a CPU is slow at.
+    float haze = clamp((1.0 / gl_FragCoord.w - 18.0) / 40.0, 0.0, 1.0);
+    return vec4(sqrt(mix(color, {HORIZON}, haze)), 1.0);
+}}
+"""
+
+SHADOW_VERTEX: Final = f"""
+{_PLACE}
+uniform mat4 light;
+in vec3 in_position;
+in float in_row;
+void main() {{
+    vec3 place = placing(in_row) * vec4(in_position, 1.0);
+    gl_Position = vec4((light * vec4(place, 1.0)).xyz * 2.0 - 1.0, 1.0);
+}}
+"""
+
+SHADOW_FRAGMENT: Final = """
+void main() {}
+"""
+
+OBJECT_VERTEX: Final = f"""
+{_PLACE}
+{_LIGHT}
 uniform mat4 view_projection;
 in vec3 in_position;
 in vec3 in_normal;
-in mat4 in_model;
 in vec4 in_color;
-out vec3 place;
-out vec3 normal;
-out vec3 color;
-void main() {
-    vec4 world = in_model * vec4(in_position, 1.0);
-    mat3 turn = mat3(in_model);
-    vec3 squares = vec3(dot(turn[0], turn[0]), dot(turn[1], turn[1]), dot(turn[2], turn[2]));
-    place = world.xyz;
-    normal = turn * (in_normal / squares);
-    color = in_color.rgb;
-    gl_Position = view_projection * world;
-}
+in float in_row;
+out vec3 dark;
+out vec3 bright;
+out vec3 uvd;
+void main() {{
+    mat4x3 placed = placing(in_row);
+    vec3 place = placed * vec4(in_position, 1.0);
+    vec3 normal = mat3(placed) * in_normal;
+    vec3 color = in_color.rgb * in_color.rgb;
+    dark = color * sky_light(normal);
+    bright = dark + color * sun_light(normal);
+    uvd = in_light(place, normal);
+    gl_Position = view_projection * vec4(place, 1.0);
+}}
 """
 
 OBJECT_FRAGMENT: Final = f"""
-#version 330
-{_LIGHTING}
-in vec3 place;
-in vec3 normal;
-in vec3 color;
+{_FINISH}
+in vec3 dark;
+in vec3 bright;
+in vec3 uvd;
 out vec4 picture;
-void main() {{
-    vec3 n = normalize(normal);
-    vec3 shaded = shade(color, place, n);
-    picture = vec4(finish(shaded), 1.0);
-}}
+void main() {{ picture = finish(mix(dark, bright, lit(uvd))); }}
 """
 
-GROUND_VERTEX: Final = """
-#version 330
+GROUND_VERTEX: Final = f"""
+{_LIGHT}
 uniform mat4 view_projection;
 uniform vec3 eye;
 in vec3 in_position;
-out vec3 place;
-void main() {
-    place = vec3(eye.xy + in_position.xy * 240.0, 0.0);
-    gl_Position = view_projection * vec4(place, 1.0);
-}
+out vec2 place;
+out vec3 uvd;
+void main() {{
+    vec3 at = vec3(eye.xy + in_position.xy * 240.0, 0.0);
+    place = at.xy;
+    uvd = in_light(at, vec3(0.0, 0.0, 1.0));
+    gl_Position = view_projection * vec4(at, 1.0);
+}}
 """
 
 GROUND_FRAGMENT: Final = f"""
-#version 330
-{_LIGHTING}
-uniform vec3 ground_color;
-in vec3 place;
+{_FINISH}
+uniform vec3 dark;
+uniform vec3 bright;
+in vec2 place;
+in vec3 uvd;
 out vec4 picture;
+
 float line(vec2 at, float width) {{
     vec2 wide = fwidth(at) + width;
     vec2 away = abs(fract(at - 0.5) - 0.5);
-    vec2 on = clamp(1.5 - away / wide, 0.0, 1.0);
-    return max(on.x, on.y) * clamp(0.35 / max(wide.x, wide.y), 0.0, 1.0);
+    vec2 on = clamp(1.5 - away / wide, 0.0, 1.0) * clamp(0.35 / wide, 0.0, 1.0);
+    return max(on.x, on.y);
 }}
-void main() {{
-    float tiles = line(place.xy, 0.012);
-    vec3 color = ground_color * (1.0 - 0.16 * tiles);
-    picture = vec4(finish(shade(color, place, vec3(0.0, 0.0, 1.0))), 1.0);
-}}
+
+void main() {{ picture = finish(mix(dark, bright, lit(uvd)) * (1.0 - 0.16 * line(place, 0.012))); }}
 """
 
-SKY_VERTEX: Final = """
-#version 330
+SKY_VERTEX: Final = f"""
 uniform mat4 to_world;
 in vec3 in_position;
 out vec3 color;
-void main() {
+void main() {{
     vec2 at = in_position.xy * 2.0;
     vec4 far = to_world * vec4(at, 1.0, 1.0);
     float up = clamp(normalize(far.xyz / far.w).z, 0.0, 1.0);
-    color = sqrt(mix(vec3(0.62, 0.71, 0.80), vec3(0.27, 0.45, 0.70), sqrt(up)));
+    color = sqrt(mix({HORIZON}, vec3(0.27, 0.45, 0.70), sqrt(up)));
     gl_Position = vec4(at, 1.0, 1.0);
-}
+}}
 """
 
 SKY_FRAGMENT: Final = """
-#version 330
 in vec3 color;
 out vec4 picture;
 void main() { picture = vec4(color, 1.0); }
 """
 
 # What a depth camera and a labelled picture see: metres ahead, and the row of the object.
-MEASURE_VERTEX: Final = """
-#version 330
+MEASURE_VERTEX: Final = f"""
+{_PLACE}
 uniform mat4 view_projection;
 in vec3 in_position;
-in mat4 in_model;
 in float in_row;
 flat out float row;
-void main() {
+void main() {{
     row = in_row;
-    gl_Position = view_projection * (in_model * vec4(in_position, 1.0));
-}
+    gl_Position = view_projection * vec4(placing(in_row) * vec4(in_position, 1.0), 1.0);
+}}
 """
 
 MEASURE_GROUND_VERTEX: Final = """
-#version 330
 uniform mat4 view_projection;
 uniform vec3 eye;
 uniform float ground;
@@ -159,7 +183,6 @@ void main() {
 """
 
 MEASURE_FRAGMENT: Final = """
-#version 330
 flat in float row;
 out vec2 measured;
 void main() { measured = vec2(1.0 / gl_FragCoord.w, row); }

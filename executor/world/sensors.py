@@ -57,7 +57,7 @@ class Sensors:
         key = ("picture", robot.id, camera.name, wide)
         if key not in self._kept:
             view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
-            self._kept[key] = self._draw(view, wide, high, smooth=False)
+            self._kept[key] = self._draw(view, wide, high, smooth=True)
         return self._kept[key]  # type: ignore[return-value]
 
     def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:

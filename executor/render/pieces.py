@@ -1,0 +1,215 @@
+"""A scene as one stock of triangles, in numpy alone, and the choice of those that a picture needs."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from executor.render import geometry
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from executor.messages import Scene, Shape
+    from executor.render.interface import Viewpoint
+
+    Floats = NDArray[np.float32]
+    Order = NDArray[np.uint32]
+
+VERTEX: Final = np.dtype(
+    [("position", "<f4", 3), ("normal", "<f4", 3), ("color", "u1", 4), ("row", "<f4")], align=False
+)
+"""Position in m and normal in the object's frame, colour in sRGB, row of the object in the scene."""
+
+SEGMENTS: Final = (24, 12, 6)
+LEVELS_PX: Final = (8.0, 30.0)
+"""A round thing that is smaller than this (its radius, in pixels) is drawn with fewer triangles."""
+SMALLEST_PX: Final = 0.5
+
+
+class Pieces:
+    """All shapes of a scene, one piece each, in up to three levels of detail.
+
+    Attributes:
+        vertices: all vertices of all levels, as `VERTEX`.
+        rows: of each piece, the row of its object.
+        lows, highs: of each piece, the corners of its box in the object's frame.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        shapes = [(row, shape) for row, thing in enumerate(scene.objects) for shape in thing.shapes]
+        self.rows = np.array([row for row, _ in shapes], np.intp)
+        self.is_flat = np.array([shape.shape == "plane" for _, shape in shapes], bool)
+        self._orders: list[list[Order]] = []
+        made: dict[tuple[object, ...], list[tuple[Floats, Order]]] = {}
+        stock: list[NDArray[np.void]] = []
+        total = 0
+        for row, shape in shapes:
+            key = _mesh_key(shape)
+            if key not in made:
+                made[key] = [geometry.indexed(vertices) for vertices in _levels(key, scene)]
+            orders: list[Order] = []
+            for points, order in made[key]:
+                stock.append(_placed(points, shape, row))
+                orders.append(order + np.uint32(total))
+                total += len(points)
+            self._orders.append([orders[min(level, len(orders) - 1)] for level in range(len(SEGMENTS))])
+        self.vertices = np.concatenate(stock) if stock else np.zeros(0, VERTEX)
+        boxes = [_box(placed["position"]) for placed in _first_levels(stock, made, shapes)]
+        self.lows = np.array([low for low, _ in boxes], np.float32).reshape(-1, 3)
+        self.highs = np.array([high for _, high in boxes], np.float32).reshape(-1, 3)
+        self._middles = (self.lows + self.highs) / 2
+        # How round a thing looks: of a pole its own radius, of a disc that of its rim.
+        self.rounds: Floats = (np.sort(self.highs - self.lows, axis=1)[:, 1] / 2).astype(np.float32)
+        self.radii: Floats = (np.linalg.norm(self.highs - self.lows, axis=1) / 2).astype(np.float32)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def largest_order(self) -> int:
+        """Returns how many indices all pieces have at most."""
+        return sum(max(len(order) for order in orders) for orders in self._orders)
+
+    def centers(self, placed: Floats) -> Floats:
+        """Returns the middle of each piece in the world, where `placed` has the objects' matrices."""
+        turned = placed[self.rows]
+        centers: Floats = np.einsum("nij,nj->ni", turned[:, :, :3], self._middles) + turned[:, :, 3]
+        return centers
+
+    def corners(self, placed: Floats) -> NDArray[np.float64]:
+        """Returns the eight corners of each piece's box in the world, one after the other."""
+        turned = placed[self.rows].astype(np.float64)
+        ends = np.stack([self.lows, self.highs], axis=1)
+        corners = [ends[:, pick, np.arange(3)] for pick in itertools.product((0, 1), repeat=3)]
+        return np.concatenate(
+            [np.einsum("nij,nj->ni", turned[:, :, :3], corner) + turned[:, :, 3] for corner in corners]
+        )
+
+    def seen(self, placed: Floats, view: Viewpoint, width: int, height: int) -> Order:
+        """Returns the triangles of all that may be in a picture, the nearest pieces first."""
+        if not len(self):
+            return np.zeros(0, np.uint32)
+        matrix = view.view_matrix().astype(np.float32)
+        eye = self.centers(placed) @ matrix[:3, :3].T + matrix[:3, 3]
+        ahead, radii = -eye[:, 2], self.radii
+        wide = math.tan(view.fov / 2)
+        high = wide * height / width
+        scale = (width / 2 / wide) / np.maximum(ahead, view.near)
+        pixels = radii * scale
+        shown = (ahead > view.near - radii) & (ahead < view.far + radii) & (pixels > SMALLEST_PX)
+        for side, slope in ((np.abs(eye[:, 0]), wide), (np.abs(eye[:, 1]), high)):
+            shown &= side < ahead * slope + radii * math.sqrt(1 + slope * slope)
+        numbers = np.flatnonzero(shown)
+        nearest = numbers[np.argsort(self._distances(placed, numbers, view.eye))]
+        levels = len(SEGMENTS) - 1 - np.searchsorted(LEVELS_PX, (self.rounds * scale)[nearest])
+        return self.order_of(nearest, levels)
+
+    def order_of(self, numbers: NDArray[np.intp], levels: NDArray[np.intp]) -> Order:
+        """Returns the triangles of pieces, each in its level of detail."""
+        if not len(numbers):
+            return np.zeros(0, np.uint32)
+        orders = self._orders
+        pairs = zip(numbers.tolist(), levels.tolist(), strict=True)
+        return np.concatenate([orders[number][level] for number, level in pairs])
+
+    def _distances(
+        self, placed: Floats, numbers: NDArray[np.intp], eye: tuple[float, float, float]
+    ) -> Floats:
+        """Returns how far each piece's box is from the eye."""
+        turned = placed[self.rows[numbers]]
+        local = np.einsum("nji,nj->ni", turned[:, :, :3], np.array(eye, np.float32) - turned[:, :, 3])
+        apart = local - np.clip(local, self.lows[numbers], self.highs[numbers])
+        distances: Floats = np.einsum("ni,ni->n", apart, apart)
+        return distances
+
+
+def matrices(poses: Floats) -> Floats:
+    """Returns the 3×4 matrices of rows [x, y, z, qx, qy, qz, qw]."""
+    x, y, z, w = poses[:, 3], poses[:, 4], poses[:, 5], poses[:, 6]
+    result = np.empty((len(poses), 3, 4), np.float32)
+    result[:, 0, 0] = 1 - 2 * (y * y + z * z)
+    result[:, 0, 1] = 2 * (x * y - z * w)
+    result[:, 0, 2] = 2 * (x * z + y * w)
+    result[:, 1, 0] = 2 * (x * y + z * w)
+    result[:, 1, 1] = 1 - 2 * (x * x + z * z)
+    result[:, 1, 2] = 2 * (y * z - x * w)
+    result[:, 2, 0] = 2 * (x * z - y * w)
+    result[:, 2, 1] = 2 * (y * z + x * w)
+    result[:, 2, 2] = 1 - 2 * (x * x + y * y)
+    result[:, :, 3] = poses[:, :3]
+    return result
+
+
+def _first_levels(
+    stock: list[NDArray[np.void]],
+    made: dict[tuple[object, ...], list[tuple[Floats, Order]]],
+    shapes: list[tuple[int, Shape]],
+) -> list[NDArray[np.void]]:
+    firsts, at = [], 0
+    for _, shape in shapes:
+        firsts.append(stock[at])
+        at += len(made[_mesh_key(shape)])
+    return firsts
+
+
+def _box(positions: Floats) -> tuple[Floats, Floats]:
+    if not len(positions):
+        return np.zeros(3, np.float32), np.zeros(3, np.float32)
+    return positions.min(axis=0), positions.max(axis=0)
+
+
+def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
+    """Returns the vertices of a shape in its object's frame."""
+    turn = matrices(np.array([shape.pose], np.float32))[0]
+    scale = np.array(_scale(shape), np.float32)
+    normals = points[:, 3:6] / scale
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
+    result = np.zeros(len(points), VERTEX)
+    result["position"] = points[:, :3] * scale @ turn[:, :3].T + turn[:, 3]
+    result["normal"] = normals @ turn[:, :3].T
+    result["color"] = np.round(np.clip(shape.color, 0.0, 1.0) * np.float32(255)).astype(np.uint8)
+    result["row"] = row
+    return result
+
+
+def _mesh_key(shape: Shape) -> tuple[object, ...]:
+    # A capsule cannot be stretched without spoiling its ends, so each size is a mesh of its own.
+    if shape.shape == "capsule":
+        return ("capsule", *shape.size)
+    return (shape.shape, shape.mesh) if shape.shape == "mesh" else (shape.shape,)
+
+
+def _levels(key: tuple[object, ...], scene: Scene) -> list[Floats]:
+    match key:
+        case ("box",):
+            return [geometry.box()]
+        case ("plane",):
+            return [geometry.square()]
+        case ("cylinder",):
+            return [geometry.cylinder(segments) for segments in SEGMENTS]
+        case ("sphere",):
+            return [geometry.capsule(1.0, 0.0, segments) for segments in SEGMENTS]
+        case ("capsule", float(radius), float(length)):
+            return [geometry.capsule(radius, length, segments) for segments in SEGMENTS]
+        case ("mesh", str(name)):
+            mesh = scene.meshes[name]
+            return [geometry.from_mesh(mesh.positions, mesh.normals, mesh.indices)]
+    raise ValueError(f"there is no shape {key}")
+
+
+def _scale(shape: Shape) -> tuple[float, float, float]:
+    size = shape.size
+    match shape.shape:
+        case "cylinder":
+            return size[0], size[0], size[1]
+        case "sphere":
+            return size[0], size[0], size[0]
+        case "plane":
+            return size[0], size[1], 1.0
+        case "capsule":
+            return 1.0, 1.0, 1.0
+        case _:
+            return size[0], size[1], size[2]

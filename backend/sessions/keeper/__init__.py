@@ -1,0 +1,12 @@
+"""The keeper: the one program that talks to Docker, and lets the web server start executors and nothing else.
+
+It runs beside the web server, holds the Docker socket, and has no network. It is told ids and tokens of
+sessions, never images, mounts, commands or limits: those are its own. The standard library is all it uses,
+so that what has root's power over the host can be read in one sitting:
+
+    docker      the Docker Engine's API over its socket
+    plan        what an executor's container may do, and its limits
+    gate        how an executor without a network is reached
+    service     start, look, stop, and what has run too long
+    server      the four requests that the web server may make
+"""

@@ -1,0 +1,139 @@
+"""The requests that the web server may make, over a unix socket that only it sees.
+
+GET    /health                  200 when Docker answers
+GET    /sessions                every executor
+POST   /sessions                {session, token, domain_id, timeout_s}: starts one
+GET    /sessions/<id>           whether it runs
+DELETE /sessions/<id>?timeout_s=5   ends it
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import re
+import socketserver
+from http.server import BaseHTTPRequestHandler
+from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import parse_qs, urlsplit
+
+from backend.sessions.keeper.errors import KeeperError
+from backend.sessions.keeper.gate import listen_at
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from backend.sessions.keeper.service import Keeper
+
+log = logging.getLogger(__name__)
+
+SESSION_ID: Final = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
+TOKEN: Final = re.compile(r"[0-9A-Za-z_-]{32,128}")
+MAX_BODY_BYTES: Final = 4096
+MAX_TIMEOUT_S: Final = 300.0
+
+
+class KeeperServer(socketserver.ThreadingUnixStreamServer):
+    """Listens at a path."""
+
+    daemon_threads = True
+
+    def __init__(self, path: Path, keeper: Keeper) -> None:
+        super().__init__(str(path), _Handler, bind_and_activate=False)
+        self.keeper = keeper
+        self.socket.close()
+        self.socket = listen_at(path)
+
+
+class _Handler(BaseHTTPRequestHandler):
+    server: KeeperServer
+    protocol_version = "HTTP/1.1"
+    timeout = 30
+
+    def do_GET(self) -> None:
+        self._run(self._get)
+
+    def do_POST(self) -> None:
+        self._run(self._post)
+
+    def do_DELETE(self) -> None:
+        self._run(self._delete)
+
+    def _get(self) -> tuple[int, object]:
+        keeper = self.server.keeper
+        if self.path == "/health":
+            keeper.list()
+            return 200, {"status": "ok"}
+        if self.path == "/sessions":
+            return 200, {"sessions": keeper.list()}
+        return 200, keeper.look(self._session_id())
+
+    def _post(self) -> tuple[int, object]:
+        if self.path != "/sessions":
+            raise KeeperError(404, "not_found", "There is no such address.")
+        body = self._body()
+        session_id, token = body.get("session"), body.get("token")
+        domain_id: Any = body.get("domain_id")
+        timeout_s: Any = body.get("timeout_s", 30)
+        is_valid = (
+            isinstance(session_id, str)
+            and SESSION_ID.fullmatch(session_id)
+            and isinstance(token, str)
+            and TOKEN.fullmatch(token)
+            and type(domain_id) is int
+            and 0 <= domain_id <= 101
+            and isinstance(timeout_s, int | float)
+            and 0 < timeout_s <= MAX_TIMEOUT_S
+            and set(body) <= {"session", "token", "domain_id", "timeout_s"}
+        )
+        if not is_valid:
+            raise KeeperError(400, "bad_request", "A start names session, token, domain_id and timeout_s.")
+        return 201, self.server.keeper.start(str(session_id), str(token), int(domain_id), float(timeout_s))
+
+    def _delete(self) -> tuple[int, object]:
+        asked = parse_qs(urlsplit(self.path).query).get("timeout_s", ["5"])[0]
+        try:
+            timeout_s = min(max(float(asked), 1.0), MAX_TIMEOUT_S)
+        except ValueError:
+            raise KeeperError(400, "bad_request", "timeout_s is no number.") from None
+        self.server.keeper.stop(self._session_id(), timeout_s)
+        return 200, {}
+
+    def _session_id(self) -> str:
+        folder, _, session_id = urlsplit(self.path).path.rpartition("/")
+        if folder != "/sessions" or not SESSION_ID.fullmatch(session_id):
+            raise KeeperError(404, "not_found", "There is no such address.")
+        return session_id
+
+    def _body(self) -> dict[str, Any]:
+        try:
+            length = int(self.headers.get("Content-Length", ""))
+            if not 0 < length <= MAX_BODY_BYTES:
+                raise ValueError("too long")
+            body = json.loads(self.rfile.read(length))
+        except (ValueError, RecursionError):
+            raise KeeperError(400, "bad_request", "The body is no JSON object.") from None
+        if not isinstance(body, dict):
+            raise KeeperError(400, "bad_request", "The body is no JSON object.")
+        return body
+
+    def _run(self, request: Any) -> None:
+        try:
+            status, answer = request()
+        except KeeperError as error:
+            log.info("%s %s: %s", self.command, self.path, error.detail)
+            status, answer = error.status, {"code": error.code, "detail": error.detail, "log": error.log}
+        data = json.dumps(answer).encode()
+        self.send_response(status)
+        self.send_header("Content-Type", "application/json")
+        self.send_header("Content-Length", str(len(data)))
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(data)
+
+    def address_string(self) -> str:
+        """A unix socket's client has no address."""
+        return "web"
+
+    def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 - the base class's name
+        """Requests are no news."""

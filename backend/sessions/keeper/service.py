@@ -1,0 +1,144 @@
+"""Starts, watches and ends the executors' containers. All that it knows it asks Docker for."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import threading
+import time
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, Final
+
+from backend.sessions.keeper.errors import KeeperError
+from backend.sessions.keeper.plan import SESSION_LABEL, STACK_LABEL
+
+if TYPE_CHECKING:
+    from backend.sessions.keeper.docker import Docker
+    from backend.sessions.keeper.gate import Gate
+    from backend.sessions.keeper.plan import Plan
+
+log = logging.getLogger(__name__)
+
+LOOK_EVERY_S: Final = 0.25
+LOG_LINES: Final = 20
+STOP_TIMEOUT_S: Final = 10.0
+KEPT_AFTER_END_S: Final = 3600.0
+
+
+class Keeper:
+    """The executors of one stack.
+
+    Args:
+        max_sessions: how many may run at once.
+    """
+
+    def __init__(self, docker: Docker, gate: Gate, plan: Plan, *, max_sessions: int) -> None:
+        self._docker = docker
+        self._gate = gate
+        self._plan = plan
+        self._max_sessions = max_sessions
+        self._starting: set[str] = set()
+        self._lock = threading.Lock()
+
+    def start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> dict[str, Any]:
+        """Starts an executor, and returns where it listens.
+
+        Raises:
+            KeeperError: the host is full, the session runs already, or its executor did not start.
+                Then nothing is left of it.
+        """
+        with self._lock:
+            if session_id in self._starting or self._docker.inspect(self._plan.container_name(session_id)):
+                raise KeeperError(409, "session_exists", "This session has an executor.")
+            running = sum(one["running"] for one in self.list() if one["session"] not in self._starting)
+            if running + len(self._starting) >= self._max_sessions:
+                raise KeeperError(429, "host_full", f"All {self._max_sessions} places are taken.")
+            self._starting.add(session_id)
+        try:
+            self._start(session_id, token, domain_id, timeout_s)
+        except BaseException:
+            self._clear(session_id)
+            raise
+        finally:
+            with self._lock:
+                self._starting.discard(session_id)
+        return {"socket": str(self._gate.path(session_id))}
+
+    def _start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> None:
+        name = self._plan.container_name(session_id)
+        arrived = self._gate.expect(session_id, token)
+        self._docker.create(name, self._plan.container(session_id, token, domain_id))
+        self._docker.start(name)
+        deadline = time.monotonic() + timeout_s
+        while not arrived.wait(LOOK_EVERY_S):
+            state = (self._docker.inspect(name) or {}).get("State", {})
+            if not state.get("Running"):
+                reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
+                raise KeeperError(502, "executor_failed", reason, self._docker.log(name, LOG_LINES))
+            if time.monotonic() > deadline:
+                reason = f"The executor did not report that it is ready within {timeout_s:g} s."
+                raise KeeperError(504, "executor_slow", reason, self._docker.log(name, LOG_LINES))
+
+    def look(self, session_id: str) -> dict[str, Any]:
+        """Whether an executor runs, and how it ended."""
+        found = self._docker.inspect(self._plan.container_name(session_id))
+        if found is None:
+            return {"running": False, "status": None, "reason": "There is no executor of this session."}
+        state = found["State"]
+        if state["Running"]:
+            return {"running": True, "status": None, "reason": ""}
+        reason = ""
+        if state.get("OOMKilled"):
+            reason = f"It used more than its {self._plan.limits.memory_mb:g} MB of memory."
+        return {"running": False, "status": int(state["ExitCode"]), "reason": reason}
+
+    def list(self) -> list[dict[str, Any]]:
+        """Every executor of this stack."""
+        return [
+            {
+                "session": one["Labels"][SESSION_LABEL],
+                "running": one["State"] == "running",
+                "created": one["Created"],
+            }
+            for one in self._docker.list({STACK_LABEL: self._plan.stack})
+            if SESSION_LABEL in one["Labels"]
+        ]
+
+    def stop(self, session_id: str, timeout_s: float) -> None:
+        """Ends an executor and removes its container; ending twice is no error."""
+        self._docker.stop(self._plan.container_name(session_id), timeout_s)
+        self._clear(session_id)
+
+    def _clear(self, session_id: str) -> None:
+        with contextlib.suppress(KeeperError):
+            self._docker.remove(self._plan.container_name(session_id))
+        self._gate.remove(session_id)
+
+    def tidy(self, now_s: float) -> None:
+        """Ends what has run for too long, and removes what ended long ago and nobody asked for."""
+        oldest_s = now_s - self._plan.limits.hours * 3600
+        for one in self.list():
+            try:
+                if one["running"] and one["created"] < oldest_s:
+                    log.warning("session %s has used up its time", one["session"])
+                    self._docker.stop(self._plan.container_name(one["session"]), STOP_TIMEOUT_S)
+                elif not one["running"] and one["created"] < now_s and self._ended_long_ago(one, now_s):
+                    self._clear(one["session"])
+            except KeeperError as error:
+                log.warning("session %s: %s", one["session"], error.detail)
+
+    def _ended_long_ago(self, one: dict[str, Any], now_s: float) -> bool:
+        with self._lock:
+            if one["session"] in self._starting:
+                return False
+        found = self._docker.inspect(self._plan.container_name(one["session"]))
+        return found is not None and ended_at(found["State"]) < now_s - KEPT_AFTER_END_S
+
+
+def ended_at(state: dict[str, Any]) -> float:
+    """When a container ended, in seconds since the epoch; Docker writes nanoseconds."""
+    text = str(state.get("FinishedAt", ""))[:19]
+    try:
+        return datetime.fromisoformat(text).replace(tzinfo=UTC).timestamp()
+    except ValueError:
+        return 0.0

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Builds BT Studio's images: bt-studio-web, bt-studio-executor, bt-studio-keeper.
+#
+# The images that theirs start from are pulled. Where no registry is reachable they are made on this machine,
+# which takes root and Debian's debootstrap, and tagged with the names that the Dockerfiles use.
+#
+#   docker/images.sh [TAG]          (the tag is "latest" by default)
+#
+#   DOCKER               the docker program
+#   BT_STUDIO_CA         a CA bundle for the package registries, given to the build as a secret
+#   BT_STUDIO_NPMRC      npm's settings, given to the build as a secret
+#   BT_STUDIO_NO_PULL=1  does not ask a registry at all
+set -euo pipefail
+cd "$(dirname "$0")/.."
+tag=${1:-latest}
+docker=${DOCKER:-docker}
+export DOCKER_BUILDKIT=1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+say() { echo "images: $*"; }
+
+secrets=()
+if [ -n "${BT_STUDIO_CA:-}" ]; then secrets+=(--secret "id=ca,src=$BT_STUDIO_CA"); fi
+if [ -n "${BT_STUDIO_NPMRC:-}" ]; then secrets+=(--secret "id=npmrc,src=$BT_STUDIO_NPMRC"); fi
+
+build() { "$docker" build --quiet --network=host ${secrets[@]+"${secrets[@]}"} "$@" >/dev/null; }
+
+has() { "$docker" image inspect "$1" >/dev/null 2>&1; }
+
+pull() { [ "${BT_STUDIO_NO_PULL:-}" != 1 ] && timeout 60 "$docker" pull --quiet "$1" >/dev/null 2>&1; }
+
+make_debian() {
+  if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
+    say "no registry is reachable, and without root and debootstrap debian:bookworm-slim cannot be made here" >&2
+    exit 1
+  fi
+  debootstrap --variant=minbase bookworm "$work/debian" >"$work/debootstrap.log" || { tail "$work/debootstrap.log"; exit 1; }
+  printf 'deb http://deb.debian.org/debian bookworm main\ndeb http://deb.debian.org/debian bookworm-updates main\ndeb http://deb.debian.org/debian-security bookworm-security main\n' \
+    >"$work/debian/etc/apt/sources.list"
+  # As the official image has it: no translations, no sync of each file.
+  echo 'Acquire::Languages "none";' >"$work/debian/etc/apt/apt.conf.d/docker-no-languages"
+  echo force-unsafe-io >"$work/debian/etc/dpkg/dpkg.cfg.d/docker-apt-speedup"
+  rm -rf "$work"/debian/var/lib/apt/lists/* "$work"/debian/var/cache/apt/*.bin "$work"/debian/var/cache/apt/archives/*.deb \
+    "$work"/debian/usr/share/{doc,man,info,locale}/* "$work"/debian/var/log/*
+  tar -C "$work/debian" -c . | "$docker" import --change 'CMD ["bash"]' - "$1" >/dev/null
+}
+
+make_node() {
+  mkdir "$work/node"
+  cp "$(readlink -f "$(command -v node)")" "$work/node/node"
+  cp -r "$(dirname "$(dirname "$(readlink -f "$(command -v npm)")")")" "$work/node/npm"
+  build -f docker/bases/node.Dockerfile -t "$1" "$work/node"
+}
+
+make_postgres() { build -f docker/bases/postgres.Dockerfile -t "$1" docker/bases; }
+
+make_redis() { build -f docker/bases/redis.Dockerfile -t "$1" docker/bases; }
+
+base() {
+  if has "$1" || pull "$1"; then return; fi
+  say "making $1 on this machine …"
+  "$2" "$1"
+}
+
+base debian:bookworm-slim make_debian
+base node:22-bookworm-slim make_node
+base postgres:15-bookworm make_postgres
+base redis:7-bookworm make_redis
+for image in executor web keeper; do
+  say "building bt-studio-$image:$tag …"
+  build -f "docker/$image.Dockerfile" -t "bt-studio-$image:$tag" .
+done
+say "done"

@@ -24,7 +24,7 @@ class _Client:
     left_s: float = 0.0
     has_stream: bool = False
     streams: dict[StreamName, Subscribe] = field(default_factory=dict)
-    echoed: set[str] = field(default_factory=set)
+    echoed: dict[str, float] = field(default_factory=dict)
 
 
 class Clients:
@@ -122,10 +122,19 @@ class Clients:
             for data in self.streams_of(client):
                 yield client, data
 
-    def echo(self, client: str, topic: str, *, wanted: bool) -> bool:
-        """Notes who listens to a topic; tells whether anybody does."""
-        (self._clients[client].echoed.add if wanted else self._clients[client].echoed.discard)(topic)
-        return any(self._echoers(topic))
+    def echo(self, client: str, topic: str, max_hz: float) -> float:
+        """Notes who listens to a topic; returns the highest rate that somebody wants, or 0."""
+        if max_hz > 0:
+            self._clients[client].echoed[topic] = max_hz
+        else:
+            self._clients[client].echoed.pop(topic, None)
+        return max((self._clients[c].echoed[topic] for c in self._echoers(topic)), default=0.0)
+
+    def echoes(self) -> dict[str, float]:
+        """The topics that clients listen to, and how often at most."""
+        here = [record.echoed for record in self._clients.values() if record.is_here]
+        topics = {topic for echoed in here for topic in echoed}
+        return {topic: max(echoed.get(topic, 0.0) for echoed in here) for topic in topics}
 
     def listeners(self, event: Struct) -> list[str]:
         """Who gets a `topics` or `topic_message` event."""

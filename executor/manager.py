@@ -39,6 +39,7 @@ from executor.events import (
     Unpack,
     Unpacked,
 )
+from executor.gate import fetch_listener
 from executor.processes import Limits, Program
 from executor.protocol import About, Session
 from executor.ros.environment import ros_environment
@@ -64,6 +65,8 @@ class ManagerSettings:
         token: what clients must show; "" asks for none.
         domain_id: of the session's ROS graph; None takes one that nobody uses.
         grace_s: how long a session without clients lives; 0 for ever.
+        listener: a unix socket to listen at besides.
+        is_closed_off: whether no other program can reach its ROS graph, since it runs in a container.
     """
 
     host: str = "127.0.0.1"
@@ -71,7 +74,9 @@ class ManagerSettings:
     token: str = ""
     domain_id: int | None = None
     grace_s: float = 300.0
+    is_closed_off: bool = False
     programs: dict[Kind, Program] | None = None
+    listener: socket.socket | None = None
 
 
 def free_domain_id() -> int:
@@ -135,7 +140,12 @@ class Manager:
         self.domain_id = settings.domain_id if settings.domain_id is not None else free_domain_id()
         self._settings = settings
         loop = asyncio.get_running_loop()
-        about = About(version=VERSION, ros_domain_id=self.domain_id, grace_s=settings.grace_s)
+        about = About(
+            version=VERSION,
+            ros_domain_id=self.domain_id,
+            ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
+            grace_s=settings.grace_s,
+        )
         self.session = Session(about, now_s=loop.time())
         self._supervisor = Supervisor(
             settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
@@ -155,6 +165,8 @@ class Manager:
             OSError: the port is in use.
         """
         port = await self._server.start(self._settings.host, self._settings.port)
+        if self._settings.listener is not None:
+            await self._server.start_at(self._settings.listener)
         self._do_all(self.session.prestart())
         self._set_timer()
         return port
@@ -256,13 +268,28 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument(
         "--grace", type=float, default=300.0, help="seconds that a session lives without clients"
     )
+    parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
+    parser.add_argument("--session", default="", help="the session's id, for the gate")
     options = parser.parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
     if options.ready_fd is not None:
         die_with_parent()
     token = os.environ.pop(options.token_env, "") if options.token_env else ""
-    settings = ManagerSettings(options.host, options.port, token, options.domain_id, options.grace)
+    try:
+        listener = fetch_listener(options.gate, options.session, token) if options.gate else None
+    except OSError as error:
+        sys.stderr.write(f"bt-studio manager: no socket from the gate {options.gate}: {error}\n")
+        return 1
+    settings = ManagerSettings(
+        options.host,
+        options.port,
+        token,
+        options.domain_id,
+        options.grace,
+        is_closed_off=listener is not None,
+        listener=listener,
+    )
     try:
         _log.info("ended: %s", asyncio.run(serve(settings, options.ready_fd)))
     except OSError as error:

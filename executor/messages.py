@@ -17,6 +17,35 @@ from typing import Annotated, Any, Final, Literal
 import msgspec
 from msgspec import UNSET, Meta, Struct, UnsetType
 
+from executor.stream_messages import (
+    FRAMES,
+    Camera,
+    Light,
+    Mesh,
+    Poses,
+    Scan,
+    Scene,
+    SceneObject,
+    SensorPlacement,
+    Shape,
+    View,
+)
+
+# Those defined elsewhere; what is defined here is public too.
+__all__ = [
+    "FRAMES",
+    "Camera",
+    "Light",
+    "Mesh",
+    "Poses",
+    "Scan",
+    "Scene",
+    "SceneObject",
+    "SensorPlacement",
+    "Shape",
+    "View",
+]
+
 PROTOCOL: Final = "bt-studio.v1"
 
 State = Literal["idle", "connected", "universe_ready", "visualization_ready", "application_running", "paused"]
@@ -26,6 +55,7 @@ StreamName = Literal["poses", "scan", "camera", "view"]
 LogSource = Literal["action", "world", "manager", "launch"]
 LogLevel = Literal["debug", "info", "warning", "error"]
 Role = Literal["driver", "viewer"]
+LaunchState = Literal["running", "ended", "failed"]
 OnFinish = Literal["stop", "repeat"]
 OnError = Literal["stop", "failure"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
@@ -132,18 +162,37 @@ class Unsubscribe(Struct, forbid_unknown_fields=True):
 
 
 class EchoTopic(Struct, forbid_unknown_fields=True):
-    """Sends each message of a topic as a `topic_message`, at most `max_hz`; 0 ends it."""
+    """Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+
+    Where several clients echo a topic, all get it at the highest rate that one of them asked for.
+    """
 
     topic: str
     max_hz: Annotated[float, Meta(ge=0, le=120)] = 10.0
 
 
 class PublishTopic(Struct, forbid_unknown_fields=True):
-    """Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`)."""
+    """Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`).
+
+    Fields that are left out keep their default. `"inf"`, `"-inf"` and `"nan"` stand
+    for the numbers that JSON has not.
+    """
 
     topic: str
     type: str
     message: dict[str, Any]
+
+
+class DescribeType(Struct, forbid_unknown_fields=True):
+    """Asks for the fields of a message type; the answer is a `type_description` to this client alone."""
+
+    type: str
+
+
+class RestartNode(Struct, forbid_unknown_fields=True):
+    """Starts an extra node of the project's launch files again; `id` as in `launch_nodes`."""
+
+    id: str
 
 
 COMMANDS: Final[dict[str, type[Struct]]] = {
@@ -172,6 +221,8 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "list_topics": Empty,
     "echo_topic": EchoTopic,
     "publish_topic": PublishTopic,
+    "describe_type": DescribeType,
+    "restart_node": RestartNode,
 }
 
 
@@ -199,7 +250,11 @@ class Error(Struct):
 
 
 class Introspection(Struct):
-    """First message on a connection. `client_id` names this client when it opens the stream socket."""
+    """First message on a connection. `client_id` names this client when it opens the stream socket.
+
+    With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
+    empty where the session is closed off.
+    """
 
     protocol: str
     client_id: str
@@ -210,6 +265,7 @@ class Introspection(Struct):
     ros_domain_id: int
     renderer: str
     tf: bool
+    ros_environment: dict[str, str] = {}
 
 
 class StateChanged(Struct):
@@ -281,6 +337,8 @@ class Log(Struct):
     node_id: str = ""
     node_path: str = ""
     time: float = 0.0
+    launch_node: str = ""
+    """Id of the extra node that said it, where the source is `launch`."""
 
 
 class Fault(Struct):
@@ -320,12 +378,18 @@ class Sim(Struct):
 
 
 class TopicInfo(Struct):
-    """One ROS topic and how often it was heard."""
+    """One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
+
+    `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
+    client echoes them, and the first `list_topics` after a while starts the measuring.
+    """
 
     name: str
     type: str
-    hz: float
-    bytes_per_s: float
+    hz: float | None
+    bytes_per_s: float | None
+    publishers: list[str]
+    subscribers: list[str]
 
 
 class Topics(Struct):
@@ -335,11 +399,50 @@ class Topics(Struct):
 
 
 class TopicMessage(Struct):
-    """One message of a topic that a client echoes."""
+    """One message of a topic that a client echoes.
+
+    Numbers that JSON has not (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
+    names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
+    message on the wire.
+    """
 
     topic: str
     type: str
     message: dict[str, Any]
+    bytes: int = 0
+    cut: dict[str, int] = {}
+
+
+class TypeDescription(Struct):
+    """A message type: its fields (`{"linear": "geometry_msgs/Vector3"}`) and a message with defaults."""
+
+    type: str
+    fields: dict[str, str]
+    example: dict[str, Any]
+
+
+class LaunchNode(Struct):
+    """An extra process of the project's launch files; `file` and `line` are where it is asked for.
+
+    `end` says how it ended: exit code or signal, or why it could not be started.
+    """
+
+    id: str
+    name: str
+    package: str
+    executable: str
+    file: str
+    line: int
+    state: LaunchState
+    pid: int = 0
+    restarts: int = 0
+    end: str = ""
+
+
+class LaunchNodes(Struct):
+    """All extra nodes of the application, whenever one of them changes."""
+
+    nodes: list[LaunchNode]
 
 
 class Snapshot(Struct):
@@ -354,6 +457,7 @@ class Snapshot(Struct):
     tick_hz: float
     speed: float
     universe: str
+    launch_nodes: list[LaunchNode] = []
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -372,6 +476,8 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "sim": Sim,
     "topics": Topics,
     "topic_message": TopicMessage,
+    "type_description": TypeDescription,
+    "launch_nodes": LaunchNodes,
 }
 
 
@@ -384,116 +490,3 @@ class ServerMessage(Struct):
     seq: int
     t: float
     tick: int | UnsetType = UNSET
-
-
-# --- frames of the stream socket ------------------------------------------------------------------
-
-
-class Shape(Struct, omit_defaults=True):
-    """A visual shape in its object's frame.
-
-    Args:
-        shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
-            capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
-        pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
-        color: [r, g, b, a], each 0 to 1, sRGB.
-        mesh: key in `Scene.meshes` for a mesh, else "".
-    """
-
-    shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
-    size: list[float]
-    pose: list[float]
-    color: list[float]
-    mesh: str = ""
-    texture: str = ""
-
-
-class SceneObject(Struct):
-    """One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]."""
-
-    id: int
-    body: str
-    link: str
-    kind: Literal["static", "dynamic", "robot", "actor"]
-    shapes: list[Shape]
-    pose: list[float]
-
-
-class Mesh(Struct):
-    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32."""
-
-    positions: bytes
-    normals: bytes
-    indices: bytes
-
-
-class Light(Struct):
-    """A directional light; the direction is the one in which it shines."""
-
-    direction: list[float]
-    intensity: float
-
-
-class SensorPlacement(Struct):
-    """Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad."""
-
-    name: str
-    kind: Literal["lidar", "camera"]
-    object_id: int
-    pose: list[float]
-    fov: float
-    range: float
-
-
-class Scene(Struct, tag="scene", tag_field="type"):
-    """The world, once for each client and again when it changes."""
-
-    name: str
-    t: float
-    objects: list[SceneObject]
-    meshes: dict[str, Mesh]
-    lights: list[Light]
-    ground_color: list[float]
-    sensors: list[SensorPlacement]
-
-
-class Poses(Struct, tag="poses", tag_field="type"):
-    """Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id."""
-
-    t: float
-    ids: bytes
-    poses: bytes
-
-
-class Scan(Struct, tag="scan", tag_field="type"):
-    """One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world."""
-
-    t: float
-    sensor: str
-    pose: list[float]
-    angle_min: float
-    angle_increment: float
-    range_max: float
-    ranges: bytes
-
-
-class Camera(Struct, tag="camera", tag_field="type"):
-    """One image of a robot's camera, or of the server's view of the world (`view`)."""
-
-    t: float
-    sensor: str
-    width: int
-    height: int
-    jpeg: bytes
-
-
-class View(Struct, tag="view", tag_field="type"):
-    """The world as the server draws it."""
-
-    t: float
-    width: int
-    height: int
-    jpeg: bytes
-
-
-FRAMES: Final[tuple[type[Struct], ...]] = (Scene, Poses, Scan, Camera, View)

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 from msgspec import Struct
 
-from executor import messages, steps
+from executor import hearing, messages, steps
+from executor.asked import Asked
 from executor.child import Child
 from executor.clients import Clients
 from executor.events import (
@@ -46,7 +47,9 @@ from executor.mirror import Mirror
 from executor.steps import StepFailed, Wait
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable, Generator, Mapping
+
+    from executor.asked import Question
 
 __all__ = ["About", "Session"]
 
@@ -54,17 +57,6 @@ _log = logging.getLogger(__name__)
 
 _EVENT_NAMES: Final = {kind: name for name, kind in messages.EVENTS.items()}
 _CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application"})
-_FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
-    "application": {
-        "tree": messages.Tree,
-        "tick": messages.Tick,
-        "blackboard": messages.Blackboard,
-        "log": messages.Log,
-        "fault": messages.Fault,
-        "finished": messages.Finished,
-    },
-    "world": {"log": messages.Log, "sim": messages.Sim},
-}
 RETIRE_GRACE_S: Final = 2.0
 
 
@@ -75,6 +67,7 @@ class About:
     version: str
     ros_distro: str = "jazzy"
     ros_domain_id: int = 0
+    ros_environment: Mapping[str, str] = field(default_factory=dict)
     grace_s: float = 300.0
     promote_s: float = 5.0
 
@@ -112,8 +105,9 @@ class Session:
         self._effects: list[Effect] = []
         self._job: _Job | None = None
         self._count = _Counters()
-        self._renderer = ""
-        self._has_tf = False
+        self.asked = Asked()
+        self.renderer = ""
+        self.has_tf = False
 
     # --- what the adapter calls -------------------------------------------------------------------
 
@@ -126,6 +120,7 @@ class Session:
     def deadline_s(self) -> float | None:
         """When `TimePassed` is due at the latest, if nothing else happens."""
         times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
+        times.append(self.asked.deadline_s)
         if self._job is not None:
             times.append(self._job.deadline_s)
         return min((t for t in times if t is not None), default=None)
@@ -150,6 +145,10 @@ class Session:
         _log.info("%s -> %s %s", self.state, state, reason)
         self.emit(messages.StateChanged(state.value, reason))
 
+    def send(self, client: str, event: Struct, request: str | None = None) -> None:
+        """Sends an event to one client."""
+        self._effects.append(Send(client, _EVENT_NAMES[type(event)], event, request))
+
     def emit(self, event: Struct) -> None:
         """Sends an event to all clients and remembers it for those that come later."""
         self.mirror.apply(event)
@@ -173,6 +172,24 @@ class Session:
         if kind in self.children:
             self._effects.append(Tell(kind, self.children[kind].number, {"type": type_, **fields}))
 
+    def ask(self, kind: Kind, event: CommandCame, **fields: Any) -> None:
+        """Has the child of a kind answer a command."""
+        if kind not in self.children:
+            self.refuse(event, "process_died", f"The {kind} is gone.")
+            return
+        number, topic = self.children[kind].number, str(fields.get("topic", ""))
+        token = self.asked.add(event.client, event.request, (kind, number), self._now_s, topic=topic)
+        self.tell(kind, event.command, request=token, **fields)
+
+    def answer(self, question: Question, error: messages.Error | None) -> None:
+        """Answers a command whose child has answered, or cannot any more."""
+        if error is None:
+            self._ack(question.client, question.request)
+            return
+        if question.topic:
+            self.clients.echo(question.client, question.topic, 0.0)
+        self.send(question.client, error, question.request)
+
     def interrupt(self, child: Child) -> None:
         """Has the child's tick broken off."""
         self._effects.append(Interrupt(child.kind, child.number))
@@ -183,6 +200,7 @@ class Session:
         if child is None:
             return
         child.end(reason)  # whoever waits for it waits no more
+        self._answer_late(self.asked.orphaned((kind, child.number)), "process_died", reason)
         self.leaving.add((kind, child.number))
         if grace_s:
             self._effects.append(Tell(kind, child.number, {"type": "stop"}))
@@ -206,6 +224,11 @@ class Session:
         """Asks the world for one stream."""
         self.tell("world", "subscribe", client=client, **msgspec.to_builtins(data))
 
+    def resume_echoes(self) -> None:
+        """Asks the world for the topics that the clients listen to, as soon as they are there."""
+        for topic, max_hz in self.clients.echoes().items():
+            self.tell("world", "echo_topic", topic=topic, max_hz=max_hz, patient=True)
+
     def close_streams(self) -> None:
         """Asks the world to send nothing more."""
         for client, data in self.clients.wanted_streams():
@@ -218,7 +241,8 @@ class Session:
             case ClientJoined():
                 self.clients.join(event.client)
                 self._introspect(event.client)
-                self._effects.append(Send(event.client, "snapshot", self.mirror.snapshot()))
+                self.send(event.client, self.mirror.snapshot())
+                self.resume_echoes()
             case ClientLeft():
                 for topic in self.clients.leave(event.client, self._now_s):
                     self.tell("world", "echo_topic", topic=topic, max_hz=0.0)
@@ -246,10 +270,11 @@ class Session:
             version=self.about.version,
             ros_distro=self.about.ros_distro,
             ros_domain_id=self.about.ros_domain_id,
-            renderer=self._renderer,
-            tf=self._has_tf,
+            renderer=self.renderer,
+            tf=self.has_tf,
+            ros_environment=dict(self.about.ros_environment),
         )
-        self._effects.append(Send(client, "introspection", payload))
+        self.send(client, payload)
 
     def _open_stream(self, client: str) -> None:
         self.clients.set_stream(client, is_open=True)
@@ -266,58 +291,11 @@ class Session:
         child = self.children.get(event.kind)
         if child is None or child.number != event.number:
             if event.message["type"] == "log":
-                self._forward(event)  # the last words of a child that was let go
+                hearing.forward(self, event)  # the last words of a child that was let go
             return
         child.note(event.message)
-        match event.message["type"]:
-            case "progress":
-                rung = "launch_universe" if event.kind == "world" else "run_application"
-                self._forward_as(messages.Progress, {**event.message, "rung": rung})
-            case "topics" | "topic_message":
-                self._forward_topics(event)
-            case "error" if self.state.reaches(State.UNIVERSE_READY):
-                text = f"{event.message.get('message', '')} {event.message.get('hint', '')}".strip()
-                self.emit(messages.Log("world", "error", text))
-            case "ready" if event.kind == "world":
-                self._renderer = str(event.message.get("renderer", ""))
-                self._has_tf = bool(event.message.get("tf"))
-            case _:
-                self._forward(event)
-                self._after_forward(child, event.message)
-
-    def _forward(self, event: ChildSaid) -> None:
-        message, kind = event.message, _FORWARDED[event.kind].get(event.message["type"])
-        if kind is None:
-            return
-        if kind is messages.Log:
-            source = "action" if event.kind == "application" else "world"
-            message = {"source": source, "time": self.sim_time_s, **message}
-        elif kind is messages.Sim:
-            # The world does not know how long ticks take.
-            message = {**message, **self.mirror.tick_load()}
-        self._forward_as(kind, message)
-
-    def _forward_as(self, kind: type[Struct], message: dict[str, Any]) -> None:
-        if isinstance(t := message.get("t"), float | int):
-            self.sim_time_s = float(t)
-        try:
-            payload = msgspec.convert(message, kind, strict=False)
-        except msgspec.ValidationError as error:
-            _log.warning("a %s message of a child is dropped: %s", message.get("type"), error)
-            return
-        self.emit(payload)
-
-    def _forward_topics(self, event: ChildSaid) -> None:
-        kind = messages.EVENTS[event.message["type"]]
-        try:
-            fields = {**event.message, "type": event.message.get("message_type", "")}
-            payload = msgspec.convert(fields, kind, strict=False)
-        except msgspec.ValidationError as error:
-            _log.warning("topics dropped: %s", error)
-            return
-        name = _EVENT_NAMES[kind]
-        for client in self.clients.listeners(payload):
-            self._effects.append(Send(client, name, payload))
+        hearing.hear(self, event)
+        self._after_forward(child, event.message)
 
     def _after_forward(self, child: Child, message: dict[str, Any]) -> None:
         """The application ended by itself: the ladder goes down, the process is let go."""
@@ -336,6 +314,7 @@ class Session:
             return
         del self.children[event.kind]
         child.end(event.reason, event.last_lines)
+        self._answer_late(self.asked.orphaned((event.kind, event.number)), "process_died", event.reason)
         if child.is_stopping:
             self._stopped()
             return
@@ -376,7 +355,7 @@ class Session:
     def _on_command(self, event: CommandCame) -> None:
         row = TABLE[event.command]
         if not row.for_viewers and self.clients.role(event.client) != "driver":
-            self._refuse(event, "not_driver", "Another client drives this session; you are a viewer.")
+            self.refuse(event, "not_driver", "Another client drives this session; you are a viewer.")
         elif event.command == "cancel":
             self._cancel()
             self._ack(event.client, event.request)
@@ -386,12 +365,13 @@ class Session:
             self._join_or_refuse(self._job, event)
         elif not is_legal(self.state, event.command):
             message = f"{event.command} is not possible in {self.state}."
-            self._refuse(event, "wrong_state", message, f"It is in: {where(event.command)}.")
+            self.refuse(event, "wrong_state", message, f"It is in: {where(event.command)}.")
         elif row.is_step:
             self._begin(event)
         else:
             steps.ACTIONS[event.command](self, event)
-            self._ack(event.client, event.request)
+            if event.command not in steps.ANSWER_LATER:
+                self._ack(event.client, event.request)
 
     def _begin(self, event: CommandCame) -> None:
         generator = steps.STEPS[event.command](self, event.data)
@@ -401,7 +381,7 @@ class Session:
         if job.command == event.command and event.command.startswith("terminate_"):
             job.askers.append((event.client, event.request))
             return
-        self._refuse(event, "busy", f"{job.command} is going on.", "Wait for it, or send cancel.")
+        self.refuse(event, "busy", f"{job.command} is going on.", "Wait for it, or send cancel.")
 
     def _disconnect(self, event: CommandCame) -> None:
         if self._job is not None and self._job.command == "disconnect":
@@ -455,22 +435,28 @@ class Session:
         job.deadline_s = self._now_s + job.wait.timeout_s
         return True
 
+    def _answer_late(self, questions: list[Question], code: str, reason: str) -> None:
+        for question in questions:
+            self.answer(question, messages.Error(code, f"The {question.child[0]} {reason}."))
+
     def _expire(self) -> None:
+        self._answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
         for client in self.clients.promote(self._now_s, self.about.promote_s):
             self._introspect(client)
         if self.clients.is_abandoned(self._now_s, self.about.grace_s):
             self._effects.append(EndSession("no client came back within the grace period"))
 
     def _ack(self, client: str, request: str) -> None:
-        self._effects.append(Send(client, "ack", messages.Ack(), request))
+        self.send(client, messages.Ack(), request)
 
     def _fail(self, job: _Job, failure: StepFailed) -> None:
         payload = messages.Error(failure.code, failure.message, failure.hint)
         for client, request in job.askers:
-            self._effects.append(Send(client, "error", payload, request))
+            self.send(client, payload, request)
 
-    def _refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
-        self._effects.append(Send(event.client, "error", messages.Error(code, message, hint), event.request))
+    def refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
+        """Answers a command with an error."""
+        self.send(event.client, messages.Error(code, message, hint), event.request)
 
     def _take_effects(self) -> list[Effect]:
         effects, self._effects = self._effects, []

@@ -54,6 +54,14 @@ _ERRORS: Final = {
     "process_died": "the process that the step waited for ended",
     "tick_hangs": "the tick did not return and was ended",
     "nothing_to_restart": "no application was run yet",
+    "unknown_node": "the launch files have no such node",
+    "unknown_topic": "the ROS graph has no such topic",
+    "unknown_type": "the message type is not installed",
+    "bad_topic": "this is no name of a topic",
+    "type_differs": "the topic is there with another type",
+    "bad_message": "a field of the message does not fit; the text names it",
+    "too_many": "more topics are echoed or published on than a session may",
+    "bad_request": "the world cannot do it; the text says why",
 }
 
 
@@ -98,7 +106,7 @@ def _events() -> Iterator[str]:
     yield "## Events\n"
     for name, kind in messages.EVENTS.items():
         yield from _struct(f"`{name}`", kind)
-    for kind in (messages.TreeNode, messages.BlackboardEntry, messages.TopicInfo):
+    for kind in (messages.TreeNode, messages.BlackboardEntry, messages.TopicInfo, messages.LaunchNode):
         yield from _struct(f"`{kind.__name__}`", kind)
 
 
@@ -131,7 +139,7 @@ def _struct(title: str, kind: type[Struct]) -> Iterator[str]:
 
 def _type_name(kind: Any) -> str:
     text = inspect.formatannotation(kind)
-    for noise in ("executor.messages.", "typing.", "msgspec."):
+    for noise in ("executor.messages.", "executor.stream_messages.", "typing.", "msgspec."):
         text = text.replace(noise, "")
     return f"`{text}`".replace("|", "\\|")
 

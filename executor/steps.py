@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from executor.events import CommandCame, Kind, Unpacked
     from executor.protocol import Session
 
-__all__ = ["ACTIONS", "STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
+__all__ = ["ACTIONS", "ANSWER_LATER", "STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
 
 LAUNCH_TIMEOUT_S: Final = 60.0
 LOAD_TIMEOUT_S: Final = 60.0
@@ -144,6 +144,7 @@ def _launch_universe(session: Session, data: Struct) -> Step:
         raise
     session.mirror.universe = str(reply.get("universe") or data.universe)
     session.mirror.speed = data.speed
+    session.resume_echoes()
     _progress(session, "launch_universe", 1.0, "The world is ready")
     session.enter(State.UNIVERSE_READY)
 
@@ -454,17 +455,34 @@ def _unsubscribe(session: Session, event: CommandCame) -> None:
     session.tell("world", "unsubscribe", client=event.client, stream=data.stream)
 
 
+def _move_body(session: Session, event: CommandCame) -> None:
+    data = cast("messages.MoveBody", event.data)
+    session.ask("world", event, id=data.id, pose=data.pose)
+
+
+def _list_topics(session: Session, event: CommandCame) -> None:
+    session.ask("world", event)
+
+
 def _publish_topic(session: Session, event: CommandCame) -> None:
     data = cast("messages.PublishTopic", event.data)
-    session.tell(
-        "world", "publish_topic", topic=data.topic, message_type=data.type, message=data.message
-    )  # `type` is the channel's own field
+    # `type` is the channel's own field.
+    session.ask("world", event, topic=data.topic, message_type=data.type, message=data.message)
+
+
+def _describe_type(session: Session, event: CommandCame) -> None:
+    session.ask("world", event, message_type=cast("messages.DescribeType", event.data).type)
 
 
 def _echo_topic(session: Session, event: CommandCame) -> None:
     data = cast("messages.EchoTopic", event.data)
-    is_wanted = session.clients.echo(event.client, data.topic, wanted=data.max_hz > 0)
-    session.tell("world", "echo_topic", topic=data.topic, max_hz=data.max_hz if is_wanted else 0.0)
+    rate_hz = session.clients.echo(event.client, data.topic, data.max_hz)
+    session.ask("world", event, topic=data.topic, max_hz=rate_hz)
+
+
+def _restart_node(session: Session, event: CommandCame) -> None:
+    node = cast("messages.RestartNode", event.data).id
+    session.refuse(event, "unknown_node", f"The launch files have no node {node!r}.")
 
 
 ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
@@ -475,5 +493,14 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "unsubscribe": _unsubscribe,
     "echo_topic": _echo_topic,
     "publish_topic": _publish_topic,
-    **_forward("world", "teleop", "move_body", "list_topics"),
+    "move_body": _move_body,
+    "list_topics": _list_topics,
+    "describe_type": _describe_type,
+    "restart_node": _restart_node,
+    **_forward("world", "teleop"),
 }
+
+ANSWER_LATER: Final = frozenset(
+    {"move_body", "list_topics", "echo_topic", "publish_topic", "describe_type", "restart_node"}
+)
+"""Those that answer by themselves, or have the world do it."""

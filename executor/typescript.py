@@ -13,7 +13,7 @@ from typing import Final, Literal, get_args, get_origin
 import msgspec
 from msgspec import inspect as types
 
-from executor import messages
+from executor import messages, stream_messages
 
 TARGET: Final = Path(__file__).parent.parent / "frontend" / "src" / "generated" / "messages.ts"
 
@@ -47,7 +47,8 @@ def generate() -> str:
 def _structs() -> list[type[msgspec.Struct]]:
     """The message types in the order of the module."""
     found = [v for v in vars(messages).values() if inspect.isclass(v) and issubclass(v, msgspec.Struct)]
-    return [struct for struct in found if struct.__module__ == messages.__name__]
+    own = {messages.__name__, stream_messages.__name__}
+    return [struct for struct in found if struct.__module__ in own]
 
 
 def _is_literal(value: object) -> bool:

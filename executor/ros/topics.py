@@ -2,30 +2,49 @@
 
 from __future__ import annotations
 
-import array
+import contextlib
 import time
 from collections import deque
 from dataclasses import dataclass, field
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
+from rclpy.exceptions import NameValidationException
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
+
+from executor.ros.values import FieldError, describe, fill, flatten, message_type
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rclpy.node import Node
 
-LARGEST_LIST: Final = 400
+__all__ = ["TopicError", "Topics"]
+
 WINDOW_S: Final = 2.0
 LISTEN_S: Final = 10.0
+MATCH_S: Final = 1.0
+LOOK_S: Final = 0.5
+ECHO_MAX_HZ: Final = 60.0
+MOST_ECHOED: Final = 24
+MOST_PUBLISHERS: Final = 50
+MOST_NODES: Final = 20
 _QOS: Final = QoSProfile(
-    depth=5, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
+    depth=50, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
+)
+_LATCHED_QOS: Final = QoSProfile(
+    depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
 # A picture is heard only by those who asked for it: else listing topics would set the renderer to work.
 _UNHEARD: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
+
+
+class TopicError(ValueError):
+    """What was asked cannot be done; `code` is for the client."""
+
+    def __init__(self, code: str, message: str) -> None:
+        super().__init__(message)
+        self.code = code
 
 
 @dataclass
@@ -34,40 +53,62 @@ class _Ear:
 
     type_name: str
     subscription: Any
+    since_s: float
     heard: deque[tuple[float, int]] = field(default_factory=deque)
     echo_hz: float = 0.0
     next_echo_s: float = 0.0
     until_s: float = 0.0
 
 
+@dataclass
+class _Unsent:
+    """A message that waits for its publisher to be known to those who listen."""
+
+    publisher: Any
+    message: Any
+    listeners: int
+    until_s: float
+
+
 class Topics:
-    """Answers ``list_topics``, ``echo_topic`` and ``publish_topic``. Rates are those of the last seconds."""
+    """Answers what clients ask about topics. Rates are those of the last two seconds of real time."""
 
     def __init__(self, node: Node, send: Callable[[dict[str, Any]], None]) -> None:
         self._node = node
         self._send = send
         self._ears: dict[str, _Ear] = {}
         self._publishers: dict[tuple[str, str], Any] = {}
+        self._unsent: list[_Unsent] = []
+        # Topics that are to be echoed as soon as they are there.
+        self._patient: dict[str, float] = {}
+        self._look_s = 0.0
 
     def obey(self, message: dict[str, Any]) -> None:
-        """Does what one of the three messages asks.
+        """Does what one of the four messages asks.
 
         Raises:
-            ValueError: there is no such type, or its fields are others.
+            TopicError: it cannot be done; the text says why.
         """
         match message["type"]:
             case "list_topics":
                 self._list(time.monotonic())
+            case "echo_topic" if message.get("patient"):
+                self._patient[str(message["topic"])] = float(message["max_hz"])
             case "echo_topic":
+                self._patient.pop(str(message["topic"]), None)
                 self._echo(str(message["topic"]), float(message["max_hz"]))
+            case "describe_type":
+                self._describe(str(message["message_type"]))
             case _:
                 self._publish(str(message["topic"]), str(message["message_type"]), message["message"])
 
     def poll(self, now_s: float) -> None:
-        """Takes what was heard, and sends what is echoed."""
+        """Takes what was heard, sends what is echoed, and publishes what waited for listeners."""
+        self._publish_waiting(now_s)
+        self._begin_patient(now_s)
         for name, ear in list(self._ears.items()):
             if not ear.echo_hz and now_s > ear.until_s:
-                self._forget(name)
+                self._node.destroy_subscription(self._ears.pop(name).subscription)
                 continue
             newest = None
             while (taken := _take_raw(ear.subscription)) is not None:
@@ -77,30 +118,41 @@ class Topics:
                 ear.heard.popleft()
             if newest is not None and ear.echo_hz and now_s >= ear.next_echo_s:
                 ear.next_echo_s = now_s + 1.0 / ear.echo_hz
-                value = to_builtins(deserialize_message(newest, message_type(ear.type_name)))
-                self._send(
-                    {"type": "topic_message", "topic": name, "message": value, "message_type": ear.type_name}
-                )
+                self._tell(name, ear, newest)
+
+    # --- list -------------------------------------------------------------------------------------
 
     def _list(self, now_s: float) -> None:
         rows = []
         for name, types in sorted(self._node.get_topic_names_and_types()):
             if types[0] not in _UNHEARD and name not in self._ears:
-                self._listen(name, types[0])
+                self._listen(name, types[0], now_s)
             ear = self._ears.get(name)
             if ear is not None:
                 ear.until_s = now_s + LISTEN_S
-            heard = list(ear.heard) if ear else []
-            span = max(now_s - heard[0][0], 0.5) if heard else 1.0
+            hz, bytes_per_s = _rates(ear, now_s)
             rows.append(
                 {
                     "name": name,
                     "type": types[0],
-                    "hz": round(len(heard) / span, 1),
-                    "bytes_per_s": round(sum(size for _, size in heard) / span),
+                    "hz": hz,
+                    "bytes_per_s": bytes_per_s,
+                    "publishers": self._node_names(self._node.get_publishers_info_by_topic(name)),
+                    "subscribers": self._node_names(
+                        self._node.get_subscriptions_info_by_topic(name), own=ear is not None
+                    ),
                 }
             )
         self._send({"type": "topics", "topics": rows})
+
+    def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
+        """Names the nodes at one end of a topic, without our own ear."""
+        names = [f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in ends]
+        if own and (ours := self._node.get_fully_qualified_name()) in names:
+            names.remove(ours)
+        return sorted(set(names))[:MOST_NODES]
+
+    # --- echo -------------------------------------------------------------------------------------
 
     def _echo(self, name: str, max_hz: float) -> None:
         if max_hz <= 0:
@@ -109,77 +161,114 @@ class Topics:
             return
         types = dict(self._node.get_topic_names_and_types()).get(name)
         if not types:
-            raise ValueError(f"nobody publishes {name}")
+            raise TopicError("unknown_topic", f"There is no topic {name!r} in the graph.")
         if name not in self._ears:
-            self._listen(name, types[0])
-        self._ears[name].echo_hz = min(max_hz, 60.0)
+            if sum(ear.echo_hz > 0 for ear in self._ears.values()) >= MOST_ECHOED:
+                raise TopicError("too_many", f"At most {MOST_ECHOED} topics can be echoed at once.")
+            if not self._listen(name, types[0], time.monotonic()):
+                text = f"{name} is of the type {types[0]}, which is not installed here."
+                raise TopicError("unknown_type", text)
+        self._ears[name].echo_hz = min(max_hz, ECHO_MAX_HZ)
 
-    def _publish(self, topic: str, type_name: str, fields: dict[str, Any]) -> None:
-        kind = message_type(type_name)
-        message = kind()
-        fill(message, fields)
-        key = (topic, type_name)
-        if key not in self._publishers:
-            self._publishers[key] = self._node.create_publisher(kind, topic, 10)
-        self._publishers[key].publish(message)
+    def _begin_patient(self, now_s: float) -> None:
+        if not self._patient or now_s < self._look_s:
+            return
+        self._look_s = now_s + LOOK_S
+        for name in {name for name, _ in self._node.get_topic_names_and_types()} & set(self._patient):
+            with contextlib.suppress(TopicError):  # it was told when a client asked
+                self._echo(name, self._patient.pop(name))
 
-    def _listen(self, name: str, type_name: str) -> None:
+    def _listen(self, name: str, type_name: str, now_s: float) -> bool:
         try:
             kind = message_type(type_name)
         except ValueError:
-            return  # a type that is not installed here: it is listed, not heard
-        subscription = self._node.create_subscription(kind, name, _ignore, _QOS, raw=True)
-        self._ears[name] = _Ear(type_name, subscription)
+            return False  # it is listed, not heard
+        says = self._node.get_publishers_info_by_topic(name)
+        latched = bool(says) and all(
+            end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in says
+        )
+        qos = _LATCHED_QOS if latched else _QOS
+        subscription = self._node.create_subscription(kind, name, _ignore, qos, raw=True)
+        self._ears[name] = _Ear(type_name, subscription, now_s)
+        return True
 
-    def _forget(self, name: str) -> None:
-        self._node.destroy_subscription(self._ears.pop(name).subscription)
+    def _tell(self, name: str, ear: _Ear, raw: bytes) -> None:
+        flat = flatten(deserialize_message(raw, message_type(ear.type_name)))
+        self._send(
+            {
+                "type": "topic_message",
+                "topic": name,
+                "message_type": ear.type_name,
+                "message": flat.value,
+                "bytes": len(raw),
+                "cut": flat.cut,
+            }
+        )
 
+    # --- publish ----------------------------------------------------------------------------------
 
-def message_type(name: str) -> Any:
-    """Returns the class of a message type such as `std_msgs/msg/String`.
-
-    Raises:
-        ValueError: it is not installed.
-    """
-    package, _, kind = name.partition("/msg/")
-    try:
-        return getattr(import_module(f"{package}.msg"), kind)
-    except (ImportError, AttributeError, ValueError) as error:
-        raise ValueError(f"the message type {name!r} is not installed") from error
-
-
-def to_builtins(message: Any) -> Any:
-    """Returns a message as dicts, lists and numbers; long arrays are cut."""
-    if hasattr(message, "get_fields_and_field_types"):
-        return {name: to_builtins(getattr(message, name)) for name in message.get_fields_and_field_types()}
-    if isinstance(message, array.array | np.ndarray | list | tuple):
-        return [to_builtins(item) for item in message[:LARGEST_LIST]]
-    if isinstance(message, bytes):
-        return list(message[:LARGEST_LIST])
-    return message.item() if isinstance(message, np.generic) else message
-
-
-def fill(message: Any, fields: dict[str, Any]) -> None:
-    """Sets a message's fields from builtins.
-
-    Raises:
-        ValueError: there is no such field, or the value is of another kind.
-    """
-    known = message.get_fields_and_field_types()
-    for name, value in fields.items():
-        if name not in known:
-            raise ValueError(f"{type(message).__name__} has no field {name!r}; it has {', '.join(known)}")
-        current = getattr(message, name)
-        if hasattr(current, "get_fields_and_field_types"):
-            fill(current, value)
-            continue
-        given = float(value) if isinstance(current, float) and type(value) is int else value
+    def _describe(self, type_name: str) -> None:
         try:
-            # ROS checks fields only when it is told to; a wrong one would crash when it is sent.
-            type(message)(check_fields=True, **{name: given})
-            setattr(message, name, given)
-        except (AssertionError, TypeError) as error:
-            raise ValueError(f"{name}: {error}") from error
+            described = describe(type_name)
+        except ValueError as error:
+            raise TopicError("unknown_type", _sentence(error)) from error
+        self._send({"type": "type_description", "message_type": type_name, **described})
+
+    def _publish(self, topic: str, type_name: str, values: Any) -> None:
+        try:
+            kind = message_type(type_name)
+        except ValueError as error:
+            raise TopicError("unknown_type", _sentence(error)) from error
+        message = kind()
+        try:
+            fill(message, values)
+        except FieldError as error:
+            raise TopicError("bad_message", _sentence(error)) from error
+        publisher = self._publisher(topic, kind)
+        listeners = self._node.count_subscribers(topic)
+        self._unsent.append(_Unsent(publisher, message, listeners, time.monotonic() + MATCH_S))
+        self._publish_waiting(time.monotonic())
+
+    def _publisher(self, topic: str, kind: Any) -> Any:
+        type_name = f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
+        there = dict(self._node.get_topic_names_and_types()).get(topic)
+        if there and type_name not in there:
+            raise TopicError("type_differs", f"{topic} is of the type {there[0]}, not {type_name}.")
+        if (topic, type_name) not in self._publishers:
+            if len(self._publishers) >= MOST_PUBLISHERS:
+                raise TopicError("too_many", f"At most {MOST_PUBLISHERS} topics can be published on.")
+            try:
+                made = self._node.create_publisher(kind, topic, 10)
+            except (NameValidationException, ValueError, RuntimeError) as error:
+                # The text of ROS goes on with a drawing of the place.
+                text = str(error).partition("\n")[0].rstrip(":")
+                raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
+            self._publishers[topic, type_name] = made
+        return self._publishers[topic, type_name]
+
+    def _publish_waiting(self, now_s: float) -> None:
+        """A publisher that was just made is not yet known to other processes: what it says would be lost."""
+        left = []
+        for unsent in self._unsent:
+            if unsent.publisher.get_subscription_count() < unsent.listeners and now_s < unsent.until_s:
+                left.append(unsent)
+            else:
+                unsent.publisher.publish(unsent.message)
+        self._unsent = left
+
+
+def _rates(ear: _Ear | None, now_s: float) -> tuple[float | None, float | None]:
+    """Returns messages and bytes a second; None while there is nothing to tell it from."""
+    if ear is None or now_s - ear.since_s < WINDOW_S / 4:
+        return None, None
+    span_s = min(now_s - ear.since_s, WINDOW_S)
+    heard = [size for at_s, size in ear.heard if at_s >= now_s - span_s]
+    return round(len(heard) / span_s, 1), round(sum(heard) / span_s)
+
+
+def _sentence(error: Exception) -> str:
+    text = str(error).rstrip(".")
+    return f"{text[:1].upper()}{text[1:]}." if not isinstance(error, FieldError) else f"{text}."
 
 
 def _take_raw(subscription: Any) -> bytes | None:

@@ -49,6 +49,8 @@ class WorldProcess:
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
+        self._request: str | None = None
+        """The token of the question that is being answered."""
 
     def run(self) -> None:
         """Works until it is told to stop, or the manager is gone."""
@@ -94,13 +96,18 @@ class WorldProcess:
         return context
 
     def _obey(self, message: dict[str, Any]) -> None:
+        self._request = message.get("request")
         try:
             self._dispatch(message)
         except DocumentError as error:
             self._refuse(error.problems[0], error.file, more=len(error.problems) - 1)
         except (WorldError, ValueError, TypeError, KeyError, OSError) as error:
             _log.warning("%s is refused: %r", message["type"], error)
-            self._say_error("bad_request", f"{message['type']}: {error}")
+            code = getattr(error, "code", "bad_request")
+            self._say_error(code, str(error) if self._request else f"{message['type']}: {error}")
+        if self._request:
+            self._say({"type": "answer"})
+        self._request = None
 
     def _dispatch(self, message: dict[str, Any]) -> None:
         kind = message["type"]
@@ -136,7 +143,7 @@ class WorldProcess:
                 self._subscribe(clockwork, message)
             case "unsubscribe":
                 clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
-            case "list_topics" | "echo_topic" | "publish_topic":
+            case "list_topics" | "echo_topic" | "publish_topic" | "describe_type":
                 self._topics.obey(message)
             case _:
                 self._say_error("unknown_message", f"The world knows no message {kind!r}.")
@@ -177,7 +184,7 @@ class WorldProcess:
         renamed = {place.id: place.topics for place in world.universe.robots}
         node = WorldNode(world, context, topics=renamed)
         self._close.append(node.close)
-        self._topics = Topics(node.node, self._channel.send)
+        self._topics = Topics(node.node, self._say)
         self._clockwork = Clockwork(
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )
@@ -196,7 +203,13 @@ class WorldProcess:
         self._say_error(problem.code, text, problem.hint)
 
     def _say_error(self, code: str, text: str, hint: str = "") -> None:
-        self._channel.send({"type": "error", "code": code, "message": text, "hint": hint})
+        error = {"code": code, "message": text, "hint": hint}
+        self._say({"type": "answer", "error": error} if self._request else {"type": "error", **error})
+        self._request = None
+
+    def _say(self, message: dict[str, Any]) -> None:
+        """Sends a message, with the token of the question that it answers."""
+        self._channel.send({**message, "request": self._request} if self._request else message)
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -43,6 +43,8 @@ DATA: dict[str, dict[str, Any]] = {
     "unsubscribe": {"stream": "poses"},
     "echo_topic": {"topic": "/scan"},
     "publish_topic": {"topic": "/x", "type": "std_msgs/msg/String", "message": {"data": "x"}},
+    "describe_type": {"type": "std_msgs/msg/String"},
+    "restart_node": {"id": "launch/extra.launch.yaml:talker"},
 }
 
 
@@ -74,6 +76,8 @@ class Play:
     def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
         """What obedient children and the manager do about an effect."""
         match effect:
+            case Tell(message={"request": token}):
+                return [self._said(effect, "answer", request=token)]
             case Tell(kind="world", message={"type": "start"}):
                 return [self._said(effect, "ready", renderer="egl", tf=True, universe="Walled room")]
             case Tell(kind="application", message={"type": "start"}):

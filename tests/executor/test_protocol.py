@@ -49,6 +49,9 @@ def test_every_command_in_every_state(state, command):
     elif command == "restart_application" and state is State.VISUALIZATION_READY:
         assert play.reply(request) == "nothing_to_restart"
         assert play.state is before
+    elif command == "restart_node":
+        assert play.reply(request) == "unknown_node"
+        assert play.state is before
     else:
         assert play.reply(request) == "ack"
         assert play.state is (TABLE[command].target or before)

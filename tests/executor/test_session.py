@@ -60,15 +60,53 @@ async def test_run_pause_step_resume_stop_and_run_again():
         assert await client.ask("terminate_application") == "ack"
         assert client.state == "visualization_ready"
         assert child_of(manager, "world").is_running()
-        assert await client.ask("list_topics") == "ack"
-        topics = (await client.event("topics"))["data"]["topics"]
-        assert {"/scan", "/odom", "/cmd_vel", "/clock"} <= {t["name"] for t in topics}
-
         at = len(client.events)
         assert await client.ask("run", run_data()) == "ack"
         await client.event("tick", lambda d: d["n"] > 5, after=at)
         assert await client.ask("disconnect") == "ack"
         assert [c for c in psutil.Process(manager.pid).children() if c.status() != psutil.STATUS_ZOMBIE] == []
+        await client.close()
+
+
+async def test_topics_are_listed_echoed_published_and_described():
+    async with manager_process() as manager:
+        client = await SessionClient(manager.ready["port"]).open()
+        assert client.named("introspection")[0]["ros_environment"]["ROS_DOMAIN_ID"] == str(
+            manager.ready["domain_id"]
+        )
+        await start(client)
+        assert await client.ask("list_topics") == "ack"
+        rows = {t["name"]: t for t in client.named("topics")[-1]["topics"]}
+        assert {"/scan", "/odom", "/cmd_vel", "/clock"} <= set(rows)
+        assert rows["/cmd_vel"]["publishers"] == ["/bt_application"]
+        assert rows["/scan"]["subscribers"] == ["/bt_application"]
+
+        assert await client.ask("echo_topic", {"topic": "/odom", "max_hz": 5}) == "ack"
+        message = (await client.event("topic_message"))["data"]
+        assert message["type"] == "nav_msgs/msg/Odometry"
+        assert message["message"]["child_frame_id"] == "base_link"
+        rate = None
+        while not rate:  # the first lists start the measuring
+            assert await client.ask("list_topics") == "ack"
+            rate = next(t["hz"] for t in client.named("topics")[-1]["topics"] if t["name"] == "/odom")
+        assert (await client.ask("echo_topic", {"topic": "/ghost"}))["code"] == "unknown_topic"
+
+        twist = "geometry_msgs/msg/Twist"
+        assert await client.ask("describe_type", {"type": twist}) == "ack"
+        assert set(client.named("type_description")[0]["example"]) == {"linear", "angular"}
+        wrong = {"topic": "/cmd_vel", "type": twist, "message": {"linear": {"x": "fast"}}}
+        reply = await client.ask("publish_topic", wrong)
+        assert (reply["code"], reply["message"].startswith("linear.x: must be a number")) == (
+            "bad_message",
+            True,
+        )
+
+        assert await client.ask("terminate_application") == "ack"
+        place = client.robot_position()
+        right = {"topic": "/cmd_vel", "type": twist, "message": {"linear": {"x": 0.3}}}
+        assert await client.ask("publish_topic", right) == "ack"
+        assert await client.ask("move_body", {"id": "ghost", "pose": [0] * 6}) != "ack"
+        assert client.robot_position() == place  # the world stands still
         await client.close()
 
 

@@ -37,6 +37,8 @@ def obey(channel, *, on_start=lambda: None):
                         "data": FRAME,
                     }
                 )
+            case _ if message.get("request"):
+                channel.send({"type": "answer", "request": message["request"]})
             case "exit":
                 os._exit(message.get("code", 0))
             case "say":

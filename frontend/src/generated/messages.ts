@@ -16,11 +16,116 @@ export type LogLevel = "debug" | "info" | "warning" | "error";
 
 export type Role = "driver" | "viewer";
 
+export type LaunchState = "running" | "ended" | "failed";
+
 export type OnFinish = "stop" | "repeat";
 
 export type OnError = "stop" | "failure";
 
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
+
+/** One image of a robot's camera, or of the server's view of the world (`view`). */
+export interface Camera {
+  type: "camera";
+  t: number;
+  sensor: string;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
+}
+
+/** A directional light; the direction is the one in which it shines. */
+export interface Light {
+  direction: number[];
+  intensity: number;
+}
+
+/** Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32. */
+export interface Mesh {
+  positions: Uint8Array;
+  normals: Uint8Array;
+  indices: Uint8Array;
+}
+
+/** Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id. */
+export interface Poses {
+  type: "poses";
+  t: number;
+  ids: Uint8Array;
+  poses: Uint8Array;
+}
+
+/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
+export interface Scan {
+  type: "scan";
+  t: number;
+  sensor: string;
+  pose: number[];
+  angle_min: number;
+  angle_increment: number;
+  range_max: number;
+  ranges: Uint8Array;
+}
+
+/** The world, once for each client and again when it changes. */
+export interface Scene {
+  type: "scene";
+  name: string;
+  t: number;
+  objects: SceneObject[];
+  meshes: Record<string, Mesh>;
+  lights: Light[];
+  ground_color: number[];
+  sensors: SensorPlacement[];
+}
+
+/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
+export interface SceneObject {
+  id: number;
+  body: string;
+  link: string;
+  kind: "actor" | "dynamic" | "robot" | "static";
+  shapes: Shape[];
+  pose: number[];
+}
+
+/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
+export interface SensorPlacement {
+  name: string;
+  kind: "camera" | "lidar";
+  object_id: number;
+  pose: number[];
+  fov: number;
+  range: number;
+}
+
+/**
+ * A visual shape in its object's frame.
+ *
+ * Args:
+ *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+ *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
+ *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
+ *     color: [r, g, b, a], each 0 to 1, sRGB.
+ *     mesh: key in `Scene.meshes` for a mesh, else "".
+ */
+export interface Shape {
+  shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
+  size: number[];
+  pose: number[];
+  color: number[];
+  mesh?: string;
+  texture?: string;
+}
+
+/** The world as the server draws it. */
+export interface View {
+  type: "view";
+  t: number;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
+}
 
 /** A command without arguments. */
 export type Empty = Record<string, never>;
@@ -101,17 +206,36 @@ export interface Unsubscribe {
   stream: StreamName;
 }
 
-/** Sends each message of a topic as a `topic_message`, at most `max_hz`; 0 ends it. */
+/**
+ * Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+ *
+ * Where several clients echo a topic, all get it at the highest rate that one of them asked for.
+ */
 export interface EchoTopic {
   topic: string;
   max_hz?: number;
 }
 
-/** Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`). */
+/**
+ * Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`).
+ *
+ * Fields that are left out keep their default. `"inf"`, `"-inf"` and `"nan"` stand
+ * for the numbers that JSON has not.
+ */
 export interface PublishTopic {
   topic: string;
   type: string;
   message: Record<string, unknown>;
+}
+
+/** Asks for the fields of a message type; the answer is a `type_description` to this client alone. */
+export interface DescribeType {
+  type: string;
+}
+
+/** Starts an extra node of the project's launch files again; `id` as in `launch_nodes`. */
+export interface RestartNode {
+  id: string;
 }
 
 /** The envelope of a command; `data` is decoded as `COMMANDS[command]`. */
@@ -131,7 +255,12 @@ export interface Error {
   hint: string;
 }
 
-/** First message on a connection. `client_id` names this client when it opens the stream socket. */
+/**
+ * First message on a connection. `client_id` names this client when it opens the stream socket.
+ *
+ * With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
+ * empty where the session is closed off.
+ */
 export interface Introspection {
   protocol: string;
   client_id: string;
@@ -142,6 +271,7 @@ export interface Introspection {
   ros_domain_id: number;
   renderer: string;
   tf: boolean;
+  ros_environment: Record<string, string>;
 }
 
 /** The ladder stands on another rung; `reason` is for people, empty when it was asked for. */
@@ -205,6 +335,7 @@ export interface Log {
   node_id: string;
   node_path: string;
   time: number;
+  launch_node: string;
 }
 
 /** Something broke: an exception in an action, or a process that died or hangs. */
@@ -239,12 +370,19 @@ export interface Sim {
   pose: [number, number, number];
 }
 
-/** One ROS topic and how often it was heard. */
+/**
+ * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
+ *
+ * `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
+ * client echoes them, and the first `list_topics` after a while starts the measuring.
+ */
 export interface TopicInfo {
   name: string;
   type: string;
-  hz: number;
-  bytes_per_s: number;
+  hz: number | null;
+  bytes_per_s: number | null;
+  publishers: string[];
+  subscribers: string[];
 }
 
 /** The topics of the session's ROS graph. */
@@ -252,11 +390,49 @@ export interface Topics {
   topics: TopicInfo[];
 }
 
-/** One message of a topic that a client echoes. */
+/**
+ * One message of a topic that a client echoes.
+ *
+ * Numbers that JSON has not (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
+ * names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
+ * message on the wire.
+ */
 export interface TopicMessage {
   topic: string;
   type: string;
   message: Record<string, unknown>;
+  bytes: number;
+  cut: Record<string, number>;
+}
+
+/** A message type: its fields (`{"linear": "geometry_msgs/Vector3"}`) and a message with defaults. */
+export interface TypeDescription {
+  type: string;
+  fields: Record<string, string>;
+  example: Record<string, unknown>;
+}
+
+/**
+ * An extra process of the project's launch files; `file` and `line` are where it is asked for.
+ *
+ * `end` says how it ended: exit code or signal, or why it could not be started.
+ */
+export interface LaunchNode {
+  id: string;
+  name: string;
+  package: string;
+  executable: string;
+  file: string;
+  line: number;
+  state: LaunchState;
+  pid: number;
+  restarts: number;
+  end: string;
+}
+
+/** All extra nodes of the application, whenever one of them changes. */
+export interface LaunchNodes {
+  nodes: LaunchNode[];
 }
 
 /** Everything a client that joins late needs; deltas follow. */
@@ -270,6 +446,7 @@ export interface Snapshot {
   tick_hz: number;
   speed: number;
   universe: string;
+  launch_nodes: LaunchNode[];
 }
 
 /** The envelope of an event. */
@@ -280,109 +457,6 @@ export interface ServerMessage {
   seq: number;
   t: number;
   tick?: number;
-}
-
-/**
- * A visual shape in its object's frame.
- *
- * Args:
- *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
- *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
- *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
- *     color: [r, g, b, a], each 0 to 1, sRGB.
- *     mesh: key in `Scene.meshes` for a mesh, else "".
- */
-export interface Shape {
-  shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
-  size: number[];
-  pose: number[];
-  color: number[];
-  mesh?: string;
-  texture?: string;
-}
-
-/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
-export interface SceneObject {
-  id: number;
-  body: string;
-  link: string;
-  kind: "actor" | "dynamic" | "robot" | "static";
-  shapes: Shape[];
-  pose: number[];
-}
-
-/** Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32. */
-export interface Mesh {
-  positions: Uint8Array;
-  normals: Uint8Array;
-  indices: Uint8Array;
-}
-
-/** A directional light; the direction is the one in which it shines. */
-export interface Light {
-  direction: number[];
-  intensity: number;
-}
-
-/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
-export interface SensorPlacement {
-  name: string;
-  kind: "camera" | "lidar";
-  object_id: number;
-  pose: number[];
-  fov: number;
-  range: number;
-}
-
-/** The world, once for each client and again when it changes. */
-export interface Scene {
-  type: "scene";
-  name: string;
-  t: number;
-  objects: SceneObject[];
-  meshes: Record<string, Mesh>;
-  lights: Light[];
-  ground_color: number[];
-  sensors: SensorPlacement[];
-}
-
-/** Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id. */
-export interface Poses {
-  type: "poses";
-  t: number;
-  ids: Uint8Array;
-  poses: Uint8Array;
-}
-
-/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
-export interface Scan {
-  type: "scan";
-  t: number;
-  sensor: string;
-  pose: number[];
-  angle_min: number;
-  angle_increment: number;
-  range_max: number;
-  ranges: Uint8Array;
-}
-
-/** One image of a robot's camera, or of the server's view of the world (`view`). */
-export interface Camera {
-  type: "camera";
-  t: number;
-  sensor: string;
-  width: number;
-  height: number;
-  jpeg: Uint8Array;
-}
-
-/** The world as the server draws it. */
-export interface View {
-  type: "view";
-  t: number;
-  width: number;
-  height: number;
-  jpeg: Uint8Array;
 }
 
 /** Payload by `command`. */
@@ -412,6 +486,8 @@ export interface Commands {
   list_topics: Empty;
   echo_topic: EchoTopic;
   publish_topic: PublishTopic;
+  describe_type: DescribeType;
+  restart_node: RestartNode;
 }
 
 /** Payload by `command`. */
@@ -431,6 +507,8 @@ export interface Events {
   sim: Sim;
   topics: Topics;
   topic_message: TopicMessage;
+  type_description: TypeDescription;
+  launch_nodes: LaunchNodes;
 }
 
 /** What the stream socket sends, told by `type`. */

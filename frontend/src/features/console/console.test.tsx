@@ -20,6 +20,8 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
   node_id: '',
   node_path: '',
   time: 1,
+  launch_node: '',
+  launch_node: '',
   ...more,
 });
 

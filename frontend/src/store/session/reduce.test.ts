@@ -26,6 +26,8 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
   node_id: '',
   node_path: '',
   time: 0,
+  launch_node: '',
+  launch_node: '',
   ...more,
 });
 
@@ -39,6 +41,8 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   tick_hz: 20,
   speed: 1,
   universe: 'walled_room',
+  launch_nodes: [],
+  launch_nodes: [],
   ...more,
 });
 

@@ -1,0 +1,120 @@
+"""What the stream socket sends: MessagePack frames, told by ``type``. A part of `executor.messages`.
+
+Units are SI, frames follow REP-103, times are simulated seconds.
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+from msgspec import Struct
+
+
+class Shape(Struct, omit_defaults=True):
+    """A visual shape in its object's frame.
+
+    Args:
+        shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+            capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
+        pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
+        color: [r, g, b, a], each 0 to 1, sRGB.
+        mesh: key in `Scene.meshes` for a mesh, else "".
+    """
+
+    shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
+    size: list[float]
+    pose: list[float]
+    color: list[float]
+    mesh: str = ""
+    texture: str = ""
+
+
+class SceneObject(Struct):
+    """One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]."""
+
+    id: int
+    body: str
+    link: str
+    kind: Literal["static", "dynamic", "robot", "actor"]
+    shapes: list[Shape]
+    pose: list[float]
+
+
+class Mesh(Struct):
+    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32."""
+
+    positions: bytes
+    normals: bytes
+    indices: bytes
+
+
+class Light(Struct):
+    """A directional light; the direction is the one in which it shines."""
+
+    direction: list[float]
+    intensity: float
+
+
+class SensorPlacement(Struct):
+    """Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad."""
+
+    name: str
+    kind: Literal["lidar", "camera"]
+    object_id: int
+    pose: list[float]
+    fov: float
+    range: float
+
+
+class Scene(Struct, tag="scene", tag_field="type"):
+    """The world, once for each client and again when it changes."""
+
+    name: str
+    t: float
+    objects: list[SceneObject]
+    meshes: dict[str, Mesh]
+    lights: list[Light]
+    ground_color: list[float]
+    sensors: list[SensorPlacement]
+
+
+class Poses(Struct, tag="poses", tag_field="type"):
+    """Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id."""
+
+    t: float
+    ids: bytes
+    poses: bytes
+
+
+class Scan(Struct, tag="scan", tag_field="type"):
+    """One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world."""
+
+    t: float
+    sensor: str
+    pose: list[float]
+    angle_min: float
+    angle_increment: float
+    range_max: float
+    ranges: bytes
+
+
+class Camera(Struct, tag="camera", tag_field="type"):
+    """One image of a robot's camera, or of the server's view of the world (`view`)."""
+
+    t: float
+    sensor: str
+    width: int
+    height: int
+    jpeg: bytes
+
+
+class View(Struct, tag="view", tag_field="type"):
+    """The world as the server draws it."""
+
+    t: float
+    width: int
+    height: int
+    jpeg: bytes
+
+
+FRAMES: Final[tuple[type[Struct], ...]] = (Scene, Poses, Scan, Camera, View)

@@ -16,7 +16,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import msgspec
 from msgspec import UNSET, Struct
-from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.asyncio.server import Server, ServerConnection, serve, unix_serve
 from websockets.exceptions import ConnectionClosed
 
 from executor.events import ClientJoined, ClientLeft, CommandCame, Event, Send, StreamClosed, StreamOpened
@@ -24,6 +24,7 @@ from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessa
 from executor.outbox import ControlOutbox, StreamOutbox
 
 if TYPE_CHECKING:
+    import socket
     from collections.abc import Callable
 
     from websockets.http11 import Request, Response
@@ -56,7 +57,7 @@ class SessionServer:
         self._controls: dict[str, ControlOutbox] = {}
         self._streams: dict[str, StreamOutbox] = {}
         self._seq = 0
-        self._server: Server | None = None
+        self._servers: list[Server] = []
 
     async def start(self, host: str, port: int) -> int:
         """Listens; returns the port.
@@ -64,24 +65,30 @@ class SessionServer:
         Raises:
             OSError: the port is in use.
         """
-        self._server = await serve(
-            self._serve,
-            host,
-            port,
-            process_request=self._check_request,
-            max_size=MAX_COMMAND_BYTES,
-            compression=None,
-            ping_interval=HEARTBEAT_S,
-            ping_timeout=HEARTBEAT_S,
-            server_header=None,
-        )
-        return int(next(iter(self._server.sockets)).getsockname()[1])
+        server = await serve(self._serve, host, port, **self._options)
+        self._servers.append(server)
+        return int(next(iter(server.sockets)).getsockname()[1])
+
+    async def start_at(self, listener: socket.socket) -> None:
+        """Listens at a unix socket that was made elsewhere, too."""
+        self._servers.append(await unix_serve(self._serve, sock=listener, **self._options))
+
+    @property
+    def _options(self) -> dict[str, Any]:
+        return {
+            "process_request": self._check_request,
+            "max_size": MAX_COMMAND_BYTES,
+            "compression": None,
+            "ping_interval": HEARTBEAT_S,
+            "ping_timeout": HEARTBEAT_S,
+            "server_header": None,
+        }
 
     async def close(self) -> None:
         """Closes all connections."""
-        if self._server is not None:
-            self._server.close()
-            await self._server.wait_closed()
+        for server in self._servers:
+            server.close()
+            await server.wait_closed()
 
     def send(self, effect: Send) -> None:
         """Queues an event for a client, or for all."""

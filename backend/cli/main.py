@@ -37,6 +37,8 @@ VERBS: Final[dict[str, Verb]] = {
     "new": Verb("new", "new"),
     "export": Verb("export", "export"),
     "projects": Verb("projects", "projects"),
+    "backup": Verb("backup", "backup"),
+    "restore": Verb("backup", "restore"),
 }
 
 

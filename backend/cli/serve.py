@@ -36,7 +36,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
 
     try:
         settings = environment()
-        if settings.host not in {"127.0.0.1", "localhost", "::1"}:
+        if not settings.published_on_loopback and settings.host not in {"127.0.0.1", "localhost", "::1"}:
             raise ServeError(
                 f"Without accounts the IDE is served on this machine only, not on {settings.host}: "
                 "use --host 127.0.0.1, and an SSH tunnel to reach it from elsewhere."
@@ -57,7 +57,8 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
     with bind(settings.host, settings.port) as listener, data_folder(settings.data_dir):
         migrate()
         port: int = listener.getsockname()[1]
-        name = f"[{settings.host}]" if ":" in settings.host else settings.host
+        host = "127.0.0.1" if settings.published_on_loopback else settings.host
+        name = f"[{host}]" if ":" in host else host
         url = f"http://{name}:{port}/?token={settings.token.get_secret_value()}"
 
         def on_ready() -> None:

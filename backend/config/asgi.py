@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from typing import TYPE_CHECKING
 
@@ -17,23 +18,29 @@ from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up fir
 from channels.routing import ProtocolTypeRouter  # noqa: E402
 from django.core.handlers.asgi import ASGIHandler  # noqa: E402
 
+from backend.config.probes import probed  # noqa: E402
 from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
+from backend.sessions.care import care_for_ever  # noqa: E402
 from backend.sessions.consumers import relay_sockets  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Clears up after a server that was killed, and ends all sessions when this one stops."""
+    """Clears up after a server that was killed, looks after sessions, and ends them when it stops."""
+    care: asyncio.Task[None] | None = None
     while True:
         message = await receive()
         if message["type"] == "lifespan.startup":
             await sync_to_async(end_orphans)()
+            care = asyncio.create_task(care_for_ever())
             await send({"type": "lifespan.startup.complete"})
         elif message["type"] == "lifespan.shutdown":
+            if care is not None:
+                care.cancel()
             await sync_to_async(end_all_sessions)()
             await send({"type": "lifespan.shutdown.complete"})
             return
 
 
-application: ASGI3Application = ProtocolTypeRouter(
-    {"http": ASGIHandler(), "websocket": relay_sockets, "lifespan": lifespan}
+application: ASGI3Application = probed(
+    ProtocolTypeRouter({"http": ASGIHandler(), "websocket": relay_sockets, "lifespan": lifespan})
 )

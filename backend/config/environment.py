@@ -53,7 +53,7 @@ class Environment(TeamSettings):
     )
     launcher: Literal["process", "docker"] = Field(
         default="process",
-        description="What starts the executor of a running project: a child process, or the keeper a container.",
+        description="What starts the executor of a project: `process` a child, `docker` a container.",
     )
     keeper_folder: Path = Field(
         default=Path("/run/bt-studio-keeper"),
@@ -69,7 +69,7 @@ class Environment(TeamSettings):
     )
     published_on_loopback: bool = Field(
         default=False,
-        description="Local mode in a container: its port is published on the loopback interface of the host only.",
+        description="Local mode in a container whose port is published on the host's loopback only.",
     )
     session_start_timeout_s: float = Field(
         default=30.0, gt=0, description="How long an executor may take to report that it is ready."
@@ -101,7 +101,14 @@ class Environment(TeamSettings):
         default=1024, gt=0, description="Memory that one language server may take before it is ended."
     )
     log_level: Literal["debug", "info", "warning", "error"] = Field(
-        default="info", description="Least severe log line that is printed."
+        default="info", description="Least severe log line that is printed; `debug` has each request."
+    )
+    log_style: Literal["text", "json"] = Field(
+        default="text", description="How log lines are written: for people, or one JSON object a line."
+    )
+    metrics_token: SecretStr = Field(
+        default=SecretStr(""),
+        description="Bearer token for `/metrics`; without one only clients on this machine are answered.",
     )
 
     @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder")

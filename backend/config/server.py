@@ -5,18 +5,21 @@ from __future__ import annotations
 import errno
 import fcntl
 import json
-import logging
 import os
 import secrets
 import socket
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
 
+from backend.config.environment import environment
+from backend.config.logs import set_up
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
 GRACE_S: Final = 2
+MIGRATION_LOCK: Final = 0x62742D73747564
 
 
 class ServeError(Exception):
@@ -96,18 +99,31 @@ def migrate() -> None:
     django.setup()
     from django.core.management import call_command  # noqa: PLC0415
 
-    call_command("migrate", verbosity=0, interactive=False)
+    with _alone():
+        call_command("migrate", verbosity=0, interactive=False)
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    """Keeps web servers that start together from migrating one PostgreSQL database at once."""
+    from django.db import connection  # noqa: PLC0415
+
+    if connection.vendor != "postgresql":
+        yield
+        return
+    with connection.cursor() as cursor:
+        cursor.execute("SELECT pg_advisory_lock(%s)", [MIGRATION_LOCK])
+        try:
+            yield
+        finally:
+            cursor.execute("SELECT pg_advisory_unlock(%s)", [MIGRATION_LOCK])
 
 
 def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
     """Serves until SIGINT or SIGTERM; then ends every session and returns."""
     import uvicorn  # noqa: PLC0415
 
-    logging.basicConfig(level=log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s")
-    for noisy in ("websockets", "uvicorn.error", "asyncio"):
-        logging.getLogger(noisy).setLevel(logging.WARNING)
-    # Refusals are answers, not news.
-    logging.getLogger("django.request").setLevel(logging.ERROR)
+    set_up(log_level, environment().log_style)
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:

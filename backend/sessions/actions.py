@@ -7,6 +7,8 @@ import hmac
 import logging
 import os
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from datetime import timedelta
 from functools import lru_cache
 from threading import Lock
 from typing import TYPE_CHECKING, Final
@@ -22,10 +24,12 @@ from backend.sessions import queries
 from backend.sessions.choices import SessionState
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import Launcher, Spec
+from backend.sessions.launchers.docker import DockerLauncher
 from backend.sessions.launchers.process import ProcessLauncher
-from backend.sessions.models import LIVE_STATES, Session
+from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from uuid import UUID
 
     from backend.accounts.models import User
@@ -42,7 +46,10 @@ _launches_lock: Final = Lock()
 @lru_cache(maxsize=1)
 def launcher() -> Launcher:
     """The launcher of this server; it lives as long as the process."""
-    return ProcessLauncher(environment().data_dir / "logs")
+    settings = environment()
+    if settings.launcher == "docker":
+        return DockerLauncher(settings.keeper_folder)
+    return ProcessLauncher(settings.data_dir / "logs")
 
 
 @lru_cache(maxsize=1)
@@ -58,7 +65,7 @@ def manager_token(session: Session) -> str:
 
 
 def start_session(project_id: UUID, *, acting_user: User) -> Session:
-    """Starts an executor for the project, or returns the one that runs; it may still be starting.
+    """Starts an executor for the project, or returns the one that runs; it may wait, or still be starting.
 
     Raises:
         HostFullError: there is no free ROS domain.
@@ -70,11 +77,13 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
             with transaction.atomic():
+                has_place = places_left(LIVE_STATES) > 0
                 session = Session.objects.create(
                     project=project,
                     user=acting_user,
                     launcher=launcher().name,
-                    ros_domain_id=_free_domain(),
+                    state=SessionState.STARTING if has_place else SessionState.QUEUED,
+                    ros_domain_id=_free_domain() if has_place else None,
                     created_at=timezone.now(),
                 )
             break
@@ -85,9 +94,38 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
                 return running
             if attempt == DOMAIN_ATTEMPTS - 1:
                 raise
+    if session.state == SessionState.STARTING:
+        _submit(session)
+    return session
+
+
+def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
+    """How many more executors may run; those in `states` have a place, or wait for one."""
+    limit = environment().max_sessions
+    taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
+    return limit - taken if limit else len(ROS_DOMAINS)
+
+
+def start_queued() -> int:
+    """Starts sessions that wait, the oldest first, while there are places; returns how many.
+
+    Several web servers may do so at once: each session is taken by one of them.
+    """
+    waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("created_at")
+    started = 0
+    for session in waiting[: max(0, places_left())]:
+        with suppress(IntegrityError, HostFullError), transaction.atomic():
+            session.ros_domain_id, session.state = _free_domain(), SessionState.STARTING
+            changes = {"state": session.state, "ros_domain_id": session.ros_domain_id}
+            if waiting.filter(id=session.id).update(**changes):
+                _submit(session)
+                started += 1
+    return started
+
+
+def _submit(session: Session) -> None:
     with _launches_lock:
         _launches[session.id] = _workers().submit(_launch, session)
-    return session
 
 
 def refresh(session: Session) -> Session:
@@ -96,12 +134,13 @@ def refresh(session: Session) -> Session:
         status = launcher().poll(session.launcher_state)
         if status is not None:
             launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
-            died = f"The executor ended by itself (status {status})." if status else ""
+            why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
+            died = f"The executor ended by itself (status {status}).{why}" if status else ""
             _finish(session, SessionState.FAILED if died else SessionState.ENDED, died)
     return session
 
 
-def end_session(session: Session) -> Session:
+def end_session(session: Session, why: str = "") -> Session:
     """Ends the executor and everything that it started; ending twice is no error."""
     with _launches_lock:
         launch = _launches.pop(session.id, None)
@@ -111,13 +150,19 @@ def end_session(session: Session) -> Session:
     if session.launcher_state:
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
     if session.state in LIVE_STATES:
-        _finish(session, SessionState.ENDED)
+        _finish(session, SessionState.ENDED, why)
     return session
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
     """Ends the sessions of a project that was deleted."""
     for session in Session.objects.filter(project_id=project_id, state__in=LIVE_STATES):
+        end_session(session)
+
+
+def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
+    """Ends the sessions of an account that is about to be deleted."""
+    for session in Session.objects.filter(user=user, state__in=LIVE_STATES):
         end_session(session)
 
 
@@ -138,12 +183,33 @@ def _end_and_disconnect(session: Session) -> None:
 
 
 def end_orphans() -> None:
-    """Ends what a server that was killed left behind; called before the first session starts."""
+    """Ends what a server that was killed left behind; called before the first session starts.
+
+    Where executors outlive the server, those that run go on. Those are ended that the database does not know
+    as running, and sessions whose start this server, or the one before it, did not see to its end.
+    """
+    timeout_s = environment().session_stop_timeout_s
+    survives = launcher().survives_server
     for session in queries.live_sessions():
-        if not launcher().survives_server or launcher().poll(session.launcher_state) is not None:
-            if session.launcher_state:
-                launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+        if session.state == SessionState.QUEUED and survives:
+            continue
+        if session.state == SessionState.STARTING and survives and not _is_overdue(session):
+            continue
+        if not survives or not session.launcher_state or launcher().poll(session.launcher_state) is not None:
+            state = session.launcher_state or launcher().state_of(str(session.id))
+            if state:
+                launcher().stop(state, timeout_s=timeout_s)
             _finish(session, SessionState.ENDED, "The server was restarted.")
+    known = {str(session.id) for session in queries.live_sessions()}
+    for orphan in set(launcher().running()) - known:
+        log.warning("the executor %s belongs to no session and is ended", orphan)
+        launcher().stop(launcher().state_of(orphan), timeout_s=timeout_s)
+
+
+def _is_overdue(session: Session) -> bool:
+    """Whether nobody can still be starting it; another web server may be."""
+    longest = timedelta(seconds=2 * environment().session_start_timeout_s)
+    return timezone.now() - session.created_at > longest
 
 
 def _launch(session: Session) -> None:
@@ -151,12 +217,17 @@ def _launch(session: Session) -> None:
     spec = Spec(
         session_id=str(session.id),
         token=manager_token(session),
-        ros_domain_id=session.ros_domain_id,
+        ros_domain_id=session.ros_domain_id or 0,
         start_timeout_s=limits.session_start_timeout_s,
         stop_timeout_s=limits.session_stop_timeout_s,
     )
     try:
         started = launcher().start(spec)
+    except HostFullError as error:
+        # The host knows better than our count. The session keeps its turn.
+        log.info("session %s waits: %s", session.id, error.detail)
+        session.state, session.ros_domain_id = SessionState.QUEUED, None
+        session.save(update_fields=["state", "ros_domain_id"])
     except LaunchError as error:
         log.warning("session %s: %s", session.id, error.detail)
         _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
@@ -165,8 +236,8 @@ def _launch(session: Session) -> None:
         _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
     else:
         session.address, session.launcher_state = started.address, started.state
-        session.state = SessionState.READY
-        session.save(update_fields=["address", "launcher_state", "state"])
+        session.state, session.used_at = SessionState.READY, timezone.now()
+        session.save(update_fields=["address", "launcher_state", "state", "used_at"])
     finally:
         with _launches_lock:
             _launches.pop(session.id, None)

@@ -10,8 +10,10 @@ class SessionsConfig(AppConfig):
     label = "executor_sessions"
 
     def ready(self) -> None:
-        """A deleted project needs no robot."""
+        """A deleted project needs no robot, nor does an account that leaves."""
+        from backend.accounts.signals_out import account_leaves  # noqa: PLC0415
         from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded
-        from backend.sessions.actions import end_sessions_of  # noqa: PLC0415
+        from backend.sessions.actions import end_sessions_of, end_sessions_of_user  # noqa: PLC0415
 
         project_deleted.connect(end_sessions_of, dispatch_uid="end_sessions_of")
+        account_leaves.connect(end_sessions_of_user, dispatch_uid="end_sessions_of_user")

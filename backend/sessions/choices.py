@@ -6,8 +6,12 @@ from django.db import models
 
 
 class SessionState(models.TextChoices):
-    """`starting` becomes `ready` or `failed`; `ready` becomes `ended`, or `failed` when the process dies."""
+    """`queued` until there is a place; `starting` becomes `ready` or `failed`.
 
+    `ready` becomes `ended`, or `failed` when the process dies.
+    """
+
+    QUEUED = "queued"
     STARTING = "starting"
     READY = "ready"
     FAILED = "failed"

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
 from asgiref.sync import sync_to_async
-from websockets.asyncio.client import ClientConnection, connect
+from websockets.asyncio.client import ClientConnection, connect, unix_connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.accounts.identity import identify
@@ -24,6 +24,7 @@ from backend.config import guard
 from backend.config.middleware import cookies_of
 from backend.config.problems import NotFoundError
 from backend.sessions import actions, queries
+from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ PROTOCOL: Final = "bt-studio.v1"
 MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
 POLL_S: Final = 0.03
+QUEUE_POLL_S: Final = 1.0
 LOST_POLLS: Final = 20
 
 GOING_AWAY: Final = 1001
@@ -114,32 +116,55 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     send: ASGISendCallable,
 ) -> Closed | None:
     """Relays until a side ends; returns what the browser is told, None when it has gone itself."""
+    is_control = channel == "control"
     try:
-        session = await _when_ready(session_id, user)
+        session = await _when_ready(session_id, user, send if is_control else None)
     except NotFoundError as error:
         return Closed(NO_SUCH_SESSION, error.detail)
     if session.state != SessionState.READY:
         return Closed(EXECUTOR_FAILED, _short(session.error or "The session has ended."))
-    uri = f"ws://{session.address}/{channel}" + (f"?{query}" if query else "")
-    headers = {"Authorization": f"Bearer {actions.manager_token(session)}"}
+    noted = _noting(session_id, receive) if is_control else receive
     try:
-        async with connect(
-            uri,
-            additional_headers=headers,
-            compression=None,
-            max_size=MAX_MESSAGE_BYTES,
-            max_queue=QUEUED_MESSAGES,
-            ping_interval=None,
-            proxy=None,
-            close_timeout=2,
-        ) as manager:
-            closed = await _relay(manager, receive, send)
+        async with _manager(session, channel + (f"?{query}" if query else "")) as manager:
+            if is_control:
+                attendance.join(session_id, send)
+            closed = await _relay(manager, noted, send)
     except (OSError, InvalidHandshake, TimeoutError) as error:
         log.warning("session %s: no %s socket: %s", session_id, channel, error)
         closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")
+    finally:
+        attendance.leave(session_id, send)
     if closed is None:
         return None
     return await _explained(session, closed)
+
+
+def _manager(session: Session, target: str) -> connect:
+    """Opens a socket to the manager, whose address is `host:port`, or `unix:` and the path of its socket."""
+    options: dict[str, Any] = {
+        "additional_headers": {"Authorization": f"Bearer {actions.manager_token(session)}"},
+        "compression": None,
+        "max_size": MAX_MESSAGE_BYTES,
+        "max_queue": QUEUED_MESSAGES,
+        "ping_interval": None,
+        "proxy": None,
+        "close_timeout": 2,
+    }
+    kind, _, path = session.address.partition(":")
+    if kind == "unix":
+        return unix_connect(path, f"ws://localhost/{target}", **options)
+    return connect(f"ws://{session.address}/{target}", **options)
+
+
+def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallable:
+    """Notes that the session is used whenever its browser says something."""
+
+    async def receive_and_note() -> Any:
+        message = await receive()
+        attendance.use(session_id)
+        return message
+
+    return receive_and_note
 
 
 async def _explained(session: Session, closed: Closed) -> Closed:
@@ -152,12 +177,19 @@ async def _explained(session: Session, closed: Closed) -> Closed:
     return closed
 
 
-async def _when_ready(session_id: UUID, user: User) -> Session:
-    """The session, as soon as it is no longer starting."""
+async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:
+    """The session, as soon as it neither waits nor starts; a browser that waits is told its place."""
     find = sync_to_async(lambda: queries.session(session_id, user=user))
+    told: int | None = None
     # Another web server may be starting it, so the database tells, and no event of this process.
-    while (session := await find()).state == SessionState.STARTING:  # noqa: ASYNC110
-        await asyncio.sleep(POLL_S)
+    while (session := await find()).state in {SessionState.QUEUED, SessionState.STARTING}:
+        is_queued = session.state == SessionState.QUEUED
+        place = await sync_to_async(queries.position)(session) if is_queued else None
+        if place != told and place is not None and send is not None:
+            text = f"The server is full; this session is number {place} of those that wait."
+            await say(send, "progress", {"rung": "connect", "fraction": 0, "message": text})
+        told = place
+        await asyncio.sleep(QUEUE_POLL_S if is_queued else POLL_S)
     return session
 
 

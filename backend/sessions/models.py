@@ -10,7 +10,8 @@ from django.db.models import Q
 
 from backend.sessions.choices import SessionState
 
-LIVE_STATES = (SessionState.STARTING, SessionState.READY)
+RUNNING_STATES = (SessionState.STARTING, SessionState.READY)
+LIVE_STATES = (SessionState.QUEUED, *RUNNING_STATES)
 
 
 class Session(models.Model):
@@ -23,10 +24,11 @@ class Session(models.Model):
     launcher = models.CharField(max_length=32)
     launcher_state = models.JSONField(default=dict)
     address = models.CharField(max_length=200, blank=True)
-    ros_domain_id = models.PositiveSmallIntegerField()
+    ros_domain_id = models.PositiveSmallIntegerField(null=True)
     error = models.TextField(blank=True)
     created_at = models.DateTimeField()
     ended_at = models.DateTimeField(null=True)
+    used_at = models.DateTimeField(null=True)
 
     class Meta:
         constraints = [

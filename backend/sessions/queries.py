@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from django.db.models import Count
+
 from backend.config.problems import NotFoundError
+from backend.sessions.choices import SessionState
 from backend.sessions.models import LIVE_STATES, Session
 
 if TYPE_CHECKING:
@@ -27,5 +30,19 @@ def live_session(project_id: UUID, *, user: User) -> Session | None:
 
 
 def live_sessions() -> list[Session]:
-    """Every session that starts or runs."""
+    """Every session that waits, starts or runs."""
     return list(Session.objects.filter(state__in=LIVE_STATES))
+
+
+def position(session: Session) -> int | None:
+    """The place of a session in the queue, from 1; None when it does not wait."""
+    if session.state != SessionState.QUEUED:
+        return None
+    earlier = Session.objects.filter(state=SessionState.QUEUED, created_at__lt=session.created_at)
+    return earlier.count() + 1
+
+
+def counts() -> dict[str, int]:
+    """How many sessions wait, start and run."""
+    found = dict(Session.objects.filter(state__in=LIVE_STATES).values_list("state").annotate(n=Count("id")))
+    return {state.value: found.get(state.value, 0) for state in LIVE_STATES}

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from rest_framework import serializers
 
+from backend.sessions import queries
 from backend.sessions.choices import SessionState
 
 if TYPE_CHECKING:
@@ -21,6 +22,9 @@ class SessionSerializer(serializers.Serializer[Any]):
     control_url = serializers.CharField()
     stream_url = serializers.CharField()
     error = serializers.CharField(help_text="Why it failed; else empty.")
+    position = serializers.IntegerField(
+        allow_null=True, help_text="Place in the queue, from 1, while it waits for one on the server."
+    )
     created_at = serializers.DateTimeField()
 
 
@@ -33,5 +37,6 @@ def presented(session: Session) -> dict[str, Any]:
         "control_url": f"/ws/sessions/{session.id}/control",
         "stream_url": f"/ws/sessions/{session.id}/stream",
         "error": session.error,
+        "position": queries.position(session),
         "created_at": session.created_at.isoformat(),
     }

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 class ProjectSession(APIView):
     """The session of a project."""
 
+    expensive = ("POST",)
+
     @extend_schema(operation_id="start_session", request=None, responses=SessionSerializer, tags=["sessions"])
     def post(self, request: Request, project_id: UUID) -> Response:
         """Starts an executor for the project, or returns the one that runs."""

@@ -10,7 +10,10 @@ returns, a JSON object that the caller stores and hands back, also after a resta
                      gone and nobody saw how. Never blocks.
     stop(state)      ends the executor and all that it started, politely at first. Returns when
                      nothing is left; stopping what has ended is no error.
-    survives_server  whether executors outlive the web server.
+    explain(state)   why an executor ended, where more is known than its status; else "".
+    survives_server  whether executors outlive the web server. Where they do, two more are owed:
+    running()        the ids of all sessions whose executors run, known to the database or not.
+    state_of(id)     the state of a session of which only the id is known.
 
 A class that lacks one of them, or leaves `name` empty, fails when it is defined.
 """
@@ -24,6 +27,7 @@ from typing import Any, ClassVar, Final
 State = Mapping[str, Any]
 UNKNOWN_EXIT: Final = -1
 _METHODS: Final = ("start", "poll", "stop")
+_SURVIVORS_OWE: Final = ("running", "state_of")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +57,8 @@ class Launcher:
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
-        missing = [method for method in _METHODS if getattr(cls, method) is getattr(Launcher, method)]
+        owed = _METHODS + (_SURVIVORS_OWE if cls.survives_server else ())
+        missing = [method for method in owed if getattr(cls, method) is getattr(Launcher, method)]
         if missing or not cls.name:
             lacking = ", ".join(missing or ["name"])
             raise TypeError(f"The launcher {cls.__name__} does not define {lacking}.")
@@ -69,3 +74,15 @@ class Launcher:
     def stop(self, state: State, *, timeout_s: float) -> None:
         """Ends the executor and everything that it started."""
         raise NotImplementedError
+
+    def explain(self, state: State) -> str:
+        """Tells why an executor ended."""
+        return ""
+
+    def running(self) -> list[str]:
+        """Names the sessions whose executors run."""
+        return []
+
+    def state_of(self, session_id: str) -> dict[str, Any]:
+        """Makes the state of a session from its id."""
+        return {}

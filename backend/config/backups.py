@@ -1,0 +1,193 @@
+"""Everything that a server stores, as one file that any database of the same version can take in.
+
+A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, a row a line. It is read
+in one transaction, so that it is the state of one moment, also while people work. Left out is what has a
+meaning only while a server runs: sign-ins, executors, answers kept for repeated requests.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import zipfile
+from datetime import UTC, datetime
+from typing import IO, TYPE_CHECKING, Any, Final
+
+from django.apps import apps
+from django.core import serializers
+from django.core.management.color import no_style
+from django.db import connection, transaction
+from django.db.migrations.recorder import MigrationRecorder
+
+from backend import __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from django.db.models import Model
+
+FORMAT: Final = "bt-studio/backup"
+VERSION: Final = 1
+MANIFEST: Final = "manifest.json"
+LEFT_OUT: Final = frozenset(
+    {
+        "admin.logentry",
+        "auth.permission",
+        "contenttypes.contenttype",
+        "executor_sessions.session",
+        "projects.idempotencykey",
+        "sessions.session",
+    }
+)
+ROWS_AT_ONCE: Final = 50
+MAX_LINE_BYTES: Final = 512 * 1024 * 1024
+
+
+class BackupError(Exception):
+    """The backup cannot be read, or not here; the text says why and what to do."""
+
+
+def write_backup(target: IO[bytes]) -> dict[str, int]:
+    """Writes a backup; returns the number of rows of each table."""
+    tables: dict[str, dict[str, Any]] = {}
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as archive, _snapshot():
+        for model in _models():
+            name = model._meta.label_lower
+            digest, rows = hashlib.sha256(), 0
+            with archive.open(_member(name), "w", force_zip64=True) as member:
+                for line in _lines(model):
+                    member.write(line)
+                    digest.update(line)
+                    rows += 1
+            tables[name] = {"rows": rows, "sha256": digest.hexdigest()}
+        manifest = {
+            "format": FORMAT,
+            "version": VERSION,
+            "bt_studio": __version__,
+            "made_at": datetime.now(UTC).isoformat(timespec="seconds"),
+            "migrations": _migrations(),
+            "tables": tables,
+        }
+        archive.writestr(MANIFEST, json.dumps(manifest, indent=1))
+    return {name: table["rows"] for name, table in tables.items()}
+
+
+def read_backup(source: IO[bytes]) -> dict[str, int]:
+    """Takes a backup into an empty database, whole or not at all; returns the number of rows of each table.
+
+    Raises:
+        BackupError: it is damaged, of another version, or the database is not empty.
+    """
+    try:
+        with zipfile.ZipFile(source) as archive:
+            manifest = _manifest(archive)
+            for name, table in manifest["tables"].items():
+                _check(archive, name, table)
+            return _load(archive, manifest)
+    except (zipfile.BadZipFile, KeyError, TypeError, EOFError, OSError) as error:
+        raise BackupError(f"This is no readable backup: {error}.") from error
+
+
+class _snapshot(transaction.Atomic):  # noqa: N801 - used as a function
+    """One transaction that sees the state of one moment."""
+
+    def __init__(self) -> None:
+        super().__init__(using=None, savepoint=True, durable=False)
+
+    def __enter__(self) -> None:
+        super().__enter__()
+        if connection.vendor == "postgresql" and len(connection.savepoint_ids) == 0:
+            with connection.cursor() as cursor:
+                cursor.execute("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ, READ ONLY")
+
+
+def _models() -> list[type[Model]]:
+    """The tables of a backup, in an order in which they can be filled."""
+    models = [model for model in apps.get_models() if model._meta.label_lower not in LEFT_OUT]
+    ordered: list[type[Model]] = serializers.sort_dependencies([(None, models)], allow_cycles=True)
+    return ordered
+
+
+def _lines(model: type[Model]) -> Iterator[bytes]:
+    rows = model._base_manager.order_by("pk").iterator(chunk_size=ROWS_AT_ONCE)
+    for row in rows:
+        yield serializers.serialize("jsonl", [row]).strip().encode() + b"\n"
+
+
+def _member(name: str) -> str:
+    return f"tables/{name}.jsonl"
+
+
+def _migrations() -> list[list[str]]:
+    return sorted([app, name] for app, name in MigrationRecorder(connection).applied_migrations())
+
+
+def _manifest(archive: zipfile.ZipFile) -> dict[str, Any]:
+    try:
+        manifest = json.loads(archive.read(MANIFEST))
+    except (KeyError, ValueError) as error:
+        raise BackupError("This is no backup of BT Studio: it has no manifest.") from error
+    if not isinstance(manifest, dict) or manifest.get("format") != FORMAT:
+        raise BackupError("This is no backup of BT Studio.")
+    if manifest.get("version") != VERSION or manifest.get("migrations") != _migrations():
+        raise BackupError(
+            f"The backup was made by BT Studio {manifest.get('bt_studio')} with other tables than those of "
+            f"{__version__}: restore it with that version, and upgrade then."
+        )
+    expected = {model._meta.label_lower for model in _models()}
+    if set(manifest["tables"]) != expected:
+        raise BackupError("The backup does not have the tables of this version.")
+    return manifest
+
+
+def _check(archive: zipfile.ZipFile, name: str, table: dict[str, Any]) -> None:
+    digest = hashlib.sha256()
+    with archive.open(_member(name)) as member:
+        while chunk := member.read(1 << 20):
+            digest.update(chunk)
+    if digest.hexdigest() != table["sha256"]:
+        raise BackupError(f"The backup is damaged: the table {name} is not what was written.")
+
+
+def _load(archive: zipfile.ZipFile, manifest: dict[str, Any]) -> dict[str, int]:
+    models = _models()
+    project = apps.get_model("projects", "Project")
+    if project._base_manager.exists():
+        raise BackupError(
+            "There are projects here already. A backup is restored into an empty server: "
+            "another data folder, or an empty database."
+        )
+    with transaction.atomic():
+        connection.check_constraints()
+        for model in reversed(models):  # what a first start made: the local user
+            model._base_manager.all().delete()
+        with connection.constraint_checks_disabled():
+            counts = {model._meta.label_lower: _fill(archive, model) for model in models}
+        connection.check_constraints()
+        with connection.cursor() as cursor:
+            for statement in connection.ops.sequence_reset_sql(no_style(), models):
+                cursor.execute(statement)
+    wrong = [name for name, rows in counts.items() if rows != manifest["tables"][name]["rows"]]
+    if wrong:
+        raise BackupError(f"The backup is damaged: rows of {', '.join(wrong)} are missing.")
+    return counts
+
+
+def _fill(archive: zipfile.ZipFile, model: type[Model]) -> int:
+    rows = 0
+    with archive.open(_member(model._meta.label_lower)) as member:
+        for line in _read_lines(member):
+            for found in serializers.deserialize("jsonl", line):
+                if found.object._meta.model is not model:
+                    raise BackupError("The backup is damaged: a row is in the wrong table.")
+                found.save()
+                rows += 1
+    return rows
+
+
+def _read_lines(member: IO[bytes]) -> Iterable[str]:
+    for line in io.BufferedReader(member, 1 << 20):  # type: ignore[type-var]
+        if len(line) > MAX_LINE_BYTES:
+            raise BackupError("The backup is damaged: a row is too long.")
+        yield line.decode()

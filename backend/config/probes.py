@@ -1,0 +1,118 @@
+"""What orchestrators and monitors ask, before any guard: is it alive, ready, how busy; and the access log.
+
+* `/health/live`: this process answers.
+* `/health/ready`: it answers and its database does.
+* `/metrics`: Prometheus' text, for loopback clients, or for those that show `BT_STUDIO_METRICS_TOKEN`.
+"""
+
+from __future__ import annotations
+
+import hmac
+import json
+import logging
+import time
+from typing import TYPE_CHECKING, Any, Final
+
+from asgiref.sync import sync_to_async
+
+from backend.config import metrics
+from backend.config.environment import environment
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, HTTPScope, Scope
+
+log = logging.getLogger("bt_studio.access")
+
+LIVE: Final = "/health/live"
+READY: Final = "/health/ready"
+METRICS: Final = "/metrics"
+LOOPBACK: Final = frozenset({"127.0.0.1", "::1"})
+
+
+def probed(application: ASGI3Application) -> ASGI3Application:
+    """The application with the probes before it, measured and logged."""
+
+    async def entry(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
+        if scope["type"] == "http":
+            await _http(application, scope, receive, send)
+        elif scope["type"] == "websocket":
+            metrics.sockets.add("opened")
+            try:
+                await application(scope, receive, send)
+            finally:
+                metrics.sockets.add("ended")
+        else:
+            await application(scope, receive, send)
+
+    return entry
+
+
+async def _http(
+    application: ASGI3Application, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> None:
+    path = scope["path"]
+    if path in {LIVE, READY, METRICS}:
+        status, kind, body = await _answer(scope)
+        headers = [(b"content-type", kind.encode()), (b"cache-control", b"no-store")]
+        await send({"type": "http.response.start", "status": status, "headers": headers, "trailers": False})
+        await send({"type": "http.response.body", "body": body.encode(), "more_body": False})
+        return
+    started = time.perf_counter()
+    status = 500
+
+    async def noting_send(message: Any) -> None:
+        nonlocal status
+        if message["type"] == "http.response.start":
+            status = message["status"]
+        await send(message)
+
+    try:
+        await application(scope, receive, noting_send)
+    finally:
+        seconds = time.perf_counter() - started
+        metrics.requests.add(f"{status // 100}xx")
+        metrics.request_seconds.observe(seconds)
+        # The query is left out: links with a token are nobody's business.
+        facts = {"method": scope["method"], "path": path, "status": status, "ms": round(1000 * seconds, 1)}
+        log.debug("request", extra={"facts": facts})
+
+
+async def _answer(scope: HTTPScope) -> tuple[int, str, str]:
+    if scope["path"] == LIVE:
+        return 200, "application/json", '{"status": "ok"}\n'
+    if scope["path"] == READY:
+        trouble = await sync_to_async(_trouble)()
+        answer = {"status": "failed", "detail": trouble} if trouble else {"status": "ok"}
+        return 503 if trouble else 200, "application/json", json.dumps(answer) + "\n"
+    if not _may_measure(scope):
+        return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
+    return 200, "text/plain; version=0.0.4; charset=utf-8", await sync_to_async(_metrics)()
+
+
+def _may_measure(scope: HTTPScope) -> bool:
+    token = environment().metrics_token.get_secret_value()
+    given = next((value for name, value in scope["headers"] if name == b"authorization"), b"")
+    if token:
+        return hmac.compare_digest(given, f"Bearer {token}".encode())
+    client = scope["client"]
+    return client is not None and client[0] in LOOPBACK
+
+
+def _trouble() -> str:
+    from django.db import Error, connection  # noqa: PLC0415 - Django must be set up first
+
+    try:
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT 1")
+    except Error as error:
+        return f"The database does not answer: {type(error).__name__}."
+    return ""
+
+
+def _metrics() -> str:
+    from backend.sessions.queries import counts  # noqa: PLC0415 - Django must be set up first
+
+    states = {state: float(n) for state, n in counts().items()}
+    parts = [metrics.requests.text(), metrics.request_seconds.text(), metrics.sockets.text()]
+    parts.append(metrics.gauges("bt_studio_sessions", "Executors by state.", "state", states))
+    return "".join(parts)

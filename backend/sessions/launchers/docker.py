@@ -1,0 +1,108 @@
+"""Executors in containers of their own, which the keeper starts; they outlive the web server.
+
+The web server never speaks to Docker. It tells the keeper (`backend/sessions/keeper`) the id and the token
+of a session and is told at which unix socket its manager listens.
+"""
+
+from __future__ import annotations
+
+import http.client
+import logging
+from pathlib import Path
+from typing import Any, Final
+
+from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.keeper.unix_http import ask, read_json
+from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Spec, Started, State
+
+log = logging.getLogger(__name__)
+
+FOLDER: Final = Path("/run/bt-studio-keeper")
+FULL: Final = 429
+MARGIN_S: Final = 30.0
+LOOK_TIMEOUT_S: Final = 5.0
+
+
+class DockerLauncher(Launcher):
+    """Asks the keeper.
+
+    Args:
+        folder: shared with the keeper; holds its socket and those of the sessions.
+    """
+
+    name = "docker"
+    survives_server = True
+
+    def __init__(self, folder: Path = FOLDER) -> None:
+        self._socket = str(folder / "keeper.sock")
+
+    def start(self, spec: Spec) -> Started:
+        """Starts a container; returns when its manager has taken its socket."""
+        body = {
+            "session": spec.session_id,
+            "token": spec.token,
+            "domain_id": spec.ros_domain_id,
+            "timeout_s": spec.start_timeout_s,
+        }
+        status, answer = self._ask("POST", "/sessions", body, timeout_s=spec.start_timeout_s + MARGIN_S)
+        if status == FULL:
+            raise HostFullError(_detail(answer))
+        if status >= 400:
+            raise LaunchError(_detail(answer), hint=str(answer.get("log", "")))
+        return Started(f"unix:{answer['socket']}", {"session": spec.session_id})
+
+    def poll(self, state: State) -> int | None:
+        """What the keeper says; while it cannot be asked, executors are taken to run."""
+        status, answer = self._look(state)
+        if status != 200 or answer.get("running"):
+            return None
+        found = answer.get("status")
+        return UNKNOWN_EXIT if found is None else int(found)
+
+    def explain(self, state: State) -> str:
+        """Why an executor ended, where more is known than its status."""
+        return str(self._look(state)[1].get("reason", ""))
+
+    def stop(self, state: State, *, timeout_s: float) -> None:
+        """Ends the container; while the keeper cannot be asked, that is left to `orphans`."""
+        target = f"/sessions/{state['session']}?timeout_s={timeout_s:g}"
+        try:
+            status, answer = self._ask("DELETE", target, timeout_s=timeout_s + MARGIN_S)
+        except LaunchError as error:
+            status, answer = error.status, {"detail": error.detail}
+        if status >= 400:
+            log.warning("session %s was not ended: %s", state["session"], _detail(answer))
+
+    def running(self) -> list[str]:
+        """The sessions whose containers run."""
+        try:
+            status, answer = self._ask("GET", "/sessions", timeout_s=LOOK_TIMEOUT_S)
+        except LaunchError:
+            return []
+        sessions = answer.get("sessions", []) if status == 200 else []
+        return [one["session"] for one in sessions if one["running"]]
+
+    def state_of(self, session_id: str) -> dict[str, Any]:
+        """What finds the executor of a session of which only the id is known."""
+        return {"session": session_id}
+
+    def _look(self, state: State) -> tuple[int, dict[str, Any]]:
+        try:
+            return self._ask("GET", f"/sessions/{state['session']}", timeout_s=LOOK_TIMEOUT_S)
+        except LaunchError as error:
+            log.warning("%s", error.detail)
+            return error.status, {}
+
+    def _ask(
+        self, method: str, target: str, body: object = None, *, timeout_s: float
+    ) -> tuple[int, dict[str, Any]]:
+        try:
+            status, data = ask(self._socket, method, target, body, timeout_s=timeout_s)
+        except (OSError, http.client.HTTPException) as error:
+            raise LaunchError(f"The keeper of the executors does not answer: {error}.") from error
+        answer = read_json(data)
+        return status, answer if isinstance(answer, dict) else {}
+
+
+def _detail(answer: dict[str, Any]) -> str:
+    return str(answer.get("detail") or "The keeper of the executors refused.")

@@ -5,30 +5,53 @@ from __future__ import annotations
 import difflib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Final, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import Field
 
+from executor.robots.sensors import (
+    Battery,
+    Bumper,
+    Camera,
+    Imu,
+    Lidar,
+    NotNegative,
+    Positive,
+    Sensor,
+    Strict,
+)
 from executor.robots.urdf import Urdf, UrdfError, parse_urdf
 from executor.universes.document import DocumentError, Problem, read_yaml
 from executor.universes.loader import validate
 
-_FOLDER: Final = Path(__file__).parent
+__all__ = [
+    "Battery",
+    "Bumper",
+    "Camera",
+    "Drive",
+    "Imu",
+    "Lidar",
+    "RobotConfig",
+    "RobotError",
+    "load_robot",
+    "preview_path",
+    "robot_ids",
+]
 
-Topic = Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+_FOLDER: Final = Path(__file__).parent
 
 
 class RobotError(DocumentError):
     """A robot that cannot be used; `problems` say why and where."""
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class Drive(Strict):
+    """A differential drive. Speeds in m/s and rad/s, accelerations in m/s² and rad/s².
 
-
-class Drive(_Strict):
-    """A differential drive. Speeds in m/s and rad/s, accelerations in m/s² and rad/s²."""
+    `turn_factor` is how many times as wide as `track` the drive behaves when it turns: 1 with one wheel a
+    side, more where wheels must skid. `slip_noise` is the standard deviation in m of what odometry takes a
+    wheel's way for after 1 m; it grows with the root of the way.
+    """
 
     kind: Literal["differential"] = "differential"
     left: tuple[str, ...] = Field(min_length=1)
@@ -40,44 +63,12 @@ class Drive(_Strict):
     linear_acceleration: Positive = 1.5
     angular_acceleration: Positive = 6.0
     wheel_torque: Positive = 2.0
+    turn_factor: Positive = 1.0
+    slip_noise: NotNegative = 0.0
     timeout_s: Positive = 0.6
 
 
-class Lidar(_Strict):
-    """A scanner that turns counter-clockwise from straight ahead."""
-
-    name: str = "scan"
-    kind: Literal["lidar"]
-    link: str
-    topic: Topic = "/scan"
-    rays: int = Field(default=360, ge=1, le=4000)
-    range_min: float = Field(default=0.12, ge=0)
-    range_max: Positive = 8.0
-    rate_hz: Positive = 10.0
-    noise_m: float = Field(default=0.0, ge=0)
-
-
-class Camera(_Strict):
-    """A colour camera that looks along x of its link; `fov` is horizontal, in rad."""
-
-    name: str = "camera"
-    kind: Literal["camera"]
-    link: str
-    topic: Topic = "/camera/image_raw"
-    info_topic: Topic = "/camera/camera_info"
-    aliases: tuple[Topic, ...] = ()
-    width: int = Field(default=640, ge=8, le=4096)
-    height: int = Field(default=480, ge=8, le=4096)
-    fov: float = Field(default=1.047, gt=0.05, lt=3.0)
-    near: Positive = 0.05
-    far: Positive = 60.0
-    rate_hz: Positive = 15.0
-
-
-Sensor = Annotated[Lidar | Camera, Field(discriminator="kind")]
-
-
-class _Document(_Strict):
+class _Document(Strict):
     format: Literal["bt-studio/robot"]
     version: Literal[1]
     name: str
@@ -107,6 +98,9 @@ class RobotConfig:
     friction: dict[str, float]
     lidars: tuple[Lidar, ...]
     cameras: tuple[Camera, ...]
+    imus: tuple[Imu, ...] = ()
+    bumpers: tuple[Bumper, ...] = ()
+    batteries: tuple[Battery, ...] = ()
 
 
 def robot_ids() -> tuple[str, ...]:
@@ -159,11 +153,18 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
         friction=document.friction,
         lidars=tuple(sensor for sensor in document.sensors if isinstance(sensor, Lidar)),
         cameras=tuple(sensor for sensor in document.sensors if isinstance(sensor, Camera)),
+        imus=tuple(sensor for sensor in document.sensors if isinstance(sensor, Imu)),
+        bumpers=tuple(sensor for sensor in document.sensors if isinstance(sensor, Bumper)),
+        batteries=tuple(sensor for sensor in document.sensors if isinstance(sensor, Battery)),
     )
 
 
 def _check_names(robot_id: str, document: _Document, urdf: Urdf) -> None:
-    links = (*document.wheels, *document.friction, *(sensor.link for sensor in document.sensors))
+    links = (
+        *document.wheels,
+        *document.friction,
+        *(sensor.link for sensor in document.sensors if not isinstance(sensor, Battery)),
+    )
     missing = [f"link {name!r}" for name in links if name not in urdf.links]
     missing += [
         f"joint {name!r}" for name in (*document.drive.left, *document.drive.right) if name not in urdf.joints

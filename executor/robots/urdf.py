@@ -51,12 +51,13 @@ class Joint:
 
 @dataclass(frozen=True)
 class Urdf:
-    """A robot's tree of links."""
+    """A robot's tree of links; `text` is the document."""
 
     name: str
     root: str
     links: dict[str, Link]
     joints: dict[str, Joint]
+    text: str = ""
 
     @functools.cached_property
     def joint_above(self) -> dict[str, Joint]:
@@ -95,7 +96,7 @@ def parse_urdf(data: bytes, file: str = "robot.urdf") -> Urdf:
         joints = {joint.get("name", ""): _joint(joint) for joint in root.findall("joint")}
     except (ValueError, AttributeError, IndexError) as error:
         raise UrdfError(f"{file}: {error}") from error
-    return Urdf(root.get("name", "robot"), _root_link(links, joints, file), links, joints)
+    return Urdf(root.get("name", "robot"), _root_link(links, joints, file), links, joints, data.decode())
 
 
 def _root_link(links: dict[str, Link], joints: dict[str, Joint], file: str) -> str:

@@ -10,7 +10,10 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, TransformStamped
 from nav_msgs.msg import Odometry as OdometryMessage
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan
+from sensor_msgs.msg import BatteryState, CameraInfo, Image, JointState, LaserScan
+from sensor_msgs.msg import Imu as ImuMessage
+
+from executor.world.transforms import from_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,13 +21,16 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from executor.robots.config import Camera, Lidar
+    from executor.robots.config import Camera, Imu, Lidar
+    from executor.world.battery import BatteryReading
     from executor.world.drive import Odometry
+    from executor.world.imu import ImuReading
     from executor.world.interface import LidarReading
     from executor.world.transforms import Pose
 
 ODOM_FRAME = "odom"
 BASE_FRAME = "base_link"
+_UNKNOWN = 1e6
 
 
 def to_time(time_s: float) -> Time:
@@ -38,14 +44,14 @@ def clock(time_s: float) -> Clock:
     return Clock(clock=to_time(time_s))
 
 
-def laser_scan(lidar: Lidar, reading: LidarReading) -> LaserScan:
-    """Returns a scan; its first ray looks straight ahead, the others follow counter-clockwise."""
+def laser_scan(lidar: Lidar, reading: LidarReading, prefix: str = "") -> LaserScan:
+    """Returns a scan; its rays follow counter-clockwise from `angle_min`."""
     message = LaserScan()
     message.header.stamp = to_time(reading.time_s)
-    message.header.frame_id = lidar.link
-    message.angle_min = 0.0
-    message.angle_increment = 2 * math.pi / lidar.rays
-    message.angle_max = message.angle_increment * (lidar.rays - 1)
+    message.header.frame_id = prefix + lidar.link
+    message.angle_min = lidar.angle_min
+    message.angle_increment = lidar.angle_increment
+    message.angle_max = lidar.angle_min + lidar.angle_increment * (lidar.rays - 1)
     message.scan_time = 1.0 / lidar.rate_hz
     message.range_min = lidar.range_min
     message.range_max = lidar.range_max
@@ -53,11 +59,11 @@ def laser_scan(lidar: Lidar, reading: LidarReading) -> LaserScan:
     return message
 
 
-def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float) -> Image:
+def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float, prefix: str = "") -> Image:
     """Returns a picture as rgb8."""
     message = Image()
     message.header.stamp = to_time(time_s)
-    message.header.frame_id = optical_frame(camera)
+    message.header.frame_id = prefix + optical_frame(camera)
     message.height, message.width = int(pixels.shape[0]), int(pixels.shape[1])
     message.encoding = "rgb8"
     message.step = message.width * 3
@@ -66,13 +72,25 @@ def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float) -> Image:
     return message
 
 
-def camera_info(camera: Camera, time_s: float) -> CameraInfo:
+def depth_image(camera: Camera, metres: NDArray[np.float32], time_s: float, prefix: str = "") -> Image:
+    """Returns a depth picture as 32FC1, in m."""
+    message = Image()
+    message.header.stamp = to_time(time_s)
+    message.header.frame_id = prefix + optical_frame(camera)
+    message.height, message.width = int(metres.shape[0]), int(metres.shape[1])
+    message.encoding = "32FC1"
+    message.step = message.width * 4
+    message.data = array.array("B", metres.astype("<f4").tobytes())
+    return message
+
+
+def camera_info(camera: Camera, time_s: float, prefix: str = "") -> CameraInfo:
     """Returns the lens: a pinhole without distortion."""
     focal = camera.width / 2 / math.tan(camera.fov / 2)
     cx, cy = camera.width / 2, camera.height / 2
     message = CameraInfo()
     message.header.stamp = to_time(time_s)
-    message.header.frame_id = optical_frame(camera)
+    message.header.frame_id = prefix + optical_frame(camera)
     message.width, message.height = camera.width, camera.height
     message.distortion_model = "plumb_bob"
     message.d = [0.0] * 5
@@ -82,39 +100,70 @@ def camera_info(camera: Camera, time_s: float) -> CameraInfo:
     return message
 
 
-def odometry(state: Odometry, time_s: float) -> OdometryMessage:
-    """Returns where the wheels say that the robot is."""
+def odometry(state: Odometry, noise: float, time_s: float, prefix: str = "") -> OdometryMessage:
+    """Returns where the wheels say that the robot is; `noise` is the drive's `slip_noise`."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)
-    message.header.frame_id = ODOM_FRAME
-    message.child_frame_id = BASE_FRAME
+    message.header.frame_id = prefix + ODOM_FRAME
+    message.child_frame_id = prefix + BASE_FRAME
     message.pose.pose.position.x = state.x
     message.pose.pose.position.y = state.y
     message.pose.pose.orientation = _heading(state.yaw)
     message.twist.twist.linear.x = state.linear
     message.twist.twist.angular.z = state.angular
+    planar = max(noise, 1e-3) ** 2
+    message.pose.covariance = _diagonal(planar, planar, _UNKNOWN, _UNKNOWN, _UNKNOWN, planar)
+    message.twist.covariance = _diagonal(planar, planar, _UNKNOWN, _UNKNOWN, _UNKNOWN, planar)
     return message
 
 
-def odometry_transform(state: Odometry, time_s: float) -> TransformStamped:
-    """Returns the transform from the odometry's frame to the robot."""
+def transform(parent: str, child: str, pose: Pose, time_s: float = 0.0) -> TransformStamped:
+    """Returns where one frame is in another."""
     message = TransformStamped()
     message.header.stamp = to_time(time_s)
-    message.header.frame_id = ODOM_FRAME
-    message.child_frame_id = BASE_FRAME
-    message.transform.translation.x = state.x
-    message.transform.translation.y = state.y
-    message.transform.rotation = _heading(state.yaw)
+    message.header.frame_id, message.child_frame_id = parent, child
+    translation, turn = message.transform.translation, message.transform.rotation
+    translation.x, translation.y, translation.z = map(float, pose[:3])
+    turn.x, turn.y, turn.z, turn.w = map(float, pose[3:])
     return message
 
 
-def fixed_transform(parent: str, child: str, pose: Pose) -> TransformStamped:
-    """Returns where a part of a robot sits."""
-    message = TransformStamped()
-    message.header.frame_id, message.child_frame_id = parent, child
-    translation, rotation = message.transform.translation, message.transform.rotation
-    translation.x, translation.y, translation.z = pose[:3]
-    rotation.x, rotation.y, rotation.z, rotation.w = pose[3:]
+def odometry_transform(state: Odometry, time_s: float, prefix: str = "") -> TransformStamped:
+    """Returns the transform from the odometry's frame to the robot."""
+    pose = from_xyz_rpy((state.x, state.y, 0.0, 0.0, 0.0, state.yaw))
+    return transform(prefix + ODOM_FRAME, prefix + BASE_FRAME, pose, time_s)
+
+
+def imu(sensor: Imu, reading: ImuReading, prefix: str = "") -> ImuMessage:
+    """Returns what an inertial measurement unit feels."""
+    message = ImuMessage()
+    message.header.stamp = to_time(reading.time_s)
+    message.header.frame_id = prefix + sensor.link
+    x, y, z, w = reading.orientation
+    message.orientation = Quaternion(x=x, y=y, z=z, w=w)
+    rate, felt = message.angular_velocity, message.linear_acceleration
+    rate.x, rate.y, rate.z = reading.rate
+    felt.x, felt.y, felt.z = reading.acceleration
+    message.orientation_covariance = [1e-6, 0.0, 0.0, 0.0, 1e-6, 0.0, 0.0, 0.0, 1e-6]
+    rates, felts = max(sensor.rate_noise, 1e-4) ** 2, max(sensor.acceleration_noise, 1e-3) ** 2
+    message.angular_velocity_covariance = [rates, 0.0, 0.0, 0.0, rates, 0.0, 0.0, 0.0, rates]
+    message.linear_acceleration_covariance = [felts, 0.0, 0.0, 0.0, felts, 0.0, 0.0, 0.0, felts]
+    return message
+
+
+def battery_state(reading: BatteryReading, time_s: float) -> BatteryState:
+    """Returns the charge of a battery."""
+    message = BatteryState()
+    message.header.stamp = to_time(time_s)
+    message.voltage, message.current = reading.voltage, reading.current
+    message.charge = reading.charge
+    message.capacity = message.design_capacity = reading.capacity
+    message.percentage = reading.percentage
+    message.temperature = math.nan
+    message.power_supply_status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+    message.power_supply_health = BatteryState.POWER_SUPPLY_HEALTH_GOOD
+    message.power_supply_technology = BatteryState.POWER_SUPPLY_TECHNOLOGY_LION
+    message.present = True
     return message
 
 
@@ -131,6 +180,12 @@ def joint_state(states: Mapping[str, tuple[float, float]], time_s: float) -> Joi
 def optical_frame(camera: Camera) -> str:
     """Names the frame of a camera whose z looks ahead, as REP-103 asks of pictures."""
     return camera.link.removesuffix("_link") + "_optical_frame"
+
+
+def _diagonal(*values: float) -> list[float]:
+    matrix = [0.0] * 36
+    matrix[::7] = values
+    return matrix
 
 
 def _heading(yaw: float) -> Quaternion:

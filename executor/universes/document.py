@@ -85,7 +85,8 @@ def _measure(text: str, file: str) -> None:
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > MAX_DEPTH:
-                line, column = event.start_mark.line + 1, event.start_mark.column + 1
+                mark = event.start_mark
+                line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
                 problem = Problem(f"the document is nested deeper than {MAX_DEPTH}", line, column)
                 raise DocumentError([problem], file)
         elif isinstance(event, yaml.CollectionEndEvent):

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from executor.world.transforms import wrap
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from executor.robots.config import Drive
 
 
@@ -38,8 +40,9 @@ class DriveState:
 class DifferentialDrive:
     """Turns twists into wheel rates within the limits of the drive; stops when no command comes."""
 
-    def __init__(self, config: Drive) -> None:
+    def __init__(self, config: Drive, noise: np.random.Generator | None = None) -> None:
         self._config = config
+        self._noise = noise
         self.state = DriveState()
 
     def command(self, linear: float, angular: float, now_s: float) -> bool:
@@ -59,7 +62,7 @@ class DifferentialDrive:
         linear = _approach(state.linear, linear, limit.linear_acceleration * dt_s)
         angular = _approach(state.angular, angular, limit.angular_acceleration * dt_s)
         self.state = replace(state, linear=linear, angular=angular)
-        half_track = limit.track / 2
+        half_track = limit.track * limit.turn_factor / 2
         return (
             (linear - angular * half_track) / limit.wheel_radius,
             (linear + angular * half_track) / limit.wheel_radius,
@@ -71,9 +74,10 @@ class DifferentialDrive:
         if last is None or dt_s <= 0:
             self.state = replace(self.state, wheel_angles=(left, right))
             return old
-        moved_left = (left - last[0]) * limit.wheel_radius
-        moved_right = (right - last[1]) * limit.wheel_radius
-        moved, turned = (moved_left + moved_right) / 2, (moved_right - moved_left) / limit.track
+        moved_left = self._believed((left - last[0]) * limit.wheel_radius)
+        moved_right = self._believed((right - last[1]) * limit.wheel_radius)
+        width = limit.track * limit.turn_factor
+        moved, turned = (moved_left + moved_right) / 2, (moved_right - moved_left) / width
         middle = old.yaw + turned / 2
         # The chord of an arc, not its length: exact for constant rates.
         chord = moved * (math.sin(turned / 2) / (turned / 2) if abs(turned) > 1e-9 else 1.0)
@@ -86,6 +90,12 @@ class DifferentialDrive:
         )
         self.state = replace(self.state, wheel_angles=(left, right), odometry=odometry)
         return odometry
+
+    def _believed(self, way: float) -> float:
+        """Returns what odometry takes a wheel's way for: a random walk along the way."""
+        if self._noise is None or self._config.slip_noise <= 0:
+            return way
+        return way + self._config.slip_noise * math.sqrt(abs(way)) * float(self._noise.normal())
 
 
 def _clamp(value: float, limit: float) -> float:

@@ -12,9 +12,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.messages import Scene
-    from executor.robots.config import Camera, Lidar, RobotConfig
+    from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
+    from executor.world.battery import BatteryReading
+    from executor.world.bumper import Zone
     from executor.world.collision import Collision
     from executor.world.drive import Odometry
+    from executor.world.imu import ImuReading
     from executor.world.transforms import Pose
 
 
@@ -69,6 +72,15 @@ class Robot(Protocol):
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Measures now."""
+
+    def imu(self, imu: Imu) -> ImuReading:
+        """Measures now."""
+
+    def battery(self, battery: Battery) -> BatteryReading:
+        """Measures now."""
+
+    def pressed(self) -> frozenset[Zone]:
+        """Returns the zones of the bumper that are pressed."""
 
     def camera_pose(self, camera: Camera) -> Pose:
         """Where a camera is in the world; it looks along x, z is up in the picture."""

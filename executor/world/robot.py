@@ -5,31 +5,27 @@ from __future__ import annotations
 import copy
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
-from executor.messages import SensorPlacement, Shape
 from executor.world.collision import Collision, CollisionCounter
 from executor.world.drive import DifferentialDrive, DriveState, Odometry
+from executor.world.kinematics import add_links, link_pose, sensor_placements
 from executor.world.lidar import LidarCaster
-from executor.world.transforms import (
-    IDENTITY,
-    Pose,
-    compose,
-    from_xyz_rpy,
-    inverse,
-    quaternion_about,
-    yaw_of,
-)
+from executor.world.senses import Senses
+from executor.world.transforms import Pose, compose, from_xyz_rpy, inverse, yaw_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
-    from executor.robots.config import Camera, Lidar, RobotConfig
-    from executor.robots.urdf import Joint, Visual
+    from executor.messages import SensorPlacement
+    from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
     from executor.universes.model import RobotPlace
+    from executor.world.battery import BatteryReading
+    from executor.world.bumper import Zone
     from executor.world.engine import Bullet
+    from executor.world.imu import ImuReading
     from executor.world.interface import LidarReading
     from executor.world.objects import SceneObjects
 
@@ -45,7 +41,8 @@ class _Saved:
     counter: CollisionCounter
     distance_m: float
     at: tuple[float, float]
-    noise: object
+    noise: Mapping[str, Any]
+    senses: object
 
 
 class BulletRobot:
@@ -63,9 +60,10 @@ class BulletRobot:
         self.uid: int = bullet.loadURDF(
             str(config.urdf_path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
         )
-        self._drive = DifferentialDrive(config.drive)
-        self._counter = CollisionCounter()
         self._noise = np.random.default_rng([seed, index])
+        self._drive = DifferentialDrive(config.drive, self._noise)
+        self._counter = CollisionCounter()
+        self._senses = Senses(config, (seed, index), self._pose_of)
         self._joints, self._links = self._index_links()
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
         self._wheel_links = {self._links[name] for name in config.wheels}
@@ -74,7 +72,10 @@ class BulletRobot:
         self._at = self.pose[:2]
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
         mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
-        self._lidars = {lidar.name: LidarCaster(bullet, lidar, mask) for lidar in config.lidars}
+        self._lidars = {
+            lidar.name: LidarCaster(bullet, lidar, mask, (seed, index, i))
+            for i, lidar in enumerate(config.lidars)
+        }
         self._drive.observe(*self._wheel_angles(), 0.0)
 
     # --- what a program may ask ---
@@ -124,11 +125,23 @@ class BulletRobot:
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Measures now."""
-        return self._lidars[lidar.name].scan(self._clock_s, self._sensor_pose(lidar.link), self._noise)
+        return self._lidars[lidar.name].scan(self._clock_s, self._pose_of(lidar.link))
+
+    def imu(self, imu: Imu) -> ImuReading:
+        """Measures now."""
+        return self._senses.imu(imu, self._clock_s)
+
+    def battery(self, battery: Battery) -> BatteryReading:
+        """Measures now."""
+        return self._senses.battery(battery)
+
+    def pressed(self) -> frozenset[Zone]:
+        """Returns the zones of the bumper that are pressed."""
+        return self._senses.pressed(self._clock_s)
 
     def camera_pose(self, camera: Camera) -> Pose:
         """Where a camera is in the world."""
-        return self._sensor_pose(camera.link)
+        return self._pose_of(camera.link)
 
     # --- what the world calls ---
 
@@ -136,7 +149,8 @@ class BulletRobot:
         """Reads the wheels and sets their motors; once a control period."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
-        rates = self._drive.wheel_rates(now_s, dt_s)
+        rates = self._drive.wheel_rates(now_s, dt_s) if self._senses.has_power else (0.0, 0.0)
+        self._feel(dt_s)
         if rates != self._applied:
             self._apply(rates)
         x, y, _ = self.pose
@@ -148,12 +162,14 @@ class BulletRobot:
     def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
         """Looks at what touches the robot; once a physics step."""
         self._clock_s = now_s
+        touched = None
         for contact in self._bullet.getContactPoints(bodyA=self.uid):
             if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
                 body = name_of(contact[2])
                 if body is not None:
-                    return self._counter.observe(now_s, body)
-        return None
+                    self._senses.touch(contact[5], now_s)
+                    touched = touched or body
+        return None if touched is None else self._counter.observe(now_s, touched)
 
     def moved_by_hand(self) -> None:
         """Takes note that somebody put the robot elsewhere: that is no travel of its own."""
@@ -165,8 +181,8 @@ class BulletRobot:
 
     def save(self) -> object:
         """Returns what the physics server does not keep itself."""
-        noise = copy.deepcopy(self._noise)
-        return _Saved(self._drive.state, copy.copy(self._counter), self.distance_m, self._at, noise)
+        noise, senses = self._noise.bit_generator.state, self._senses.save()
+        return _Saved(self._drive.state, copy.copy(self._counter), self.distance_m, self._at, noise, senses)
 
     def restore(self, saved: object, now_s: float) -> None:
         """Takes back what `save` gave."""
@@ -176,59 +192,41 @@ class BulletRobot:
         self._drive.state = saved.drive
         self._counter = copy.copy(saved.counter)
         self.distance_m, self._at = saved.distance_m, saved.at
-        noise = copy.deepcopy(saved.noise)
-        if isinstance(noise, np.random.Generator):
-            self._noise = noise
-        half_track, radius = self.config.drive.track / 2, self.config.drive.wheel_radius
-        linear, angular = saved.drive.linear, saved.drive.angular
-        self._apply(((linear - angular * half_track) / radius, (linear + angular * half_track) / radius))
+        self._noise.bit_generator.state = saved.noise
+        self._senses.restore(saved.senses)
+        drive = self.config.drive
+        half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
+        linear, turn = saved.drive.linear, saved.drive.angular * half_track
+        rates = ((linear - turn) / radius, (linear + turn) / radius)
+        self._apply(rates if self._senses.has_power else (0.0, 0.0))
 
     def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
-        """Adds one object for the base with all that is fixed to it, and one for each moving link."""
-        urdf = self.config.urdf
-        shapes: dict[str, list[Shape]] = {}
-        for link in urdf.links.values():
-            carrier, pose = urdf.rigid_parent(link.name)
-            shapes.setdefault(carrier, []).extend(_shape(visual, pose) for visual in link.visuals)
-        ids = {
-            link: objects.add(self.id, link, "robot", link_shapes, IDENTITY)
-            for link, link_shapes in shapes.items()
-        }
+        """Adds what one sees of the robot, and its sensors."""
+        ids = add_links(self.id, self.config, objects)
         objects.add_mover(lambda: self._where(ids))
-        for lidar in self.config.lidars:
-            carrier, pose = urdf.rigid_parent(lidar.link)
-            sensors.append(
-                SensorPlacement(lidar.name, "lidar", ids[carrier], list(pose), 2 * math.pi, lidar.range_max)
-            )
-        for camera in self.config.cameras:
-            carrier, pose = urdf.rigid_parent(camera.link)
-            sensors.append(
-                SensorPlacement(camera.name, "camera", ids[carrier], list(pose), camera.fov, camera.far)
-            )
+        sensors += sensor_placements(self.config, ids)
 
     # --- inside ---
 
     def _where(self, ids: dict[str, int]) -> Sequence[tuple[int, Pose]]:
-        base = self.base_pose
-        angles = {name: state[0] for name, state in self.joint_states().items()}
-        return [(object_id, self._link_pose(base, link, angles)) for link, object_id in ids.items()]
+        base, positions = self.base_pose, self._positions()
+        urdf = self.config.urdf
+        return [(object_id, link_pose(urdf, base, link, positions)) for link, object_id in ids.items()]
 
-    def _link_pose(self, base: Pose, link: str, angles: dict[str, float]) -> Pose:
-        chain: list[Joint] = []
-        above = self.config.urdf.joint_above
-        while link in above:
-            chain.append(above[link])
-            link = above[link].parent
-        pose = base
-        for joint in reversed(chain):
-            pose = compose(pose, joint.origin)
-            if joint.name in angles:
-                pose = compose(pose, (0, 0, 0, *quaternion_about(joint.axis, angles[joint.name])))
-        return pose
+    def _pose_of(self, link: str) -> Pose:
+        return link_pose(self.config.urdf, self.base_pose, link, self._positions())
 
-    def _sensor_pose(self, link: str) -> Pose:
-        angles = {name: state[0] for name, state in self.joint_states().items()}
-        return self._link_pose(self.base_pose, link, angles)
+    def _positions(self) -> dict[str, float]:
+        return {name: state[0] for name, state in self.joint_states().items()}
+
+    def _feel(self, dt_s: float) -> None:
+        drive, odometry = self.config.drive, self._drive.state.odometry
+        effort = abs(odometry.linear) / drive.max_linear + abs(odometry.angular) / drive.max_angular
+        self._senses.drain(effort, dt_s)
+        if self._senses.has_imu:
+            center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
+            linear, rate = self._bullet.getBaseVelocity(self.uid)
+            self._senses.move(np.array(center), np.array(linear), np.array(rate), dt_s)
 
     def _wheel_angles(self) -> tuple[float, float]:
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
@@ -274,14 +272,3 @@ class BulletRobot:
         self._bullet.changeDynamics(
             self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING
         )
-
-
-def _shape(visual: Visual, carrier: Pose) -> Shape:
-    pose = compose(carrier, visual.pose)
-    return Shape(
-        shape=visual.shape,  # type: ignore[arg-type]
-        size=list(visual.size),
-        pose=list(pose),
-        color=list(visual.color),
-        mesh=visual.file,
-    )

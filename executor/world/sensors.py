@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from executor.render.interface import Renderer, Viewpoint
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from executor.robots.config import Camera, Lidar
@@ -60,6 +61,17 @@ class Sensors:
             self._kept[key] = self._draw(view, wide, high, smooth=True)
         return self._kept[key]  # type: ignore[return-value]
 
+    def depth(self, robot: Robot, camera: Camera) -> NDArray[np.float32]:
+        """Returns how far a camera sees now, in m along its axis; -inf too near, +inf too far."""
+        key = ("depth", robot.id, camera.name)
+        if key not in self._kept:
+            view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
+            renderer = self._loaded()
+            metres = renderer.depth(self._world.poses(), view, camera.width, camera.height)
+            metres = np.where(metres > camera.depth_max, np.inf, metres)
+            self._kept[key] = np.where(metres < camera.depth_min, -np.inf, metres).astype(np.float32)
+        return self._kept[key]  # type: ignore[return-value]
+
     def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:
         """Returns the world seen from anywhere."""
         return self._draw(viewpoint, width, height, smooth=True)
@@ -71,7 +83,10 @@ class Sensors:
             self._renderer = None
 
     def _draw(self, view: Viewpoint, width: int, height: int, *, smooth: bool) -> Picture:
+        return self._loaded().draw(self._world.poses(), view, width, height, smooth=smooth)
+
+    def _loaded(self) -> Renderer:
         if self._renderer is None:
             self._renderer = self._make_renderer()
             self._renderer.load(self._world.scene)
-        return self._renderer.draw(self._world.poses(), view, width, height, smooth=smooth)
+        return self._renderer

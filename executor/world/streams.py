@@ -141,8 +141,8 @@ class Streams:
                 t=reading.time_s,
                 sensor=lidar.name,
                 pose=list(reading.pose),
-                angle_min=0.0,
-                angle_increment=2 * np.pi / lidar.rays,
+                angle_min=lidar.angle_min,
+                angle_increment=lidar.angle_increment,
                 range_max=lidar.range_max,
                 ranges=reading.ranges.astype("<f4").tobytes(),
             )

@@ -5,8 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from numpy.typing import NDArray
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -76,6 +80,18 @@ def from_xyz_rpy(values: Sequence[float]) -> Pose:
     """Returns the pose of [x, y, z, roll, pitch, yaw]."""
     x, y, z, roll, pitch, yaw = values
     return (x, y, z, *quaternion_from_rpy(roll, pitch, yaw))
+
+
+def rotation(q: Sequence[float]) -> NDArray[np.float64]:
+    """Returns the 3×3 matrix of a rotation."""
+    x, y, z, w = q
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def yaw_of(q: Sequence[float]) -> float:

@@ -1,0 +1,210 @@
+"""The topics of one robot. The first one's names stand at the root, another's under its id; so do frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from sensor_msgs.msg import BatteryState, CameraInfo, Image, Imu, JointState, LaserScan
+from std_msgs.msg import Bool, String
+
+from executor.ros import messages
+from executor.ros.feed import Feed
+from executor.world.bumper import ZONES
+from executor.world.kinematics import joint_pose
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+
+    from executor.robots import sensors as config
+    from executor.world.bumper import Zone
+    from executor.world.interface import Robot
+    from executor.world.sensors import Sensors
+
+ODOMETRY_HZ: Final = 30.0
+LATCHED_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_OPTICAL: Final = (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5)
+_RELIABLE: Final = 10
+
+
+class RobotTopics:
+    """Takes a robot's commands and feeds its topics.
+
+    Args:
+        node: who publishes.
+        robot: found anew at each call, since a reset makes robots anew.
+        index: which robot of the world; the first one's names have no prefix.
+        renamed: topics by the name of the sensor, from the universe.
+    """
+
+    def __init__(self, node: Node, robot: Callable[[], Robot], index: int, renamed: dict[str, str]) -> None:
+        self._node = node
+        self._robot = robot
+        self._renamed = renamed
+        self._config = robot().config
+        robot_id = robot().id
+        self._prefix = "" if index == 0 else f"/{robot_id}"
+        self._frames = "" if index == 0 else f"{robot_id}/"
+        self._commands = node.create_subscription(Twist, f"{self._prefix}/cmd_vel", _ignore, _RELIABLE)
+        self.feeds: list[Feed] = []
+        self._add_motion()
+        for lidar in self._config.lidars:
+            self._add_lidar(lidar)
+        for camera in self._config.cameras:
+            self._add_camera(camera)
+        for imu in self._config.imus:
+            self._add_imu(imu)
+        for bumper in self._config.bumpers:
+            self._add_bumper(bumper)
+        for battery in self._config.batteries:
+            self._add_battery(battery)
+        self._describe()
+
+    def poll(self) -> bool:
+        """Takes the commands that arrived; the last one counts. Tells whether it was one to obey."""
+        twist = None
+        while (taken := take(self._commands)) is not None:
+            twist = taken
+        return twist is None or self._robot().command(twist.linear.x, twist.angular.z)
+
+    def moving_transforms(self, now_s: float) -> list[Any]:
+        """Returns where the robot is by its odometry, and where its moving links are."""
+        robot = self._robot()
+        found = [messages.odometry_transform(robot.odometry, now_s, self._frames)]
+        for name, (position, _) in robot.joint_states().items():
+            joint = self._config.urdf.joints[name]
+            found.append(
+                messages.transform(
+                    self._frames + joint.parent,
+                    self._frames + joint.child,
+                    joint_pose(joint, position),
+                    now_s,
+                )
+            )
+        return found
+
+    def fixed_transforms(self) -> list[Any]:
+        """Returns what is fixed to the robot, the cameras' optical frames among it."""
+        frames = self._frames
+        fixed = [
+            messages.transform(frames + joint.parent, frames + joint.child, joint.origin)
+            for joint in self._config.urdf.joints.values()
+            if joint.kind == "fixed"
+        ]
+        return fixed + [
+            messages.transform(frames + camera.link, frames + messages.optical_frame(camera), _OPTICAL)
+            for camera in self._config.cameras
+        ]
+
+    # --- inside ---
+
+    def _publisher(self, kind: Any, topic: str, qos: Any = _RELIABLE) -> Any:
+        return self._node.create_publisher(kind, self._prefix + topic, qos)
+
+    def _name(self, sensor: str, topic: str) -> str:
+        return self._renamed.get(sensor, topic)
+
+    def _feed(
+        self,
+        publishers: list[Any],
+        rate_hz: float,
+        make: Callable[[Sensors, float], Any],
+        *,
+        picture: bool = False,
+    ) -> None:
+        self.feeds.append(Feed(publishers, make, rate_hz, is_picture=picture))
+
+    def _add_motion(self) -> None:
+        noise, frames = self._config.drive.slip_noise, self._frames
+        self._feed(
+            [self._publisher(Odometry, "/odom")],
+            ODOMETRY_HZ,
+            lambda _, now_s: messages.odometry(self._robot().odometry, noise, now_s, frames),
+        )
+        self._feed(
+            [self._publisher(JointState, "/joint_states")],
+            ODOMETRY_HZ,
+            lambda _, now_s: messages.joint_state(self._robot().joint_states(), now_s),
+        )
+
+    def _add_lidar(self, lidar: config.Lidar) -> None:
+        name = self._name(lidar.name, lidar.topic)
+        self._feed(
+            [self._publisher(LaserScan, name, qos_profile_sensor_data)],
+            lidar.rate_hz,
+            lambda sensors, _: messages.laser_scan(lidar, sensors.scan(self._robot(), lidar), self._frames),
+        )
+
+    def _add_camera(self, camera: config.Camera) -> None:
+        names = dict.fromkeys([self._name(camera.name, camera.topic), *camera.aliases])
+        frames, qos = self._frames, qos_profile_sensor_data
+        infos = [camera.info_topic]
+        self._feed(
+            [self._publisher(Image, name, qos) for name in names],
+            camera.rate_hz,
+            lambda sensors, now_s: messages.image(
+                camera, sensors.picture(self._robot(), camera), now_s, frames
+            ),
+            picture=True,
+        )
+        if camera.depth_topic is not None:
+            self._feed(
+                [self._publisher(Image, camera.depth_topic, qos)],
+                camera.rate_hz,
+                lambda sensors, now_s: messages.depth_image(
+                    camera, sensors.depth(self._robot(), camera), now_s, frames
+                ),
+                picture=True,
+            )
+            infos += [camera.depth_info_topic] if camera.depth_info_topic else []
+        self._feed(
+            [self._publisher(CameraInfo, name, qos) for name in dict.fromkeys(infos)],
+            camera.rate_hz,
+            lambda _, now_s: messages.camera_info(camera, now_s, frames),
+        )
+
+    def _add_imu(self, imu: config.Imu) -> None:
+        self._feed(
+            [self._publisher(Imu, self._name(imu.name, imu.topic), qos_profile_sensor_data)],
+            imu.rate_hz,
+            lambda _s, _t: messages.imu(imu, self._robot().imu(imu), self._frames),
+        )
+
+    def _add_bumper(self, bumper: config.Bumper) -> None:
+        topic = self._name(bumper.name, bumper.topic)
+        self._feed(
+            [self._publisher(Bool, topic)],
+            bumper.rate_hz,
+            lambda _s, _t: Bool(data=bool(self._robot().pressed())),
+        )
+        for zone in ZONES:
+            self._feed([self._publisher(Bool, f"{topic}/{zone}")], bumper.rate_hz, self._zone(zone))
+
+    def _zone(self, zone: Zone) -> Callable[[Sensors, float], Bool]:
+        return lambda _s, _t: Bool(data=zone in self._robot().pressed())
+
+    def _add_battery(self, battery: config.Battery) -> None:
+        self._feed(
+            [self._publisher(BatteryState, self._name(battery.name, battery.topic))],
+            battery.rate_hz,
+            lambda _, now_s: messages.battery_state(self._robot().battery(battery), now_s),
+        )
+
+    def _describe(self) -> None:
+        self._description = self._publisher(String, "/robot_description", LATCHED_QOS)
+        self._description.publish(String(data=self._config.urdf.text))
+
+
+def take(subscription: Any) -> Any:
+    """Takes one message of a subscription without an executor; None if there is none."""
+    with subscription.handle:
+        taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+    return None if taken is None else taken[0]
+
+
+def _ignore(message: object) -> None:
+    """Never called: messages are taken, no executor spins this node."""

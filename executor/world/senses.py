@@ -1,0 +1,86 @@
+"""What a robot feels of itself: inertia, touch and charge."""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from executor.world.battery import BatteryModel
+from executor.world.bumper import Bumper
+from executor.world.imu import ImuModel
+from executor.world.transforms import Pose, compose, inverse
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from executor.robots.config import Battery, Imu, RobotConfig
+    from executor.world.battery import BatteryReading
+    from executor.world.bumper import Zone
+    from executor.world.imu import ImuReading
+
+
+class Senses:
+    """The inner sensors of one robot; `pose_of` says where a link is now."""
+
+    def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[[str], Pose]) -> None:
+        self._config = config
+        self._pose_of = pose_of
+        self._imus = {imu.name: ImuModel(imu, (*seed, 1000 + i)) for i, imu in enumerate(config.imus)}
+        self._batteries = {battery.name: BatteryModel(battery) for battery in config.batteries}
+        self._bumper = Bumper()
+        self._rate: NDArray[np.float64] = np.zeros(3)
+
+    @property
+    def has_power(self) -> bool:
+        """Tells whether the wheels may turn."""
+        return not any(battery.is_empty for battery in self._batteries.values())
+
+    @property
+    def has_imu(self) -> bool:
+        """Tells whether anybody wants to know velocities."""
+        return bool(self._imus)
+
+    def move(
+        self, center: NDArray[np.float64], linear: NDArray[np.float64], rate: NDArray[np.float64], dt_s: float
+    ) -> None:
+        """Takes the velocity of the root's centre of mass and its turning rate, in the world frame."""
+        self._rate = rate
+        for imu in self._config.imus:
+            arm = np.array(self._pose_of(imu.link)[:3]) - center
+            self._imus[imu.name].observe(linear + np.cross(rate, arm), dt_s)
+
+    def drain(self, effort: float, dt_s: float) -> None:
+        """Takes what driving costs."""
+        for battery in self._batteries.values():
+            battery.drain(effort, dt_s)
+
+    def touch(self, point: tuple[float, float, float], now_s: float) -> None:
+        """Takes a contact at a point of the world."""
+        for bumper in self._config.bumpers[:1]:
+            x, y, *_ = compose(inverse(self._pose_of(bumper.link)), (*point, 0.0, 0.0, 0.0, 1.0))
+            self._bumper.touch(x, y, now_s)
+
+    def pressed(self, now_s: float) -> frozenset[Zone]:
+        """Returns the zones of the bumper that are pressed."""
+        return self._bumper.pressed(now_s)
+
+    def imu(self, imu: Imu, now_s: float) -> ImuReading:
+        """Measures now."""
+        return self._imus[imu.name].reading(now_s, self._pose_of(imu.link), self._rate)
+
+    def battery(self, battery: Battery) -> BatteryReading:
+        """Measures now."""
+        return self._batteries[battery.name].reading()
+
+    def save(self) -> object:
+        """Returns what `restore` needs."""
+        return copy.deepcopy((self._imus, self._batteries, self._bumper, self._rate))
+
+    def restore(self, saved: object) -> None:
+        """Takes back what `save` gave."""
+        if isinstance(saved, tuple):
+            self._imus, self._batteries, self._bumper, self._rate = copy.deepcopy(saved)

@@ -37,6 +37,7 @@ VERBS: Final[dict[str, Verb]] = {
     "new": Verb("new", "new"),
     "export": Verb("export", "export"),
     "projects": Verb("projects", "projects"),
+    "admin": Verb("admin", "admin"),
     "backup": Verb("backup", "backup"),
     "restore": Verb("backup", "restore"),
 }
@@ -55,8 +56,11 @@ class VerbGroup(TyperGroup):
             return None
         verb = VERBS[cmd_name]
         module = importlib.import_module(f"backend.cli.{verb.module}")
+        found = getattr(module, verb.function)
+        if isinstance(found, typer.Typer):  # a verb with verbs of its own
+            return command_of(found)
         app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        app.command(name=cmd_name)(getattr(module, verb.function))
+        app.command(name=cmd_name)(found)
         return command_of(app)
 
 

@@ -14,7 +14,9 @@ from backend.cli.errors import CliError
 
 
 def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
-    host: Annotated[str | None, typer.Option(help="Address to listen on; loopback only.")] = None,
+    host: Annotated[
+        str | None, typer.Option(help="Address to listen on; loopback only, unless there are accounts.")
+    ] = None,
     port: Annotated[
         int | None, typer.Option(help="Port to listen on; 0 takes a free one.", min=0, max=65535)
     ] = None,
@@ -36,10 +38,12 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
 
     try:
         settings = environment()
-        if not settings.published_on_loopback and settings.host not in {"127.0.0.1", "localhost", "::1"}:
+        may_listen = settings.is_team or settings.published_on_loopback
+        if not may_listen and settings.host not in {"127.0.0.1", "localhost", "::1"}:
             raise ServeError(
                 f"Without accounts the IDE is served on this machine only, not on {settings.host}: "
-                "use --host 127.0.0.1, and an SSH tunnel to reach it from elsewhere."
+                "use --host 127.0.0.1 and an SSH tunnel to reach it from elsewhere, "
+                "or a server with accounts (BT_STUDIO_MODE=team, see docs/how-to/run-a-team-server.md)."
             )
         _serve(open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
@@ -59,7 +63,8 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
         port: int = listener.getsockname()[1]
         host = "127.0.0.1" if settings.published_on_loopback else settings.host
         name = f"[{host}]" if ":" in host else host
-        url = f"http://{name}:{port}/?token={settings.token.get_secret_value()}"
+        link = f"http://{name}:{port}/?token={settings.token.get_secret_value()}"
+        url = settings.public_url + "/" if settings.is_team else link
 
         def on_ready() -> None:
             print(f"BT Studio is at {url}\nCtrl+C ends it and every robot that runs.", flush=True)

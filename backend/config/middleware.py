@@ -14,6 +14,7 @@ from django.http.response import HttpResponseBase
 from django.shortcuts import render
 
 from backend.accounts.audit import client_address
+from backend.accounts.middleware import PAGES
 from backend.config import guard
 from backend.config.environment import environment
 from backend.config.problems import problem, problem_response
@@ -42,6 +43,14 @@ HEADERS: Final = {
     "X-Frame-Options": "DENY",
     "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
 }
+
+
+def page_policy() -> str:
+    """The policy of pages with forms: signing in may lead to the provider's page."""
+    issuer = environment().oidc_issuer
+    origin = "/".join(issuer.split("/")[:3])
+    return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
+
 
 GetResponse = Callable[[HttpRequest], HttpResponseBase | Awaitable[HttpResponseBase]]
 
@@ -87,6 +96,10 @@ class SecurityHeaders(Middleware):
 
     def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
         """Adds what the view did not set itself."""
+        if request.path_info.startswith(PAGES):
+            # Under `no-referrer`, browsers send forms with `Origin: null`.
+            response.headers["Referrer-Policy"] = "same-origin"
+            response.headers["Content-Security-Policy"] = page_policy()
         for name, value in HEADERS.items():
             response.headers.setdefault(name, value)
         if request.path_info.startswith("/api/"):
@@ -100,6 +113,10 @@ class Guard(Middleware):
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
         """Answers refused requests and the link with the token."""
         client_address.set(address_of(request))
+        if "\0" in request.path_info or "%00" in request.META.get("QUERY_STRING", ""):
+            # No name holds one, and no database stores one.
+            sentence = "An address holds no NUL character."
+            return problem_response(problem(400, "bad_address", detail=sentence))
         facts = facts_of(request)
         keys = guard.keys()
         link = request.method == "GET" and request.path_info == "/" and "token" in request.GET

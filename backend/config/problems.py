@@ -11,6 +11,7 @@ Views raise; `exception_handler` turns these, DRF's own errors and nothing else 
 from __future__ import annotations
 
 import logging
+import math
 from http import HTTPStatus
 from typing import Any, ClassVar
 
@@ -113,6 +114,8 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
         document = problem(
             error.status_code, codes if isinstance(codes, str) else "bad_request", detail=detail
         )
+        if wait := getattr(error, "wait", None):
+            headers["Retry-After"] = str(math.ceil(wait))
         if isinstance(error, exceptions.MethodNotAllowed):
             headers["Allow"] = ", ".join(context["view"].allowed_methods)
     else:

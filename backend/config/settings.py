@@ -175,6 +175,8 @@ if ENVIRONMENT.oidc_issuer:
         }
     )
 MFA_SUPPORTED_TYPES = ["totp", "recovery_codes"]
+# Where no mail is sent, no address is ever verified.
+MFA_ALLOW_UNVERIFIED_EMAIL = not ENVIRONMENT.smtp_url.get_secret_value()
 MFA_TOTP_ISSUER = "BT Studio"
 
 REST_FRAMEWORK: dict[str, Any] = {

@@ -28,6 +28,8 @@ def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, 
         "archived_at": project.archived_at and project.archived_at.isoformat(),
         "deleted_at": project.deleted_at and project.deleted_at.isoformat(),
         "root_diagram": root_diagram,
+        "role": project.role.label,
+        "owner": project.owner.username,
     }
 
 

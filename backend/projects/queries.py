@@ -15,6 +15,7 @@ from backend.config.problems import NotFoundError
 from backend.projects import access, names
 from backend.projects.access import Need
 from backend.projects.changes import Existing
+from backend.projects.choices import Role
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
 
 if TYPE_CHECKING:
@@ -77,7 +78,9 @@ def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> 
         NotFoundError: there is none, or none that this user may know of.
         RoleTooLowError: the user may see it, but not do this.
     """
-    rows = Project.objects.select_for_update(of=("self",)) if lock else Project.objects.all()
+    rows = Project.objects.select_related("owner")
+    if lock:
+        rows = rows.select_for_update(of=("self",))
     found = access.with_role(rows.filter(id=project_id, deleted_at=None), user).first()
     return access.gate(found, user=user, need=need)
 
@@ -92,7 +95,7 @@ def project_named(name: str, *, user: User) -> Project:
 
 def deleted_project(project_id: UUID, *, user: User) -> Project:
     """The project, deleted or not, for its owner; locked until the end of the transaction."""
-    rows = Project.objects.select_for_update(of=("self",)).filter(id=project_id)
+    rows = Project.objects.select_related("owner").select_for_update(of=("self",)).filter(id=project_id)
     found = access.with_role(rows, user).first()
     if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
         found = None  # whoever may no longer see it is told as much as everybody else
@@ -104,16 +107,26 @@ def projects(
 ) -> QuerySet[Project]:
     """The user's projects and those shared with them, with each word of the search in name or description."""
     if shelf == "deleted":
-        rows = access.with_role(Project.objects.filter(owner=user), user).exclude(deleted_at=None)
-    else:
-        rows = access.visible(Project.objects.select_related("owner"), user).filter(
-            deleted_at=None, archived_at__isnull=shelf == "current"
+        rows = access.with_role(Project.objects.select_related("owner").filter(owner=user), user).exclude(
+            deleted_at=None
         )
+    else:
+        rows = access.visible(Project.objects.all(), user)
+        rows = rows.filter(deleted_at=None, archived_at__isnull=shelf == "current")
+    rows = rows.select_related("owner")
     for word in search.split()[:10]:
         rows = rows.filter(Q(name_key__contains=names.key(word)) | Q(description__icontains=word))
     backwards, column = sort.startswith("-"), sort.removeprefix("-")
     order = Lower("name") if column == "name" else F(column)
     return rows.order_by(order.desc() if backwards else order.asc(), "id")
+
+
+def page(rows: QuerySet[Project], start: int, end: int) -> list[Project]:
+    """Some of them, each with the user's role."""
+    found = list(rows[start:end])
+    for row in found:
+        row.role = Role(row.rank)  # type: ignore[attr-defined]
+    return found
 
 
 def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:

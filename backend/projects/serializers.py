@@ -153,6 +153,10 @@ class ProjectSummarySerializer(serializers.Serializer[Any]):
     updated_at = serializers.DateTimeField()
     archived_at = serializers.DateTimeField(allow_null=True)
     deleted_at = serializers.DateTimeField(allow_null=True)
+    role = serializers.ChoiceField(
+        choices=["viewer", "editor", "owner"], help_text="What the user who asked may do with it."
+    )
+    owner = serializers.CharField()
     root_diagram = ObjectField(allow_null=True)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from django.urls import path
 
-from backend.projects import views, views_files, views_revisions
+from backend.projects import views, views_files, views_mine, views_revisions, views_sharing
 
 ONE = "projects/<uuid:project_id>"
 
@@ -31,5 +31,12 @@ urlpatterns = [
     path(f"{ONE}/revisions/<int:number>/files/<path:path>", views_revisions.RevisionFile.as_view()),
     path(f"{ONE}/drafts", views_revisions.Drafts.as_view()),
     path(f"{ONE}/drafts/<path:path>", views_revisions.OneDraft.as_view()),
+    path(f"{ONE}/shares", views_sharing.Shares.as_view()),
+    path(f"{ONE}/shares/people/<str:username>", views_sharing.SharedPerson.as_view()),
+    path(f"{ONE}/shares/groups/<uuid:group_id>", views_sharing.SharedGroup.as_view()),
+    path(f"{ONE}/shares/links", views_sharing.Links.as_view()),
+    path(f"{ONE}/shares/links/<uuid:link_id>", views_sharing.OneLink.as_view()),
+    path("me/usage", views_mine.Usage.as_view()),
+    path("me/data", views_mine.MyData.as_view()),
     path("actions/inspect", views.InspectAction.as_view()),
 ]

@@ -46,7 +46,7 @@ class Projects(APIView):
         )
         total = rows.count()
         end = asked["offset"] + asked["limit"]
-        page = list(rows[asked["offset"] : end])
+        page = queries.page(rows, asked["offset"], end)
         diagrams = queries.root_diagrams(page)
         items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
         return Response({"items": items, "total": total, "next_offset": end if end < total else None})
@@ -166,6 +166,8 @@ class Unarchive(APIView):
 
 class Duplicate(APIView):
     """Copies a project."""
+
+    expensive = ("POST",)
 
     @extend_schema(
         operation_id="duplicate_project",

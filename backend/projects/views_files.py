@@ -87,6 +87,8 @@ class Xml(APIView):
 class Export(APIView):
     """The project folder as a zip."""
 
+    expensive = ("GET",)
+
     @extend_schema(
         operation_id="export_project",
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
@@ -100,6 +102,8 @@ class Export(APIView):
 
 class Package(APIView):
     """What users take away."""
+
+    expensive = ("GET",)
 
     @extend_schema(
         operation_id="get_package",
@@ -170,6 +174,7 @@ class Import(APIView):
     """The way back."""
 
     parser_classes = (MultiPartParser,)
+    expensive = ("POST",)
 
     @extend_schema(
         operation_id="import_project",

@@ -1,0 +1,8 @@
+"""What other apps may want to know of accounts."""
+
+from __future__ import annotations
+
+from django.dispatch import Signal
+
+account_leaves = Signal()
+"""Sent with `user` before an account is deleted."""

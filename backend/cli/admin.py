@@ -1,0 +1,117 @@
+"""`bt-studio admin`: accounts of a team's server, from the terminal of its machine."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from backend.cli.errors import BAD_ARGUMENTS, CliError
+from backend.cli.stored import stored_projects
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from backend.accounts.models import User
+
+PASSWORD_VARIABLE = "BT_STUDIO_ADMIN_PASSWORD"  # noqa: S105 - a name
+
+admin = typer.Typer(
+    name="admin",
+    help="Accounts of a server with BT_STUDIO_MODE=team.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+@contextmanager
+def _accounts() -> Iterator[None]:
+    with stored_projects():
+        from backend.config.environment import environment
+
+        if not environment().is_team:
+            raise CliError(
+                "There are no accounts in local mode: set BT_STUDIO_MODE=team.", status=BAD_ARGUMENTS
+            )
+        yield
+
+
+@admin.command()
+def create(  # noqa: PLR0913, PLR0917 - one parameter an option
+    name: Annotated[str, typer.Argument(help="Name to sign in with.")],
+    email: Annotated[str, typer.Option(help="E-mail address.")] = "",
+    teacher: Annotated[bool, typer.Option("--teacher", help="May make groups and invite.")] = False,  # noqa: FBT002
+    user: Annotated[bool, typer.Option("--user", help="No administrator.")] = False,  # noqa: FBT002
+    password_stdin: Annotated[  # noqa: FBT002
+        bool, typer.Option("--password-stdin", help="Read the password from the standard input.")
+    ] = False,
+    if_missing: Annotated[  # noqa: FBT002
+        bool, typer.Option("--if-missing", help="Be content if the account exists.")
+    ] = False,
+) -> None:
+    """Makes an account: an administrator, unless --user or --teacher says otherwise.
+
+    The password comes from the standard input or from BT_STUDIO_ADMIN_PASSWORD; without one, a link is
+    printed that sets it.
+    """
+    password = sys.stdin.readline().rstrip("\n") if password_stdin else os.environ.get(PASSWORD_VARIABLE, "")
+    with _accounts():
+        from backend.accounts import actions, passwords
+
+        if if_missing and actions.user_named(name) is not None:
+            print(f"{name} exists.")
+            return
+        made = actions.create_account(
+            name, email=email, password=password, is_admin=not (teacher or user), is_teacher=teacher
+        )
+        print(f"{made.username} is made.")
+        if not password:
+            print(f"Set the password here, within three days: {passwords.link(made)}")
+
+
+@admin.command(name="password-link")
+def password_link(name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")]) -> None:
+    """Prints a link that sets a new password."""
+    with _accounts():
+        from backend.accounts import passwords
+
+        print(passwords.link(_user(name)))
+
+
+@admin.command()
+def invite(
+    by: Annotated[str, typer.Option(help="Who invites: an administrator or a teacher.")],
+    days: Annotated[int, typer.Option(min=1, max=365, help="How long the link works.")] = 14,
+    uses: Annotated[int, typer.Option(min=1, max=10_000, help="For how many people.")] = 1,
+) -> None:
+    """Prints a link by which people make accounts."""
+    with _accounts():
+        from backend.accounts import invitations, links
+
+        made = invitations.invite(acting_user=_user(by), group=None, days=days, max_uses=uses)
+        print(links.link_of("join", made.id))
+
+
+@admin.command()
+def users() -> None:
+    """Lists the accounts with what they store."""
+    with _accounts():
+        from backend.projects.usage import usage_of_all
+
+        for row in usage_of_all():
+            mark = "admin" if row.is_superuser else "teacher" if row.is_teacher else "user"
+            state = "" if row.is_active else "  deactivated"
+            print(f"{row.username:30} {mark:8} {row.kept:5} projects {row.used or 0:12,} bytes{state}")
+
+
+def _user(name: str) -> User:
+    from backend.accounts.actions import user_named
+
+    found = user_named(name)
+    if found is None:
+        raise CliError(f"There is no account “{name}”.")
+    return found

@@ -1,0 +1,36 @@
+"""How much room users take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from django.db.models import Count, Q, Sum
+
+from backend.accounts.models import User
+from backend.config.environment import environment
+from backend.projects.models import Project
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+def usage_of_all() -> Iterable[Any]:
+    """Every account with `kept` projects that take `used` bytes, the largest first."""
+    current = Q(projects__deleted_at=None)
+    rows = User.objects.annotate(
+        kept=Count("projects", filter=current), used=Sum("projects__size", filter=current)
+    )
+    return sorted(rows, key=lambda row: -(row.used or 0))
+
+
+def usage(user: User) -> dict[str, int]:
+    """What one user takes, and may take."""
+    limits = environment()
+    rows = Project.objects.filter(owner=user, deleted_at=None)
+    found = rows.aggregate(kept=Count("id"), used=Sum("size"))
+    return {
+        "projects": found["kept"],
+        "max_projects": limits.max_user_projects if user.max_projects is None else user.max_projects,
+        "bytes": found["used"] or 0,
+        "max_bytes": limits.max_user_bytes if user.max_bytes is None else user.max_bytes,
+    }

@@ -1,0 +1,75 @@
+"""What a server keeps of a user: how much, all of it as a download, and its end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from drf_spectacular.types import OpenApiTypes
+from drf_spectacular.utils import extend_schema
+from rest_framework import serializers
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.actions import delete_account
+from backend.accounts.audit import note
+from backend.accounts.serializers import DeleteMeSerializer
+from backend.config.api import parsed, user_of
+from backend.config.environment import environment
+from backend.config.problems import InvalidInputError, NotFoundError
+from backend.projects import personal_data, usage
+from backend.projects.views_files import download
+
+if TYPE_CHECKING:
+    from django.http import HttpResponse
+    from rest_framework.request import Request
+
+
+class UsageSerializer(serializers.Serializer[Any]):
+    """Room taken, and room given."""
+
+    projects = serializers.IntegerField()
+    max_projects = serializers.IntegerField()
+    bytes = serializers.IntegerField()
+    max_bytes = serializers.IntegerField()
+
+
+class Usage(APIView):
+    """How much room the user takes."""
+
+    @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
+    def get(self, request: Request) -> Response:
+        """Projects and bytes, with their limits."""
+        return Response(usage.usage(user_of(request)))
+
+
+class MyData(APIView):
+    """Everything of one user."""
+
+    expensive = ("GET",)
+
+    @extend_schema(
+        operation_id="export_my_data",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["accounts"],
+    )
+    def get(self, request: Request) -> HttpResponse:
+        """The account, its log and its projects, as one zip."""
+        user = user_of(request)
+        note("account.export", actor=user)
+        return download(personal_data.archive_of(user), "application/zip", f"{user.username}.zip")
+
+    @extend_schema(
+        operation_id="delete_my_account",
+        request=DeleteMeSerializer,
+        responses={204: None},
+        tags=["accounts"],
+    )
+    def delete(self, request: Request) -> Response:
+        """Deletes the account with all its projects, at once and for good."""
+        user = user_of(request)
+        if not environment().is_team:
+            raise NotFoundError("There are no accounts on this server.")
+        if parsed(DeleteMeSerializer, request.data)["username"] != user.username:
+            raise InvalidInputError("This is not your name.", hint="Type it as it is.", field="username")
+        delete_account(user)
+        return Response(status=204)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import django
 
 if TYPE_CHECKING:
-    from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, Scope
+    from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, Scope, WebSocketScope
 
 os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
 django.setup()
@@ -19,6 +19,10 @@ from channels.routing import ProtocolTypeRouter  # noqa: E402
 from django.core.handlers.asgi import ASGIHandler  # noqa: E402
 
 from backend.config.probes import probed  # noqa: E402
+from backend.config.sockets import serve  # noqa: E402
+from backend.language import consumers as language  # noqa: E402
+from backend.projects import consumers as projects  # noqa: E402
+from backend.projects.notices import watch_revisions  # noqa: E402
 from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
 from backend.sessions.care import care_for_ever  # noqa: E402
 from backend.sessions.consumers import relay_sockets  # noqa: E402
@@ -41,6 +45,16 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
             return
 
 
+watch_revisions()
+routes: Final = {projects.ADDRESS: projects.serve_notices, language.ADDRESS: language.serve_language}
+
+
+async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
+    """Every websocket: those of projects, and all others, which are sessions' or nobody's."""
+    if not await serve(routes, scope, receive, send):
+        await relay_sockets(scope, receive, send)
+
+
 application: ASGI3Application = probed(
-    ProtocolTypeRouter({"http": ASGIHandler(), "websocket": relay_sockets, "lifespan": lifespan})
+    ProtocolTypeRouter({"http": ASGIHandler(), "websocket": sockets, "lifespan": lifespan})
 )

@@ -12,6 +12,7 @@ api: list[URLPattern | URLResolver] = [
     path("", include("backend.projects.urls")),
     path("", include("backend.catalog.urls")),
     path("", include("backend.sessions.urls")),
+    path("", include("backend.language.urls")),
     path("", include("backend.accounts.urls")),
     path("openapi.json", OpenApi.as_view()),
 ]

@@ -1,0 +1,218 @@
+"""The socket between an open page and a language server of its own.
+
+Each page has its own server, since what is typed and not saved differs between two tabs on one project;
+the folder that they read is the project's. The relay knows the protocol just well enough to keep the
+page inside its project: it rewrites addresses, passes on what an editor needs, and answers the rest.
+
+Close codes: 4404 no such project; 4408 idle (the page connects again at the next need); 4413 out of
+memory, 4500 the server ended (the page tries again, with pauses); 4429 too many; 4503 not offered here.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import logging
+import re
+import time
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from uuid import UUID
+
+from asgiref.sync import sync_to_async
+
+from backend.config.environment import environment
+from backend.config.problems import NotFoundError
+from backend.config.sockets import Closed
+from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
+from backend.language.errors import UnavailableError
+from backend.language.folder import Folder, Sync
+from backend.language.framing import FramingError, Unframer, framed
+from backend.language.messages import for_page, for_server
+from backend.language.servers import Server, launcher
+from backend.projects import queries
+from backend.projects.access import Need
+from backend.projects.notices import notices_of
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
+
+    from backend.accounts.models import User
+
+log = logging.getLogger(__name__)
+
+ADDRESS: Final = re.compile(r"^/ws/projects/([0-9a-f-]{36})/language$")
+MAX_MESSAGE_BYTES: Final = 4 * 1024 * 1024
+WATCH_S: Final = 1.0
+
+NO_SUCH_PROJECT: Final = 4404
+IDLE: Final = 4408
+TOO_MUCH_MEMORY: Final = 4413
+TOO_MANY: Final = 4429
+ENDED: Final = 4500
+UNAVAILABLE: Final = 4503
+
+Following = Callable[[], Awaitable[dict[str, Any]]]
+_served: Final[set[object]] = set()
+
+
+async def serve_language(
+    address: re.Match[str], user: User, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    """Serves one page until a side ends."""
+    if len(_served) >= environment().max_language_servers:
+        return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
+    mark = object()
+    _served.add(mark)
+    try:
+        async with notices_of(UUID(address[1])) as following:
+            return await _serve(Page(UUID(address[1]), user, receive, send), following)
+    except (NotFoundError, ValueError):
+        return Closed(NO_SUCH_PROJECT, "There is no such project.")
+    except UnavailableError as error:
+        return Closed(UNAVAILABLE, str(error))
+    finally:
+        _served.discard(mark)
+
+
+async def _serve(page: Page, following: Following) -> Closed | None:
+    folder = Folder(page.project_id)
+    starting = launcher()
+    await sync_to_async(_contents)(page)  # nobody starts a server on a project that is not theirs
+    await sync_to_async(folder.prepare)()
+    await _follow_once(page, folder)
+    server = await starting.start(folder)
+    relay = Relay(page, folder, server)
+    try:
+        return await relay.run(following)
+    finally:
+        await server.stop()
+
+
+def _contents(page: Page) -> dict[str, bytes]:
+    return queries.contents(queries.project(page.project_id, user=page.user, need=Need.WRITE))
+
+
+async def _follow_once(page: Page, folder: Folder) -> Sync:
+    return await sync_to_async(lambda: folder.sync(_contents(page)))()
+
+
+class Page(NamedTuple):
+    """Who is at the other end of the socket."""
+
+    project_id: UUID
+    user: User
+    receive: ASGIReceiveCallable
+    send: ASGISendCallable
+
+
+class Relay:
+    """One page and its server."""
+
+    def __init__(self, page: Page, folder: Folder, server: Server) -> None:
+        self._page = page
+        self._folder = folder
+        self._server = server
+        self._addresses = Addresses(str(folder.files))
+        self._writing = asyncio.Lock()
+        self._last_heard_s = time.monotonic()
+
+    async def run(self, following: Following) -> Closed | None:
+        """Relays until a side ends; returns what the page is told, None when it has gone itself."""
+        tasks = [
+            asyncio.create_task(each)
+            for each in (self._from_page(), self._from_server(), self._watch(), self._follow(following))
+        ]
+        try:
+            done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+            return await next(task for task in tasks if task in done)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _from_page(self) -> Closed | None:
+        while True:
+            event: Any = await self._page.receive()
+            if event["type"] == "websocket.disconnect":
+                return None
+            self._last_heard_s = time.monotonic()
+            text = event.get("text") or ""
+            if len(text) > MAX_MESSAGE_BYTES:
+                return Closed(1009, "A message is too large.")
+            try:
+                message = self._addresses.inward(json.loads(text))
+            except ForeignAddressError as error:
+                await self._refuse(text, str(error))
+                continue
+            except (ValueError, RecursionError):
+                return Closed(1003, "A message is not JSON.")
+            passed, answer = for_server(message, f"file://{self._folder.files}")
+            if answer is not None:
+                await self._tell(answer)
+            if passed is not None and not await self._write(passed):
+                return Closed(ENDED, "The language server has ended.")
+
+    async def _from_server(self) -> Closed | None:
+        unframer = Unframer()
+        with contextlib.suppress(FramingError, ValueError, OSError):
+            while data := await self._server.read():
+                for body in unframer.feed(data):
+                    shown, answer = for_page(json.loads(body))
+                    if answer is not None:
+                        await self._write(answer)
+                    if shown is not None:
+                        await self._tell(self._addresses.outward(shown))
+        return Closed(ENDED, "The language server has ended.")
+
+    async def _follow(self, following: Following) -> Closed | None:
+        """Brings the folder in step with each new revision, and says so to the server."""
+        while True:
+            await following()
+            try:
+                changes = await _follow_once(self._page, self._folder)
+            except NotFoundError:
+                await sync_to_async(self._folder.remove)()
+                return Closed(NO_SUCH_PROJECT, "The project was deleted.")
+            await self._write(self._watched(changes))
+
+    def _watched(self, changes: Sync) -> dict[str, Any]:
+        kinds = (changes.created, changes.changed, changes.deleted)
+        told = [
+            {"uri": f"{PROJECT}/{path}", "type": kind}
+            for kind, paths in enumerate(kinds, start=1)
+            for path in paths
+        ]
+        notice = {"jsonrpc": "2.0", "method": "workspace/didChangeWatchedFiles", "params": {"changes": told}}
+        mapped: dict[str, Any] = self._addresses.inward(notice)
+        return mapped
+
+    async def _watch(self) -> Closed | None:
+        limits = environment()
+        while True:
+            await asyncio.sleep(WATCH_S)
+            if time.monotonic() - self._last_heard_s > limits.language_idle_s:
+                return Closed(IDLE, "Nobody has typed for a while.")
+            if self._server.memory_bytes() > limits.language_memory_mib * 1024 * 1024:
+                log.warning("project %s: the language server takes too much memory", self._page.project_id)
+                return Closed(TOO_MUCH_MEMORY, "The language server took too much memory.")
+
+    async def _refuse(self, text: str, reason: str) -> None:
+        message = json.loads(text)
+        if isinstance(message, dict) and "id" in message:
+            error = {"code": -32602, "message": reason}
+            await self._tell({"jsonrpc": "2.0", "id": message["id"], "error": error})
+
+    async def _write(self, message: dict[str, Any]) -> bool:
+        body = framed(json.dumps(message, ensure_ascii=False).encode())
+        try:
+            async with self._writing:
+                await self._server.write(body)
+        except (OSError, RuntimeError):
+            return False
+        return True
+
+    async def _tell(self, message: dict[str, Any]) -> None:
+        text = json.dumps(message, ensure_ascii=False)
+        await self._page.send({"type": "websocket.send", "text": text, "bytes": None})

@@ -1,0 +1,17 @@
+"""Why there is no help with Python."""
+
+from __future__ import annotations
+
+from backend.config.problems import StudioError
+
+
+class UnavailableError(Exception):
+    """There is no language server for this project here; the text is for the user."""
+
+
+class PythonRefusedError(StudioError):
+    """The source is not Python that could be formatted or read; `diagnostics` says where."""
+
+    status = 422
+    code = "python_refused"
+    title = "The Python cannot be read"

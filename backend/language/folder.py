@@ -1,0 +1,135 @@
+"""The files that a language server reads: a project's Python, following its revisions.
+
+The layout:
+
+<data>/language/projects/<id>/pyrefly.toml     ours: a project's own configuration is never written
+<data>/language/projects/<id>/files/…          its Python files, and nothing else
+<data>/language/library-<key>/…                what every project can import: the engine, ROS messages
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+import sys
+import sysconfig
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Lock
+from typing import TYPE_CHECKING, Final
+from uuid import uuid4
+
+from backend.config.environment import REPOSITORY, environment
+from backend.language import message_stubs
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from uuid import UUID
+
+ENGINE: Final = ("tree_gardener",)
+SUFFIXES: Final = (".py", ".pyi")
+_lock: Final = Lock()
+
+# `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
+_TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Sync:
+    """What changed on the disk, by path in the project."""
+
+    created: tuple[str, ...]
+    changed: tuple[str, ...]
+    deleted: tuple[str, ...]
+
+
+class Folder:
+    """The folder of one project; several servers may read it."""
+
+    def __init__(self, project_id: UUID) -> None:
+        self.home = environment().data_dir / "language" / "projects" / str(project_id)
+        self.files = self.home / "files"
+
+    def prepare(self) -> None:
+        """Makes the folder with its configuration."""
+        self.files.mkdir(parents=True, exist_ok=True)
+        _write(self.home / "pyrefly.toml", _configuration(self.files, library()).encode())
+
+    def sync(self, contents: Mapping[str, bytes]) -> Sync:
+        """Makes the folder hold exactly the Python among these files."""
+        wanted = {path: data for path, data in contents.items() if path.endswith(SUFFIXES)}
+        created: list[str] = []
+        changed: list[str] = []
+        deleted: list[str] = []
+        with _lock:
+            for path in self._paths() - set(wanted):
+                (self.files / path).unlink(missing_ok=True)
+                deleted.append(path)
+            for path, data in wanted.items():
+                target = self.files / path
+                before = target.read_bytes() if target.is_file() else None
+                if before == data:
+                    continue
+                target.parent.mkdir(parents=True, exist_ok=True)
+                _write(target, data)
+                (created if before is None else changed).append(path)
+        return Sync(tuple(sorted(created)), tuple(sorted(changed)), tuple(sorted(deleted)))
+
+    def remove(self) -> None:
+        """Takes the folder away; for a project that was deleted."""
+        shutil.rmtree(self.home, ignore_errors=True)
+
+    def _paths(self) -> set[str]:
+        return {p.relative_to(self.files).as_posix() for p in self.files.rglob("*") if p.is_file()}
+
+
+def library() -> Path:
+    """The folder of what every project can import; made when it is missing."""
+    with _lock:
+        site_packages = Path(sysconfig.get_path("purelib"))
+        folder = environment().data_dir / "language" / f"library-{_library_key(site_packages)}"
+        if not folder.is_dir():
+            _make_library(site_packages, folder)
+        return folder
+
+
+def _library_key(site_packages: Path) -> str:
+    """Changes with the interpreter, with what is installed, and with how stubs are made."""
+    installed = sorted(entry.name for entry in os.scandir(site_packages) if entry.name.endswith("-info"))
+    how = Path(message_stubs.__file__).read_bytes()
+    return hashlib.sha256(repr((sys.prefix, str(REPOSITORY), installed)).encode() + how).hexdigest()[:16]
+
+
+def _make_library(site_packages: Path, folder: Path) -> None:
+    partial = folder.with_name(f"{folder.name}.{uuid4().hex}")
+    partial.mkdir(parents=True)
+    message_stubs.write_message_stubs(site_packages, partial)
+    for package in ENGINE:
+        (partial / package).symlink_to(REPOSITORY / package, target_is_directory=True)
+    (partial / "tree_tools.py").write_text(_TREE_TOOLS)
+    try:
+        partial.rename(folder)
+    except OSError:  # another server was faster
+        shutil.rmtree(partial)
+
+
+def _configuration(files: Path, shared: Path) -> str:
+    # Neighbours are imported as `actions.<Name>` or by their bare name, as the engine's loader has it.
+    search = [str(files), str(files / "actions"), str(shared)]
+    (files / "actions").mkdir(exist_ok=True)
+    values = {
+        "project-includes": [f"{files}/**/*.py"],
+        "search-path": search,
+        "python-interpreter-path": sys.executable,
+    }
+    # JSON's strings and lists are TOML's.
+    return "".join(f"{name} = {json.dumps(value)}\n" for name, value in values.items())
+
+
+def _write(path: Path, data: bytes) -> None:
+    """A reader sees the old bytes or the new ones."""
+    partial = path.with_name(f".{path.name}.{uuid4().hex}.partial")
+    partial.write_bytes(data)
+    partial.replace(path)

@@ -1,0 +1,85 @@
+"""Which messages pass between a page and its language server; no I/O.
+
+The page is not asked for its wishes about interpreters, folders or commands: what decides which programs
+run comes from the server's own configuration alone.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Final
+
+Message = dict[str, Any]
+
+_FROM_PAGE: Final = frozenset(
+    {"initialized", "shutdown", "exit", "$/cancelRequest", "completionItem/resolve", "codeAction/resolve"}
+)
+_TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
+_METHOD_NOT_FOUND: Final = -32601
+_INVALID_REQUEST: Final = -32600
+# `Go to [Twist](file:///…)`: the place is one of this machine, and opens nothing in a browser.
+_GO_TO: Final = re.compile(r"\n*^Go to (?:\[[^\]]*\]\(file:[^)]*\)(?: \| |, )?)+$", re.MULTILINE)
+_FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
+# A configuration that a finding mentions is ours, not the user's.
+_LOOKED_IN: Final = re.compile(r"\n\s*Looked in these locations[\s\S]*$")
+
+
+def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | None]:
+    """What of a page's message the server gets, and what the page is answered instead."""
+    if not isinstance(message, dict):
+        return None, _error(None, _INVALID_REQUEST, "A message is an object.")
+    method = message.get("method")
+    if method is None:
+        return None, None  # an answer to a request: we pass none on
+    if method == "initialize":
+        return message | {"params": _initialize(message.get("params"), root_uri)}, None
+    if isinstance(method, str) and (method.startswith("textDocument/") or method in _FROM_PAGE):
+        return message, None
+    answer = _error(message["id"], _METHOD_NOT_FOUND, "Not offered.") if "id" in message else None
+    return None, answer
+
+
+def _initialize(params: Any, root_uri: str) -> Message:
+    given = params if isinstance(params, dict) else {}
+    capabilities = given.get("capabilities")
+    known = capabilities if isinstance(capabilities, dict) else {}
+    return {
+        "processId": None,
+        "clientInfo": {"name": "bt-studio"},
+        "rootUri": root_uri,
+        "workspaceFolders": [{"uri": root_uri, "name": "project"}],
+        # Without these the server asks for no configuration, and is given none.
+        "capabilities": {"textDocument": known.get("textDocument", {})}
+        | ({"general": known["general"]} if "general" in known else {}),
+    }
+
+
+def for_page(message: Any) -> tuple[Message | None, Message | None]:
+    """What of a server's message the page gets, and what the server is answered instead."""
+    if not isinstance(message, dict):
+        return None, None
+    if "method" not in message:
+        return _cleaned(message), None
+    if "id" in message:
+        return None, {"jsonrpc": "2.0", "id": message["id"], "result": None}
+    return (_cleaned(message), None) if message["method"] in _TO_PAGE else (None, None)
+
+
+def _cleaned(value: Any) -> Any:
+    """Without places of this machine in what the user reads."""
+    if isinstance(value, dict):
+        return {
+            key: _text(each) if key in {"value", "message", "documentation"} else _cleaned(each)
+            for key, each in value.items()
+        }
+    return [_cleaned(each) for each in value] if isinstance(value, list) else value
+
+
+def _text(value: Any) -> Any:
+    if not isinstance(value, str):
+        return _cleaned(value)
+    return _FILE_LINK.sub(r"\1", _GO_TO.sub("", _LOOKED_IN.sub("", value)))
+
+
+def _error(message_id: Any, code: int, text: str) -> Message:
+    return {"jsonrpc": "2.0", "id": message_id, "error": {"code": code, "message": text}}

@@ -1,0 +1,102 @@
+"""Formatting and findings of ruff: bounded, without the user's configuration, on text alone.
+
+Ruff parses and runs nothing of the source, so this is done beside the web server on localhost and on a
+team's server alike; a source that makes it slow is given up after some seconds.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, Final
+
+from backend.language.errors import PythonRefusedError
+
+LINE_LENGTH: Final = 100
+TIMEOUT_S: Final = 5
+MAX_SOURCE_BYTES: Final = 1024 * 1024
+# What is likely wrong. Style is the formatter's; undefined names are found by the language server, too.
+RULES: Final = "F,B,E7,E9,W605,PLE,RUF100"
+IGNORED: Final = "F821,F405,F811,B027"
+_MAX_FINDINGS: Final = 200
+
+
+def format_source(source: str, filename: str) -> str:
+    """The source as `ruff format` writes it.
+
+    Raises:
+        PythonRefusedError: it does not parse, is too long, or takes too long.
+    """
+    run = _run(["format", "--line-length", str(LINE_LENGTH)], source, filename)
+    if run.returncode != 0:
+        raise PythonRefusedError(
+            "The file has a syntax error, so it is not formatted.",
+            hint="Correct it first; the editor marks the place.",
+            diagnostics=[each for each in findings(source, filename) if each["severity"] == "error"],
+        )
+    return run.stdout
+
+
+def findings(source: str, filename: str) -> list[dict[str, Any]]:
+    """What ruff says about the source, each with the edits that would mend it.
+
+    Lines count from 1; columns from 1, in code points.
+    """
+    options = ["--output-format", "json", "--select", RULES, "--ignore", IGNORED, "--line-length", "110"]
+    run = _run(["check", "--exit-zero", "--no-fix", *options], source, filename)
+    try:
+        found = json.loads(run.stdout or "[]")
+    except ValueError as error:
+        raise PythonRefusedError("The checker gave no answer.", hint="Try again.") from error
+    return [_finding(each) for each in found[:_MAX_FINDINGS]]
+
+
+def _finding(found: dict[str, Any]) -> dict[str, Any]:
+    code = found.get("code") or "syntax"
+    fix = found.get("fix")
+    return {
+        "code": code,
+        "severity": "error" if code in {"syntax", "invalid-syntax"} else "warning",
+        "message": found["message"],
+        "start": _place(found["location"]),
+        "end": _place(found["end_location"]),
+        "fix": fix
+        and {
+            "message": fix.get("message") or found["message"],
+            "edits": [
+                {
+                    "start": _place(edit["location"]),
+                    "end": _place(edit["end_location"]),
+                    "content": edit["content"],
+                }
+                for edit in fix["edits"]
+            ],
+        },
+    }
+
+
+def _place(location: dict[str, int]) -> dict[str, int]:
+    return {"line": location["row"], "column": location["column"]}
+
+
+def _run(arguments: list[str], source: str, filename: str) -> subprocess.CompletedProcess[str]:
+    if len(source.encode()) > MAX_SOURCE_BYTES:
+        raise PythonRefusedError("The file is too long to be formatted or checked.", hint="Split it.")
+    command = [str(Path(sys.executable).with_name("ruff")), *arguments]
+    options = ["--isolated", "--no-cache", "--target-version", "py311", "--stdin-filename", filename, "-"]
+    try:
+        return subprocess.run(
+            command + options,
+            input=source,
+            capture_output=True,
+            encoding="utf-8",
+            timeout=TIMEOUT_S,
+            check=False,
+            cwd="/",
+            env={"PATH": os.defpath, "LANG": "C.UTF-8", "RAYON_NUM_THREADS": "1"},
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise PythonRefusedError("The formatter did not answer.", hint="Try again.") from error

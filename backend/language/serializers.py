@@ -1,0 +1,57 @@
+"""What requests about Python hold, and what they are answered."""
+
+from __future__ import annotations
+
+from rest_framework import serializers
+
+
+class SourceSerializer(serializers.Serializer[dict[str, str]]):
+    """A source with the name of its file."""
+
+    source = serializers.CharField(allow_blank=True, trim_whitespace=False, max_length=1_048_576)  # type: ignore[assignment]
+    filename = serializers.CharField(max_length=400, default="action.py")
+
+
+class FormattedSerializer(serializers.Serializer[dict[str, str]]):
+    """A formatted source."""
+
+    source = serializers.CharField()  # type: ignore[assignment]
+
+
+class PlaceSerializer(serializers.Serializer[dict[str, int]]):
+    """A place in a text; both count from 1, columns in code points."""
+
+    line = serializers.IntegerField()
+    column = serializers.IntegerField()
+
+
+class EditSerializer(serializers.Serializer[dict[str, object]]):
+    """A piece of text to be replaced."""
+
+    start = PlaceSerializer()
+    end = PlaceSerializer()
+    content = serializers.CharField(allow_blank=True)
+
+
+class FixSerializer(serializers.Serializer[dict[str, object]]):
+    """What mends a finding."""
+
+    message = serializers.CharField()
+    edits = EditSerializer(many=True)
+
+
+class FindingSerializer(serializers.Serializer[dict[str, object]]):
+    """One finding of the linter."""
+
+    code = serializers.CharField()
+    severity = serializers.ChoiceField(choices=["error", "warning"])
+    message = serializers.CharField()
+    start = PlaceSerializer()
+    end = PlaceSerializer()
+    fix = FixSerializer(allow_null=True)
+
+
+class FindingsSerializer(serializers.Serializer[dict[str, object]]):
+    """All findings about a source."""
+
+    findings = FindingSerializer(many=True)

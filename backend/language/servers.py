@@ -1,0 +1,132 @@
+"""Starting language servers: the contract, and the child process that localhost uses.
+
+On a team server a language server interprets files of people who do not know each other, so it belongs
+into a container of the executor image, without network, under limits; `Launcher` is where that goes. A
+server with accounts that has no such launcher offers no language server, and says so.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import resource
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Protocol
+
+import psutil
+
+from backend.config.environment import environment
+from backend.language.errors import UnavailableError
+
+if TYPE_CHECKING:
+    from backend.language.folder import Folder
+
+# Address space, not memory: it is a bound on runaways, the watch below is the limit proper.
+ADDRESS_SPACE_BYTES: Final = 8 * 1024**3
+STOP_S: Final = 2.0
+_CHUNK_BYTES: Final = 64 * 1024
+
+
+class Server(Protocol):
+    """A running language server: bytes in, bytes out."""
+
+    async def write(self, data: bytes) -> None:
+        """Hands bytes over; returns when the server takes them."""
+
+    async def read(self) -> bytes:
+        """The next bytes; empty at the end."""
+
+    def memory_bytes(self) -> int:
+        """What it holds in memory now; 0 when it has ended."""
+
+    async def stop(self) -> None:
+        """Ends it; ending twice is no error."""
+
+
+class Launcher(Protocol):
+    """Starts language servers."""
+
+    async def start(self, folder: Folder) -> Server:
+        """Starts one on the files of a project.
+
+        Raises:
+            UnavailableError: there is none here, or it cannot be started.
+        """
+
+
+class ProcessServer:
+    """A child process."""
+
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
+        self._process = process
+
+    async def write(self, data: bytes) -> None:
+        """Hands bytes over."""
+        assert self._process.stdin is not None  # noqa: S101 - for the type checker
+        self._process.stdin.write(data)
+        await self._process.stdin.drain()
+
+    async def read(self) -> bytes:
+        """The next bytes."""
+        assert self._process.stdout is not None  # noqa: S101 - for the type checker
+        return await self._process.stdout.read(_CHUNK_BYTES)
+
+    def memory_bytes(self) -> int:
+        """Resident memory."""
+        try:
+            return int(psutil.Process(self._process.pid).memory_info().rss)
+        except psutil.Error:
+            return 0
+
+    async def stop(self) -> None:
+        """Closes its input, at which it ends by itself; kills it when it does not."""
+        if self._process.stdin is not None:
+            self._process.stdin.close()
+        try:
+            await asyncio.wait_for(self._process.wait(), STOP_S)
+        except TimeoutError:
+            with contextlib.suppress(ProcessLookupError):
+                self._process.kill()
+            await self._process.wait()
+
+
+class ProcessLauncher:
+    """Starts `pyrefly lsp` as a child, with one thread, low priority, and nothing of our environment.
+
+    The child ends when its input does, so it never outlives the web server.
+    """
+
+    def __init__(self, command: tuple[str, ...] = ()) -> None:
+        self._command = command or (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
+
+    async def start(self, folder: Folder) -> Server:
+        """Starts the child."""
+        try:
+            process = await asyncio.create_subprocess_exec(
+                *self._command,
+                cwd=folder.home,
+                env={"PATH": os.defpath, "HOME": str(folder.home), "LANG": "C.UTF-8"},
+                stdin=asyncio.subprocess.PIPE,
+                stdout=asyncio.subprocess.PIPE,
+                stderr=asyncio.subprocess.DEVNULL,
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise UnavailableError(f"The language server cannot be started: {error.strerror}.") from error
+        with contextlib.suppress(OSError, ValueError):
+            resource.prlimit(process.pid, resource.RLIMIT_AS, (ADDRESS_SPACE_BYTES, ADDRESS_SPACE_BYTES))
+            os.setpriority(os.PRIO_PROCESS, process.pid, 5)
+        return ProcessServer(process)
+
+
+def launcher() -> Launcher:
+    """The launcher of this server.
+
+    Raises:
+        UnavailableError: this server has none.
+    """
+    if getattr(environment(), "mode", "local") == "team":
+        raise UnavailableError("This server offers no Python help yet: it needs a container of its own.")
+    return ProcessLauncher()

@@ -1,0 +1,12 @@
+"""Addresses of help with Python, below `/api/v1/`; the socket is in `consumers`."""
+
+from __future__ import annotations
+
+from django.urls import path
+
+from backend.language import views
+
+urlpatterns = [
+    path("python/format", views.Format.as_view()),
+    path("python/lint", views.Lint.as_view()),
+]

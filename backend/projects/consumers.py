@@ -1,0 +1,62 @@
+"""The socket on which an open project hears of its new revisions."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+from typing import TYPE_CHECKING, Any, Final
+from uuid import UUID
+
+from asgiref.sync import sync_to_async
+
+from backend.config.problems import NotFoundError
+from backend.config.sockets import Closed
+from backend.projects import queries
+from backend.projects.access import Need
+from backend.projects.notices import notices_of
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
+
+    from backend.accounts.models import User
+
+ADDRESS: Final = re.compile(r"^/ws/projects/([0-9a-f-]{36})/notices$")
+NO_SUCH_PROJECT: Final = 4404
+
+
+async def serve_notices(
+    address: re.Match[str], user: User, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each."""
+    async with notices_of(UUID(address[1])) as following:
+        try:
+            project = await sync_to_async(
+                lambda: queries.project(UUID(address[1]), user=user, need=Need.READ)
+            )()
+        except (NotFoundError, ValueError):
+            return Closed(NO_SUCH_PROJECT, "There is no such project.")
+        await _tell(send, {"type": "revision", "revision": project.revision, "author": "", "message": ""})
+        telling = asyncio.create_task(_relay(following, send))
+        leaving = asyncio.create_task(_until_left(receive))
+        try:
+            await asyncio.wait((telling, leaving), return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            telling.cancel()
+            leaving.cancel()
+            await asyncio.gather(telling, leaving, return_exceptions=True)
+    return None
+
+
+async def _relay(following: Any, send: ASGISendCallable) -> None:
+    while True:
+        await _tell(send, await following())
+
+
+async def _tell(send: ASGISendCallable, notice: dict[str, Any]) -> None:
+    await send({"type": "websocket.send", "text": json.dumps(notice), "bytes": None})
+
+
+async def _until_left(receive: ASGIReceiveCallable) -> None:
+    while (await receive())["type"] != "websocket.disconnect":
+        pass

@@ -1,0 +1,236 @@
+"""A page and its language server, over real sockets, with the real server."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import sys
+import threading
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+import uvicorn
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+from backend.config import asgi, guard
+from backend.config.server import bind
+from backend.language import consumers, servers
+
+pytestmark = pytest.mark.django_db(transaction=True)
+FAKE = Path(__file__).parents[2] / "fakes" / "language_server.py"
+GO = "file:///project/actions/Go.py"
+SOURCE = """import py_trees
+from geometry_msgs.msg import Twist
+from tree_gardener.ports import Port
+from Turn import Turn
+
+
+class Go(py_trees.behaviour.Behaviour):
+    def update(self):
+        twist = Twist()
+        twist.linear.x = 1.0
+        return py_trees.common.Status.SUCCESS
+"""
+
+
+@pytest.fixture
+def host(settings_of, tmp_path):
+    """The sockets behind a real server; its address as a `Host`."""
+    settings_of(data_dir=tmp_path)
+    listener = bind("127.0.0.1", 0)
+    config = uvicorn.Config(asgi.sockets, ws="websockets-sansio", lifespan="off", log_config=None)
+    server = uvicorn.Server(config)
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
+    thread.start()
+    yield f"127.0.0.1:{listener.getsockname()[1]}"
+    server.should_exit = True
+    thread.join()
+
+
+@pytest.fixture
+def limits(settings_of, tmp_path):
+    """Sets limits, and keeps the data folder of the test."""
+    return lambda **values: settings_of(data_dir=tmp_path, **values)
+
+
+class Page:
+    """The editor's side of the socket."""
+
+    def __init__(self, socket):
+        self.socket = socket
+        self.last = 0
+        self.told = []
+
+    def notify(self, method, **params):
+        self.socket.send(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
+
+    def ask(self, method, **params):
+        self.last += 1
+        message = {"jsonrpc": "2.0", "id": self.last, "method": method, "params": params}
+        self.socket.send(json.dumps(message))
+        while True:
+            answer = json.loads(self.socket.recv(timeout=60))
+            if answer.get("id") == self.last:
+                return answer.get("result", answer.get("error"))
+            self.told.append(answer)
+
+    def begin(self):
+        self.ask("initialize", rootUri="file:///project", capabilities={})
+        self.notify("initialized")
+
+    def open(self, uri, text):
+        document = {"uri": uri, "languageId": "python", "version": 1, "text": text}
+        self.notify("textDocument/didOpen", textDocument=document)
+
+    def at(self, method, line, character, **more):
+        return self.ask(
+            f"textDocument/{method}",
+            textDocument={"uri": GO},
+            position={"line": line, "character": character},
+            **more,
+        )
+
+    def ended(self):
+        """The code of the close, after whatever else is still told."""
+        try:
+            while True:
+                self.socket.recv(timeout=60)
+        except ConnectionClosed as closed:
+            return closed.rcvd.code
+
+
+@contextlib.contextmanager
+def opened(host, path, **changes):
+    headers = {"Cookie": f"{guard.cookie_name(host)}={guard.keys().cookie_value}"}
+    options = {"origin": f"http://{host}", "additional_headers": headers, "proxy": None}
+    with connect(f"ws://{host}{path}", **options | changes) as socket:
+        yield Page(socket)
+
+
+@pytest.fixture
+def with_actions(api, project):
+    turn = "class Turn:\n    angle = 0.5\n"
+    api.save(
+        project["id"],
+        {"path": "actions/Go.py", "base_revision": 0, "content": SOURCE},
+        {"path": "actions/Turn.py", "base_revision": 0, "content": turn},
+    )
+    return project["id"]
+
+
+def test_it_knows_messages_engine_and_neighbours_and_unsaved_text(host, with_actions, api):
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        page.begin()
+        unsaved = SOURCE.replace("twist.linear.x = 1.0", "twist.linear.")
+        page.open(GO, unsaved)
+
+        items = page.at("completion", 9, 21)
+        labels = [each["label"] for each in items["items"]]
+        assert labels[:3] == ["x", "y", "z"]
+        assert "Cannot find" not in json.dumps(page.told)
+
+        place = page.at("definition", 3, 18)
+        assert place["uri"] == "file:///project/actions/Turn.py"
+        assert page.at("hover", 1, 32)["contents"]["value"].endswith("`geometry_msgs/msg/Twist`")
+        found = page.at("references", 3, 18, context={"includeDeclaration": True})
+        assert {each["uri"] for each in found} == {GO, "file:///project/actions/Turn.py"}
+
+        edits = page.ask(
+            "textDocument/rename",
+            textDocument={"uri": GO},
+            position={"line": 3, "character": 18},
+            newName="Spin",
+        )
+        assert set(json.loads(json.dumps(edits))["changes"]) == {GO, "file:///project/actions/Turn.py"}
+
+
+def test_it_follows_the_revisions_of_the_project(host, with_actions, api):
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        page.begin()
+        page.open(GO, SOURCE.replace("from Turn import Turn", "from Spin import Spin"))
+        assert page.at("definition", 3, 18)["uri"] == GO, "only the import itself is known"
+        api.save(
+            with_actions,
+            {"path": "actions/Spin.py", "base_revision": 0, "content": "class Spin:\n    pass\n"},
+        )
+        deadline = time.monotonic() + 60
+        while page.at("definition", 3, 18)["uri"] != "file:///project/actions/Spin.py":
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+
+
+def test_it_names_no_file_of_the_machine(host, with_actions):
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        page.begin()
+        refused = page.ask("textDocument/hover", textDocument={"uri": "file:///etc/passwd"})
+        assert "not a file of this project" in refused["message"]
+        page.socket.send("{")
+        assert page.ended() == 1003
+
+
+def test_nobody_else_gets_one(host, with_actions):
+    path = f"/ws/projects/{with_actions}/language"
+    with pytest.raises(InvalidStatus), opened(host, path, origin="http://evil.example"):
+        pass
+    with pytest.raises(InvalidStatus), opened(host, path, additional_headers={}):
+        pass
+    missing = "/ws/projects/00000000-0000-0000-0000-000000000000/language"
+    with opened(host, missing) as page:
+        assert page.ended() == consumers.NO_SUCH_PROJECT
+
+
+@pytest.fixture
+def fake_server(monkeypatch):
+    """Makes the next servers fakes of a kind."""
+
+    def use(kind):
+        fake = servers.ProcessLauncher((sys.executable, str(FAKE), kind))
+        monkeypatch.setattr(consumers, "launcher", lambda: fake)
+
+    return use
+
+
+ENDS = {
+    "dies": ({}, consumers.ENDED),
+    "garbage": ({}, consumers.ENDED),
+    "hungry": ({"language_memory_mib": 50}, consumers.TOO_MUCH_MEMORY),
+    "echo": ({"language_idle_s": 0.1}, consumers.IDLE),
+}
+
+
+@pytest.mark.parametrize("kind", ENDS)
+def test_it_ends_with_a_reason_and_leaves_no_process(host, project, fake_server, limits, kind):
+    options, code = ENDS[kind]
+    limits(**options)
+    fake_server(kind)
+    with opened(host, f"/ws/projects/{project['id']}/language") as page:
+        page.notify("initialized")
+        assert page.ended() == code
+    assert not [p for p in psutil.Process().children(recursive=True) if str(FAKE) in p.cmdline()]
+
+
+def test_there_are_only_so_many(host, project, limits):
+    limits(max_language_servers=0)
+    with opened(host, f"/ws/projects/{project['id']}/language") as page:
+        assert page.ended() == consumers.TOO_MANY
+
+
+def test_a_team_server_says_that_there_is_none(host, with_actions, monkeypatch):
+    monkeypatch.setattr(servers, "environment", lambda: type("Team", (), {"mode": "team"}))
+    with opened(host, f"/ws/projects/{with_actions}/language") as page:
+        assert page.ended() == consumers.UNAVAILABLE
+
+
+def test_an_open_project_hears_of_its_revisions(host, with_actions, api):
+    with opened(host, f"/ws/projects/{with_actions}/notices") as page:
+        first = json.loads(page.socket.recv(timeout=30))
+        assert first == {"type": "revision", "revision": 2, "author": "", "message": ""}
+        api.save(with_actions, {"path": "a.txt", "base_revision": 0, "content": "a"}, message="Say something")
+        told = json.loads(page.socket.recv(timeout=30))
+        assert (told["revision"], told["message"]) == (3, "Say something")
+    with opened(host, "/ws/projects/00000000-0000-0000-0000-000000000000/notices") as page:
+        assert page.ended() == 4404

@@ -8,8 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
+from executor.launching.model import LaunchPlan
+
 if TYPE_CHECKING:
     from msgspec import Struct
+
+    from executor.launching.model import NodeSpec
+    from executor.universes.document import Problem
 
 __all__ = [
     "ChildExited",
@@ -34,7 +39,7 @@ __all__ = [
     "Unpacked",
 ]
 
-Kind = Literal["world", "application"]
+Kind = Literal["world", "application", "node"]
 """What a child process is for."""
 
 
@@ -100,11 +105,16 @@ class ChildExited:
 
 @dataclass(frozen=True)
 class Unpacked:
-    """An archive was unpacked into `folder`, or refused with `error`."""
+    """An archive was unpacked into `folder`, or refused with `error`.
+
+    `plan` is what its launch files ask for; `problem` names the file that cannot be read, and why.
+    """
 
     token: int
     folder: str = ""
     error: str = ""
+    plan: LaunchPlan = field(default_factory=LaunchPlan)
+    problem: tuple[str, Problem] | None = None
 
 
 @dataclass(frozen=True)
@@ -140,10 +150,15 @@ class Send:
 
 @dataclass(frozen=True)
 class Spawn:
-    """Start a child process. If that fails, say so with `ChildExited`."""
+    """Start a child process. If that fails, say so with `ChildExited`.
+
+    `node` is what to start for an extra node, in `folder`.
+    """
 
     kind: Kind
     number: int
+    node: NodeSpec | None = None
+    folder: str = ""
 
 
 @dataclass(frozen=True)

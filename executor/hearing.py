@@ -30,6 +30,7 @@ _FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
         "finished": messages.Finished,
     },
     "world": {"log": messages.Log, "sim": messages.Sim},
+    "node": {},
 }
 _TOPICS: Final[dict[str, type[Struct]]] = {
     "topics": messages.Topics,

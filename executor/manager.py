@@ -40,12 +40,14 @@ from executor.events import (
     Unpacked,
 )
 from executor.gate import fetch_listener
+from executor.launching.reader import read_launch_files
 from executor.processes import Limits, Program
 from executor.protocol import About, Session
 from executor.ros.environment import ros_environment
 from executor.server import SessionServer
 from executor.shared_memory import remove_abandoned_segments
 from executor.supervisor import Supervisor
+from executor.universes.document import DocumentError
 
 __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
 
@@ -103,6 +105,7 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
         file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
         processes=int(os.environ.get("BT_STUDIO_APPLICATION_PROCESSES", "64")),
+        cpu_s=int(os.environ.get("BT_STUDIO_APPLICATION_CPU_S", "0")) or None,
     )
     return {
         "world": Program((sys.executable, "-m", "executor.world.process"), environment),
@@ -125,9 +128,11 @@ class _Folders:
             shutil.rmtree(self.kept.popleft(), ignore_errors=True)
         try:
             unpack(effect.archive_base64, folder)
+            return Unpacked(effect.token, str(folder), plan=read_launch_files(folder))
         except ArchiveError as error:
             return Unpacked(effect.token, error=str(error))
-        return Unpacked(effect.token, str(folder))
+        except DocumentError as error:
+            return Unpacked(effect.token, str(folder), problem=(error.file, error.problems[0]))
 
     def remove(self) -> None:
         shutil.rmtree(self.root, ignore_errors=True)

@@ -434,7 +434,6 @@ class LaunchNode(Struct):
     file: str
     line: int
     state: LaunchState
-    pid: int = 0
     restarts: int = 0
     end: str = ""
 

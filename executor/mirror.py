@@ -14,6 +14,8 @@ from executor.messages import (
     Blackboard,
     BlackboardEntry,
     Fault,
+    LaunchNode,
+    LaunchNodes,
     Log,
     NodeStatus,
     Sim,
@@ -43,6 +45,7 @@ class Mirror:
         self.statuses: dict[int, NodeStatus] = {}
         self.blackboard: dict[tuple[str, str], BlackboardEntry] = {}
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
+        self.launch_nodes: list[LaunchNode] = []
         self.faults: deque[Fault] = deque(maxlen=FAULTS)
         self.tick = 0
         self.tick_ms = 0.0
@@ -76,6 +79,8 @@ class Mirror:
                 self._apply_entries(event.entries)
             case Log():
                 self.logs.append(event)
+            case LaunchNodes():
+                self.launch_nodes = event.nodes
             case Fault():
                 self.faults.append(event)
             case Sim():
@@ -99,6 +104,7 @@ class Mirror:
             tick_hz=self.tick_hz,
             speed=self.speed,
             universe=self.universe,
+            launch_nodes=self.launch_nodes,
         )
 
     def _apply_entries(self, entries: list[BlackboardEntry]) -> None:

@@ -26,6 +26,7 @@ __all__ = ["ChildProcess", "Limits", "Program"]
 MARK: Final = "BT_STUDIO_CHILD"
 DRAIN_TIMEOUT_S: Final = 0.5
 KILL_ROUNDS: Final = 200
+CPU_GRACE_S: Final = 5
 CLOSED_CHANNEL_GRACE_S: Final = 1.0
 
 
@@ -36,15 +37,17 @@ class Limits:
     memory_bytes: int | None = None
     file_bytes: int | None = None
     processes: int | None = None
+    cpu_s: int | None = None
 
 
 @dataclass(frozen=True)
 class Program:
-    """What to start for a kind of child; `--channel-fd N` is added."""
+    """What to start for a kind of child; `--channel-fd N` is added where it has a channel."""
 
     arguments: tuple[str, ...]
     environment: Mapping[str, str] = field(default_factory=dict)
     limits: Limits = field(default_factory=Limits)
+    has_channel: bool = True
 
 
 class ChildProcess:
@@ -84,28 +87,32 @@ class ChildProcess:
         Raises:
             OSError: the program cannot be started.
         """
-        ours, theirs = socket_pair()
         mark = os.urandom(8).hex()
-        with theirs:
-            try:
-                popen = cls._start(program, theirs.fileno(), mark)
-            except OSError:
-                ours.close()
-                raise
+        ours = None
+        if program.has_channel:
+            ours, theirs = socket_pair()
+            with theirs:
+                try:
+                    popen = cls._start(program, theirs.fileno(), mark)
+                except OSError:
+                    ours.close()
+                    raise
+        else:
+            popen = cls._start(program, None, mark)
         child = cls(program, popen, mark, on_message)
         child._limit()
         await child._listen(ours)
         return child
 
     @staticmethod
-    def _start(program: Program, channel_fd: int, mark: str) -> subprocess.Popen[bytes]:
+    def _start(program: Program, channel_fd: int | None, mark: str) -> subprocess.Popen[bytes]:
         own = {PARENT_VARIABLE: str(os.getpid()), MARK: mark, "PYTHONUNBUFFERED": "1"}
         return subprocess.Popen(
-            [*program.arguments, "--channel-fd", str(channel_fd)],
+            [*program.arguments, *([] if channel_fd is None else ["--channel-fd", str(channel_fd)])],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            pass_fds=[channel_fd],
+            pass_fds=[] if channel_fd is None else [channel_fd],
             start_new_session=True,
             env={**os.environ, **program.environment, **own},
         )
@@ -129,6 +136,12 @@ class ChildProcess:
         with contextlib.suppress(ProcessLookupError):
             self._popen.send_signal(INTERRUPT_SIGNAL)
 
+    def ask_to_end(self) -> None:
+        """Tells a child without a channel that it is over, as Ctrl+C would; others were told."""
+        if not self._program.has_channel:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self.pid, signal.SIGINT)
+
     def kill(self, reason: str = "") -> None:
         """Kills the child's process group; `wait` sees to the rest of its tree."""
         self.reason = self.reason or reason
@@ -139,7 +152,7 @@ class ChildProcess:
         """Returns when nothing of the child is left, and `reason` says how it ended."""
         await self.exited
         code = self._popen.wait()
-        self.reason = self.reason or _exit_reason(code)
+        self.reason = self.reason or _exit_reason(code, self._program.limits)
         self.kill()
         await asyncio.wait(self._readers, timeout=DRAIN_TIMEOUT_S)
         await self._end_tree()
@@ -189,17 +202,22 @@ class ChildProcess:
             if value is not None:
                 with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
                     resource.prlimit(self.pid, which, (value, value))
+        if limits.cpu_s is not None:
+            with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
+                # The soft limit tells by its signal what happened; at the hard one it would be killed.
+                resource.prlimit(self.pid, resource.RLIMIT_CPU, (limits.cpu_s, limits.cpu_s + CPU_GRACE_S))
 
-    async def _listen(self, ours: socket.socket) -> None:
+    async def _listen(self, ours: socket.socket | None) -> None:
         loop = asyncio.get_running_loop()
         pidfd = os.pidfd_open(self.pid)
         loop.add_reader(pidfd, self._on_exit, pidfd)
-        self._channel = await AsyncChannel.open(ours)
         for pipe, reader in ((self._popen.stdout, self._out), (self._popen.stderr, self._err)):
             stream = asyncio.StreamReader()
             await loop.connect_read_pipe(lambda s=stream: asyncio.StreamReaderProtocol(s), pipe)  # type: ignore[misc]
             self._readers.append(loop.create_task(reader.read(stream)))
-        self._readers.append(loop.create_task(self._read_channel(self._channel)))
+        if ours is not None:
+            self._channel = await AsyncChannel.open(ours)
+            self._readers.append(loop.create_task(self._read_channel(self._channel)))
 
     async def _read_channel(self, channel: AsyncChannel) -> None:
         try:
@@ -239,7 +257,11 @@ class ChildProcess:
                     os.waitpid(process.pid, os.WNOHANG)
 
 
-def _exit_reason(code: int) -> str:
+def _exit_reason(code: int, limits: Limits) -> str:
+    if code == -signal.SIGXCPU:
+        return f"was ended: it used more than the {limits.cpu_s} s of CPU time allowed"
+    if code == -signal.SIGXFSZ and limits.file_bytes is not None:
+        return f"was ended: it wrote a file of more than the {limits.file_bytes >> 20} MB allowed"
     if code < 0:
         with contextlib.suppress(ValueError):
             return f"was killed by {signal.Signals(-code).name}"

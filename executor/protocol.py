@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 from msgspec import Struct
 
-from executor import hearing, messages, steps
+from executor import actions, hearing, messages, steps
 from executor.asked import Asked
 from executor.child import Child
 from executor.clients import Clients
@@ -44,6 +44,7 @@ from executor.events import (
 )
 from executor.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.mirror import Mirror
+from executor.nodes import Nodes
 from executor.steps import StepFailed, Wait
 
 if TYPE_CHECKING:
@@ -106,6 +107,7 @@ class Session:
         self._job: _Job | None = None
         self._count = _Counters()
         self.asked = Asked()
+        self.nodes = Nodes()
         self.renderer = ""
         self.has_tf = False
 
@@ -136,6 +138,8 @@ class Session:
         self._dispatch(event)
         self._advance()
         self._expire()
+        if "application" not in self.children or not self.children["application"].is_started:
+            self.nodes.stop(self)
         return self._take_effects()
 
     # --- what the steps use -----------------------------------------------------------------------
@@ -154,11 +158,19 @@ class Session:
         self.mirror.apply(event)
         self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
 
+    def effect(self, effect: Effect) -> None:
+        """Asks for something to be done."""
+        self._effects.append(effect)
+
+    def next_number(self) -> int:
+        """Returns the number of a new child."""
+        self._count.child += 1
+        return self._count.child
+
     def child(self, kind: Kind) -> Child:
         """Returns the living child of a kind, and starts it where there is none."""
         if kind not in self.children:
-            self._count.child += 1
-            self.children[kind] = Child(kind, self._count.child)
+            self.children[kind] = Child(kind, self.next_number())
             self._effects.append(Spawn(kind, self._count.child))
         return self.children[kind]
 
@@ -288,6 +300,9 @@ class Session:
         self.clients.set_stream(client, is_open=False)
 
     def _on_message(self, event: ChildSaid) -> None:
+        if event.kind == "node":
+            self.nodes.said(self, event)
+            return
         child = self.children.get(event.kind)
         if child is None or child.number != event.number:
             if event.message["type"] == "log":
@@ -309,6 +324,9 @@ class Session:
 
     def _on_exit(self, event: ChildExited) -> None:
         self.leaving.discard((event.kind, event.number))
+        if event.kind == "node":
+            self.nodes.exited(self, event)
+            return
         child = self.children.get(event.kind)
         if child is None or child.number != event.number:
             return
@@ -369,8 +387,8 @@ class Session:
         elif row.is_step:
             self._begin(event)
         else:
-            steps.ACTIONS[event.command](self, event)
-            if event.command not in steps.ANSWER_LATER:
+            actions.ACTIONS[event.command](self, event)
+            if event.command not in actions.ANSWER_LATER:
                 self._ack(event.client, event.request)
 
     def _begin(self, event: CommandCame) -> None:

@@ -8,20 +8,21 @@ ladder on the last rung that it reached.
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from executor import messages
 from executor.ladder import HAS_APPLICATION, State
+from executor.launching.model import LaunchPlan
 
 if TYPE_CHECKING:
     from msgspec import Struct
 
     from executor.child import Child
-    from executor.events import CommandCame, Kind, Unpacked
+    from executor.events import Unpacked
     from executor.protocol import Session
 
-__all__ = ["ACTIONS", "ANSWER_LATER", "STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
+__all__ = ["STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
 
 LAUNCH_TIMEOUT_S: Final = 60.0
 LOAD_TIMEOUT_S: Final = 60.0
@@ -59,6 +60,7 @@ class LastRun:
     universe: messages.LaunchUniverse | None = None
     application: messages.RunApplication | None = None
     folder: str = ""
+    plan: LaunchPlan = field(default_factory=LaunchPlan)
 
 
 Step = Generator[Wait, Any, None]
@@ -166,12 +168,22 @@ def _folder_of(unpacked: Unpacked, what: str) -> str:
     return unpacked.folder
 
 
+def _take_folder(session: Session, unpacked: Unpacked) -> None:
+    session.run.folder = _folder_of(unpacked, "application's")
+    session.run.plan = unpacked.plan
+    if unpacked.problem is not None:
+        file, problem = unpacked.problem
+        session.emit(messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line))
+        text = f"{file}:{problem.line}:{problem.column}: {problem.message}."
+        raise StepFailed("bad_launch_file", text, problem.hint)
+
+
 def _run_application(session: Session, data: Struct) -> Step:
     data = cast("messages.RunApplication", data)
     if session.state in HAS_APPLICATION:
         yield from _terminate_application(session, data)
     unpacked = yield _unpacking(session, data.app_zip_base64)
-    session.run.folder = _folder_of(unpacked, "application's")
+    _take_folder(session, unpacked)
     session.run.application = data
     application = _start_application(session)
     yield from _await_application(session, application)
@@ -201,6 +213,7 @@ def _start_application(session: Session) -> Child:
         on_error=data.on_error,
         domain_id=session.about.ros_domain_id,
     )
+    session.nodes.start(session, session.run.plan)
     return application
 
 
@@ -239,7 +252,7 @@ def _run(session: Session, data: Struct) -> Step:
             yield from _end_world(session)
     unpacking = _unpacking(session, data.application.app_zip_base64)
     unpacked = yield unpacking
-    session.run.folder = _folder_of(unpacked, "application's")
+    _take_folder(session, unpacked)
     session.run.application = data.application
     application = _start_application(session)
     try:
@@ -413,94 +426,3 @@ STEPS: Final[dict[str, Callable[[Session, Struct], Step]]] = {
     "terminate_universe": _terminate_universe,
     "disconnect": _disconnect,
 }
-
-
-# --- commands that are done at once ---------------------------------------------------------------
-
-
-def _forward(kind: Kind, *commands: str) -> dict[str, Callable[[Session, CommandCame], None]]:
-    def act(session: Session, event: CommandCame) -> None:
-        fields = {name: getattr(event.data, name) for name in event.data.__struct_fields__}
-        session.tell(kind, event.command, **fields)
-
-    return dict.fromkeys(commands, act)
-
-
-def _set_tick_rate(session: Session, event: CommandCame) -> None:
-    data = cast("messages.SetTickRate", event.data)
-    session.mirror.tick_hz = data.tick_hz
-    session.tell("application", "set_tick_rate", tick_hz=data.tick_hz)
-
-
-def _set_speed(session: Session, event: CommandCame) -> None:
-    data = cast("messages.SetSpeed", event.data)
-    session.mirror.speed = data.speed
-    session.tell("world", "set_speed", speed=data.speed)
-
-
-def _reset_world(session: Session, _: CommandCame) -> None:
-    session.tell("world", "reset")
-
-
-def _subscribe(session: Session, event: CommandCame) -> None:
-    data = cast("messages.Subscribe", event.data)
-    session.clients.subscribe(event.client, data)
-    if session.clients.has_stream(event.client) and session.state.reaches(State.VISUALIZATION_READY):
-        session.subscribe(event.client, data)
-
-
-def _unsubscribe(session: Session, event: CommandCame) -> None:
-    data = cast("messages.Unsubscribe", event.data)
-    session.clients.unsubscribe(event.client, data.stream)
-    session.tell("world", "unsubscribe", client=event.client, stream=data.stream)
-
-
-def _move_body(session: Session, event: CommandCame) -> None:
-    data = cast("messages.MoveBody", event.data)
-    session.ask("world", event, id=data.id, pose=data.pose)
-
-
-def _list_topics(session: Session, event: CommandCame) -> None:
-    session.ask("world", event)
-
-
-def _publish_topic(session: Session, event: CommandCame) -> None:
-    data = cast("messages.PublishTopic", event.data)
-    # `type` is the channel's own field.
-    session.ask("world", event, topic=data.topic, message_type=data.type, message=data.message)
-
-
-def _describe_type(session: Session, event: CommandCame) -> None:
-    session.ask("world", event, message_type=cast("messages.DescribeType", event.data).type)
-
-
-def _echo_topic(session: Session, event: CommandCame) -> None:
-    data = cast("messages.EchoTopic", event.data)
-    rate_hz = session.clients.echo(event.client, data.topic, data.max_hz)
-    session.ask("world", event, topic=data.topic, max_hz=rate_hz)
-
-
-def _restart_node(session: Session, event: CommandCame) -> None:
-    node = cast("messages.RestartNode", event.data).id
-    session.refuse(event, "unknown_node", f"The launch files have no node {node!r}.")
-
-
-ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
-    "set_tick_rate": _set_tick_rate,
-    "set_speed": _set_speed,
-    "reset_world": _reset_world,
-    "subscribe": _subscribe,
-    "unsubscribe": _unsubscribe,
-    "echo_topic": _echo_topic,
-    "publish_topic": _publish_topic,
-    "move_body": _move_body,
-    "list_topics": _list_topics,
-    "describe_type": _describe_type,
-    "restart_node": _restart_node,
-    **_forward("world", "teleop"),
-}
-
-ANSWER_LATER: Final = frozenset(
-    {"move_body", "list_topics", "echo_topic", "publish_topic", "describe_type", "restart_node"}
-)
-"""Those that answer by themselves, or have the world do it."""

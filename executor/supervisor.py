@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import logging
 import os
+import sys
 from typing import TYPE_CHECKING, Any, Final
 
 import psutil
@@ -107,7 +108,7 @@ class Supervisor:
                 self._report(ChildSaid(spawn.kind, spawn.number, message))
 
         try:
-            child = await ChildProcess.spawn(self._programs[spawn.kind], on_message)
+            child = await ChildProcess.spawn(self._program(spawn), on_message)
         except OSError as error:
             self._waiting.pop(key)
             self._report(ChildExited(spawn.kind, spawn.number, f"could not be started: {error}"))
@@ -123,7 +124,17 @@ class Supervisor:
         _log.info("%s %d %s", spawn.kind, child.pid, child.reason)
         self._report(ChildExited(spawn.kind, spawn.number, child.reason, child.last_lines))
 
+    def _program(self, spawn: Spawn) -> Program:
+        if spawn.node is None:
+            return self._programs[spawn.kind]
+        # An extra node may use as much as the application itself.
+        application = self._programs["application"]
+        command = (sys.executable, "-m", "executor.launching.program", spawn.folder, *spawn.node.command)
+        environment = {**application.environment, **dict(spawn.node.environment)}
+        return Program(command, environment, application.limits, has_channel=False)
+
     async def _retire(self, child: ChildProcess, grace_s: float) -> None:
+        child.ask_to_end()
         with contextlib.suppress(TimeoutError):
             await asyncio.wait_for(asyncio.shield(child.exited), grace_s)
         child.kill("was ended")
@@ -132,7 +143,7 @@ class Supervisor:
         while True:
             await asyncio.sleep(CHECK_INTERVAL_S)
             for (kind, _), child in list(self._children.items()):
-                if kind == "application":
+                if kind != "world":
                     child.check_limits()
             if self._reaps_all:
                 self._reap_orphans()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 import pytest
 
+from executor.actions import ACTIONS
 from executor.events import (
     ChildExited,
     ChildSaid,
@@ -25,7 +26,7 @@ from executor.ladder import TABLE, State, is_legal
 from executor.messages import COMMANDS
 from executor.mirror import Mirror
 from executor.protocol import About, Session
-from executor.steps import ACTIONS, STEPS
+from executor.steps import STEPS
 from tests.executor.play import DATA, Play
 
 PAIRS = [(state, command) for state in State for command in TABLE]

@@ -17,7 +17,8 @@ def test_the_page_in_the_docs_is_up_to_date():
 
 
 def test_every_error_code_is_explained():
-    sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in ("steps", "protocol", "server"))
+    modules = ("steps", "actions", "protocol", "server")
+    sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in modules)
     codes = set(re.findall(r'(?:StepFailed\(|_?refuse\(\w+, (?:\w+, )?)\s*"(\w+)"', sources))
     assert {"cancelled", "wrong_state", "unknown_command", "tick_hangs"} <= codes
     assert codes <= set(protocol_page._ERRORS)

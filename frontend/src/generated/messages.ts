@@ -425,7 +425,6 @@ export interface LaunchNode {
   file: string;
   line: number;
   state: LaunchState;
-  pid: number;
   restarts: number;
   end: string;
 }

@@ -7,8 +7,9 @@ import type {
   FileChange,
   Me,
   ProjectDetail,
+  PackagePreview,
   ProjectSettings,
-  ProjectSummary,
+  ProjectPage,
   SessionInfo,
   TemplateInfo,
   UniverseInfo,
@@ -16,16 +17,26 @@ import type {
 
 export type ProjectSort = 'name' | '-updated_at';
 
+export type ProjectShelf = 'current' | 'archived' | 'deleted';
+
+interface ProjectQuery {
+  search: string;
+  sort: ProjectSort;
+  shelf: ProjectShelf;
+  offset: number;
+}
+
+/** As many cards as fill a large screen twice. */
+const PAGE = 48;
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
 
 /** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
 export const api = {
   me: () => requestJson<Me>('/me'),
 
-  listProjects: async (search = '', sort: ProjectSort = '-updated_at', signal?: AbortSignal) => {
-    const query = new URLSearchParams({ search, sort });
-    const { items } = await requestJson<{ items: ProjectSummary[] }>(`/projects?${query}`, { signal });
-    return items;
+  listProjects: ({ search, sort, shelf, offset }: ProjectQuery, signal?: AbortSignal) => {
+    const query = new URLSearchParams({ search, sort, shelf, offset: String(offset), limit: String(PAGE) });
+    return requestJson<ProjectPage>(`/projects?${query}`, { signal });
   },
   createProject: (body: { name?: string; template?: string }) =>
     requestJson<ProjectDetail>('/projects', { method: 'POST', body }),
@@ -37,6 +48,8 @@ export const api = {
   deleteProject: (id: string) => requestJson<undefined>(project(id), { method: 'DELETE' }),
   restoreProject: (id: string) => requestJson<unknown>(`${project(id)}/restore`, { method: 'POST' }),
   duplicateProject: (id: string) =>
+  archiveProject: (id: string) => requestJson<unknown>(`${project(id)}/archive`, { method: 'POST' }),
+  unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
     requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
   importProject: (zip: File) => {
     const form = new FormData();
@@ -45,6 +58,15 @@ export const api = {
   },
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),
 
+  xmlUrl: (id: string, isSelfContained: boolean) =>
+    urlOf(`${project(id)}/xml?self_contained=${String(isSelfContained)}`),
+  packageUrl: (id: string, name: string) =>
+    urlOf(`${project(id)}/package?${new URLSearchParams({ name }).toString()}`),
+  previewPackage: (id: string, name: string, signal?: AbortSignal) =>
+    requestJson<PackagePreview>(
+      `${project(id)}/package/preview?${new URLSearchParams({ name }).toString()}`,
+      { signal },
+    ),
   saveChanges: (id: string, body: { message: string; files: FileChange[] }, keepalive = false) =>
     requestJson<ChangesResult>(`${project(id)}/changes`, { method: 'POST', body, keepalive }),
   check: (id: string, files: { path: string; content: string }[] = [], signal?: AbortSignal) =>

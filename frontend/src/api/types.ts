@@ -67,6 +67,22 @@ export interface ProjectSummary {
   root_diagram: unknown;
 }
 
+/** One page of a list that may be long. */
+export interface ProjectPage {
+  items: ProjectSummary[];
+  total: number;
+  next_offset: number | null;
+}
+
+/** What a ROS 2 package will hold, before it is downloaded. */
+export interface PackagePreview {
+  name: string;
+  files: { path: string; size: number }[];
+  /** `package.xml`. */
+  manifest: string;
+  diagnostics: Diagnostic[];
+}
+
 export interface ProjectFile {
   path: string;
   revision: number;

@@ -50,7 +50,7 @@ const NARROW = /[iljtfrI.,:;'|()[\]{} ]/;
 const WIDE = /[mwMW@%]/;
 
 /** Width of a text in an em of 1, roughly: Inter's narrow, wide, capital and other letters. */
-function emWidth(text: string): number {
+export function emWidth(text: string): number {
   let width = 0;
   for (const letter of text) {
     if (NARROW.test(letter)) width += 0.33;

@@ -35,7 +35,8 @@ export function useReveal(treeId: string, layout: Layout): void {
     const start = flow.flowToScreenPosition({ x: box.x, y: box.y });
     const end = flow.flowToScreenPosition({ x: box.x + box.width, y: box.y + box.height });
     const dx = Math.max(0, canvas.left + MARGIN - start.x) - Math.max(0, end.x - (canvas.right - MARGIN));
-    const dy = Math.max(0, canvas.top + MARGIN - start.y) - Math.max(0, end.y - (canvas.bottom - MARGIN_BELOW));
+    const dy =
+      Math.max(0, canvas.top + MARGIN - start.y) - Math.max(0, end.y - (canvas.bottom - MARGIN_BELOW));
     if (dx === 0 && dy === 0) return;
     const { x, y, zoom } = flow.getViewport();
     void flow.setViewport({ x: x + dx, y: y + dy, zoom }, { duration: 120 });

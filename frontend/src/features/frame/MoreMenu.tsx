@@ -10,7 +10,7 @@ const ROWS = [
   null,
   'project.newAction',
   'project.newTree',
-  'project.download',
+  'project.takeAway',
   null,
   'run.resetWorld',
   'view.resetLayout',

@@ -7,6 +7,7 @@ import { useShortcuts } from '@/actions/shortcuts';
 import { registerCanvasActions } from '@/features/canvas/actions';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
+import { TakeAway } from '@/features/export/TakeAway';
 import { Banner } from '@/features/run/Banner';
 import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunActions } from '@/features/run/actions';

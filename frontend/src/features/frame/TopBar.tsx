@@ -50,6 +50,7 @@ export function TopBar() {
         <RunControls />
       </Group>
       <Group gap={2} wrap="nowrap" className={classes['right']}>
+        <ActionButton action="project.takeAway" testId="open-take-away" />
         <ThemeToggle />
         <MoreMenu />
       </Group>

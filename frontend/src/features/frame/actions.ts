@@ -12,22 +12,14 @@ import {
   IconAlertTriangle,
 } from '@tabler/icons-react';
 import { registerActions, type UserAction } from '@/actions/registry';
-import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
 import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/features/code/newFile';
+import { openTakeAway } from '@/features/export/takeAway';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
 import { openTab, showPanel } from './tabs';
-
-function download(): void {
-  const { projectId } = useProjectStore.getState();
-  if (!projectId) return;
-  void saveNow()
-    .catch(() => undefined)
-    .then(() => window.location.assign(api.exportUrl(projectId)));
-}
 
 /** The tree that was edited last, with the keyboard in it. */
 function goToTree(): void {
@@ -84,11 +76,13 @@ const rows: UserAction[] = [
     run: () => openNewFile('tree'),
   },
   {
-    id: 'project.download',
+    id: 'project.takeAway',
     group: 'project',
-    labelKey: 'frame:action.download',
+    labelKey: 'frame:action.takeAway',
     icon: IconDownload,
-    run: download,
+    shortcut: '$mod+Shift+KeyS',
+    inTextFields: true,
+    run: openTakeAway,
   },
   {
     id: 'project.home',

@@ -12,7 +12,9 @@ function focusableOf(tab: DocumentTab): HTMLElement | null {
   if (tab.kind === 'tree') {
     return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
   }
-  return document.querySelector(`[data-testid="code-editor"][data-path="${CSS.escape(tab.path)}"] .cm-content`);
+  return document.querySelector(
+    `[data-testid="code-editor"][data-path="${CSS.escape(tab.path)}"] .cm-content`,
+  );
 }
 
 /** Puts the keyboard where a document that was just opened is edited, once it is there. */
@@ -46,7 +48,9 @@ export function focusInspector(): void {
   const field =
     panel?.querySelector<HTMLElement>('[data-testid^="port-"]') ??
     panel?.querySelector<HTMLElement>('input, textarea, select, button');
-  const input = field?.matches('input, textarea, button') ? field : field?.querySelector<HTMLElement>('input');
+  const input = field?.matches('input, textarea, button')
+    ? field
+    : field?.querySelector<HTMLElement>('input');
   input?.focus();
   if (input instanceof HTMLInputElement) input.select();
 }

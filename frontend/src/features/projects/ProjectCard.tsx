@@ -1,19 +1,19 @@
-import { ActionIcon, Anchor, Menu, Text, TextInput } from '@mantine/core';
-import { IconCopy, IconDots, IconDownload, IconPencil, IconTrash } from '@tabler/icons-react';
-import { useState, type KeyboardEvent, type MouseEvent } from 'react';
+import { Anchor, Button, Text, TextInput } from '@mantine/core';
+import { useState, type FocusEvent, type KeyboardEvent, type MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { api } from '@/api/client';
+import type { ProjectShelf } from '@/api/client';
 import type { ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
-import { timeAgo } from './timeAgo';
+import { ProjectMenu } from './ProjectMenu';
 import classes from './projects.module.css';
+import { timeAgo } from './timeAgo';
 import { TreePicture } from './TreePicture';
+import type { useProjectActions } from './useProjects';
 
 interface ProjectCardProps {
   readonly project: ProjectSummary;
-  readonly onRename: (name: string) => void;
-  readonly onDuplicate: () => void;
-  readonly onDelete: () => void;
+  readonly shelf: ProjectShelf;
+  readonly actions: ReturnType<typeof useProjectActions>;
 }
 
 /** Ready to type another name as soon as the field is there. */
@@ -21,22 +21,30 @@ function focusAll(input: HTMLInputElement | null): void {
   input?.select();
 }
 
-export function ProjectCard({ project, onRename, onDuplicate, onDelete }: ProjectCardProps) {
+/** A project with its picture; a deleted one can only be brought back. */
+export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   const { t, i18n } = useTranslation('projects');
   const [isRenaming, setRenaming] = useState(false);
   const [name, setName] = useState(project.name);
   const path = projectPath(project.id);
+  const isDeleted = shelf === 'deleted';
 
   const follow = (event: MouseEvent) => {
     if (event.metaKey || event.ctrlKey || event.button !== 0) return;
     event.preventDefault();
-    navigate(path);
+    if (!isDeleted) navigate(path);
   };
   const finish = (isKept: boolean) => {
     setRenaming(false);
     const wanted = name.trim();
-    if (isKept && wanted && wanted !== project.name) onRename(wanted);
+    if (isKept && wanted && wanted !== project.name) actions.rename.mutate({ project, name: wanted });
     else setName(project.name);
+  };
+  const onBlur = (event: FocusEvent<HTMLInputElement>) => {
+    const input = event.currentTarget;
+    // The menu that started the renaming gives the focus back to its button when it has closed.
+    if (input.closest('article')?.contains(event.relatedTarget)) setTimeout(() => input.focus());
+    else finish(true);
   };
   const onKey = (event: KeyboardEvent) => {
     if (event.key === 'Enter') finish(true);
@@ -57,9 +65,13 @@ export function ProjectCard({ project, onRename, onDuplicate, onDelete }: Projec
               aria-label={t('rename')}
               ref={focusAll}
               onChange={(event) => setName(event.currentTarget.value)}
-              onBlur={() => finish(true)}
+              onBlur={onBlur}
               onKeyDown={onKey}
             />
+          ) : isDeleted ? (
+            <Text fw={600} truncate="end" title={project.name}>
+              {project.name}
+            </Text>
           ) : (
             <Anchor
               href={path}
@@ -78,33 +90,18 @@ export function ProjectCard({ project, onRename, onDuplicate, onDelete }: Projec
             </time>
           </Text>
         </div>
-        <Menu position="bottom-end">
-          <Menu.Target>
-            <ActionIcon aria-label={t('moreFor', { name: project.name })}>
-              <IconDots size={18} />
-            </ActionIcon>
-          </Menu.Target>
-          <Menu.Dropdown>
-            <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => setRenaming(true)}>
-              {t('rename')}
-            </Menu.Item>
-            <Menu.Item leftSection={<IconCopy size={16} />} onClick={onDuplicate}>
-              {t('duplicate')}
-            </Menu.Item>
-            <Menu.Item
-              leftSection={<IconDownload size={16} />}
-              component="a"
-              href={api.exportUrl(project.id)}
-              download
-            >
-              {t('download')}
-            </Menu.Item>
-            <Menu.Divider />
-            <Menu.Item color="red" leftSection={<IconTrash size={16} />} onClick={onDelete}>
-              {t('delete')}
-            </Menu.Item>
-          </Menu.Dropdown>
-        </Menu>
+        {isDeleted ? (
+          <Button
+            size="compact-sm"
+            variant="light"
+            loading={actions.restore.isPending}
+            onClick={() => actions.restore.mutate(project)}
+          >
+            {t('restore')}
+          </Button>
+        ) : (
+          <ProjectMenu project={project} shelf={shelf} actions={actions} onRename={() => setRenaming(true)} />
+        )}
       </div>
     </article>
   );

@@ -1,9 +1,20 @@
-import { Alert, Button, Group, SegmentedControl, Skeleton, Text, TextInput, Title } from '@mantine/core';
+import {
+  Alert,
+  Button,
+  Center,
+  Group,
+  SegmentedControl,
+  Select,
+  Skeleton,
+  Text,
+  TextInput,
+  Title,
+} from '@mantine/core';
 import { useDebouncedValue } from '@mantine/hooks';
 import { IconAlertTriangle, IconPlayerPlay, IconSearch } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import type { ProjectSort } from '@/api/client';
+import type { ProjectShelf, ProjectSort } from '@/api/client';
 import { ProjectCard } from './ProjectCard';
 import classes from './projects.module.css';
 import { useProjects, type useProjectActions } from './useProjects';
@@ -12,14 +23,23 @@ interface ProjectListProps {
   readonly actions: ReturnType<typeof useProjectActions>;
 }
 
+const SHELVES: readonly ProjectShelf[] = ['current', 'archived', 'deleted'];
+
 /** The user's projects, with search and order. */
 export function ProjectList({ actions }: ProjectListProps) {
   const { t } = useTranslation('projects');
   const [search, setSearch] = useState('');
   const [sort, setSort] = useState<ProjectSort>('-updated_at');
   const [wanted] = useDebouncedValue(search.trim(), 200);
-  const { data, error, isPending, refetch } = useProjects(wanted, sort);
-  const hasNone = data?.length === 0 && wanted === '';
+  const [shelf, setShelf] = useState<ProjectShelf>('current');
+  const { data, error, isPending, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = useProjects(
+    wanted,
+    sort,
+    shelf,
+  );
+  const projects = data?.pages.flatMap((page) => page.items) ?? [];
+  const total = data?.pages[0]?.total ?? 0;
+  const isEmpty = data !== undefined && projects.length === 0;
 
   return (
     <section aria-labelledby="projects-heading">
@@ -27,27 +47,34 @@ export function ProjectList({ actions }: ProjectListProps) {
         <Title order={2} size={18} id="projects-heading">
           {t('yours')}
         </Title>
-        {hasNone ? null : (
-          <Group gap="sm">
-            <TextInput
-              type="search"
-              value={search}
-              placeholder={t('search')}
-              aria-label={t('search')}
-              leftSection={<IconSearch size={16} />}
-              onChange={(event) => setSearch(event.currentTarget.value)}
-            />
-            <SegmentedControl
-              value={sort}
-              aria-label={t('sort')}
-              onChange={(value) => setSort(value as ProjectSort)}
-              data={[
-                { value: '-updated_at', label: t('sortChanged') },
-                { value: 'name', label: t('sortName') },
-              ]}
-            />
-          </Group>
-        )}
+        <Group gap="sm">
+          <Select
+            value={shelf}
+            w={150}
+            aria-label={t('shelf.label')}
+            data-testid="shelf"
+            allowDeselect={false}
+            onChange={(value) => setShelf(value as ProjectShelf)}
+            data={SHELVES.map((value) => ({ value, label: t(`shelf.${value}`) }))}
+          />
+          <TextInput
+            type="search"
+            value={search}
+            placeholder={t('search')}
+            aria-label={t('search')}
+            leftSection={<IconSearch size={16} />}
+            onChange={(event) => setSearch(event.currentTarget.value)}
+          />
+          <SegmentedControl
+            value={sort}
+            aria-label={t('sort')}
+            onChange={(value) => setSort(value as ProjectSort)}
+            data={[
+              { value: '-updated_at', label: t('sortChanged') },
+              { value: 'name', label: t('sortName') },
+            ]}
+          />
+        </Group>
       </Group>
       {error ? (
         <Alert color="red" icon={<IconAlertTriangle />} title={t('listFailed')}>
@@ -64,7 +91,7 @@ export function ProjectList({ actions }: ProjectListProps) {
           ))}
         </div>
       ) : null}
-      {hasNone ? (
+      {isEmpty && !wanted && shelf === 'current' ? (
         <div className={classes['emptyState']}>
           <Text fw={600}>{t('empty.title')}</Text>
           <Text c="dimmed" size="sm">
@@ -80,18 +107,30 @@ export function ProjectList({ actions }: ProjectListProps) {
           </Button>
         </div>
       ) : null}
-      {data?.length === 0 && wanted ? <Text c="dimmed">{t('noneFound', { search: wanted })}</Text> : null}
-      <div className={classes['grid']}>
-        {data?.map((project) => (
+      {isEmpty && !wanted && shelf !== 'current' ? <Text c="dimmed">{t(`shelf.none.${shelf}`)}</Text> : null}
+      {isEmpty && wanted ? <Text c="dimmed">{t('noneFound', { search: wanted })}</Text> : null}
+      <div className={classes['grid']} data-testid="projects" data-total={total}>
+        {projects.map((project) => (
           <ProjectCard
             key={`${project.id}-${project.name}`}
             project={project}
-            onRename={(name) => actions.rename.mutate({ project, name })}
-            onDuplicate={() => actions.duplicate.mutate(project)}
-            onDelete={() => actions.remove.mutate(project)}
+            shelf={shelf}
+            actions={actions}
           />
         ))}
       </div>
+      {hasNextPage ? (
+        <Center mt="lg">
+          <Button
+            variant="default"
+            data-testid="more-projects"
+            loading={isFetchingNextPage}
+            onClick={() => void fetchNextPage()}
+          >
+            {t('showMore', { count: total - projects.length })}
+          </Button>
+        </Center>
+      ) : null}
     </section>
   );
 }

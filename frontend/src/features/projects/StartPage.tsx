@@ -1,4 +1,4 @@
-import { Button, FileButton, Group, Loader, Overlay, Text, Title } from '@mantine/core';
+import { Button, FileButton, Group, Loader, Overlay, Text, Title, Tooltip } from '@mantine/core';
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useEffect } from 'react';
@@ -11,12 +11,15 @@ import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
 import { useProjectActions } from './useProjects';
 
+/** Project zips of ours and of JdeRobot, trees as XML, projects of Groot2. */
+const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
+
 /** Where the user chooses or makes a project. */
 export function StartPage() {
   const { t } = useTranslation('projects');
   const actions = useProjectActions();
-  const { mutate: importZip, isPending: isImporting } = actions.importZip;
-  const isDropping = useFileDrop(importZip);
+  const { mutate: importFile, isPending: isImporting } = actions.importFile;
+  const isDropping = useFileDrop(importFile);
   const pending = actions.create.isPending ? actions.create.variables : null;
 
   useEffect(() => {
@@ -56,18 +59,23 @@ export function StartPage() {
                 {t('intro')}
               </Text>
             </div>
-            <FileButton accept=".zip,application/zip" onChange={(file) => file && importZip(file)}>
-              {(props) => (
-                <Button
-                  {...props}
-                  variant="default"
-                  loading={isImporting}
-                  leftSection={<IconUpload size={16} />}
-                >
-                  {t('import')}
-                </Button>
-              )}
-            </FileButton>
+            <Tooltip label={t('importHint')} multiline maw={300} position="bottom-end">
+              <div>
+                <FileButton accept={IMPORTS} onChange={(file) => file && importFile(file)}>
+                  {(props) => (
+                    <Button
+                      {...props}
+                      variant="default"
+                      data-testid="import"
+                      loading={isImporting}
+                      leftSection={<IconUpload size={16} />}
+                    >
+                      {t('import')}
+                    </Button>
+                  )}
+                </FileButton>
+              </div>
+            </Tooltip>
           </Group>
           <TemplateCards onCreate={(template) => actions.create.mutate(template)} pending={pending} />
         </section>

@@ -1,16 +1,25 @@
 import { notifications } from '@mantine/notifications';
-import { useMutation, useQuery, useQueryClient, keepPreviousData } from '@tanstack/react-query';
+import {
+  useInfiniteQuery,
+  useMutation,
+  useQuery,
+  useQueryClient,
+  keepPreviousData,
+} from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
-import { api, type ProjectSort } from '@/api/client';
+import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
 import { undoNotification } from './undoNotification';
 
-export function useProjects(search: string, sort: ProjectSort) {
-  return useQuery({
-    queryKey: ['projects', search, sort],
-    queryFn: ({ signal }) => api.listProjects(search, sort, signal),
+/** The projects of one shelf, page by page. */
+export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShelf) {
+  return useInfiniteQuery({
+    queryKey: ['projects', search, sort, shelf],
+    queryFn: ({ pageParam, signal }) => api.listProjects({ search, sort, shelf, offset: pageParam }, signal),
+    initialPageParam: 0,
+    getNextPageParam: (page) => page.next_offset ?? undefined,
     placeholderData: keepPreviousData,
   });
 }
@@ -35,7 +44,7 @@ export function useProjectActions() {
     onSuccess: open,
     onError,
   });
-  const importZip = useMutation({ mutationFn: api.importProject, onSuccess: open, onError });
+  const importFile = useMutation({ mutationFn: api.importProject, onSuccess: open, onError });
   const duplicate = useMutation({
     mutationFn: (project: ProjectSummary) => api.duplicateProject(project.id),
     onSuccess: refresh,
@@ -47,6 +56,28 @@ export function useProjectActions() {
     onSuccess: refresh,
     onError,
   });
+  const restore = useMutation({
+    mutationFn: (project: ProjectSummary) => api.restoreProject(project.id),
+    onSuccess: refresh,
+    onError,
+  });
+  const unarchive = useMutation({
+    mutationFn: (project: ProjectSummary) => api.unarchiveProject(project.id),
+    onSuccess: refresh,
+    onError,
+  });
+  const archive = useMutation({
+    mutationFn: (project: ProjectSummary) => api.archiveProject(project.id),
+    onSuccess: async (_, project) => {
+      await refresh();
+      undoNotification({
+        message: t('archived', { name: project.name }),
+        undoLabel: t('undo'),
+        undo: () => unarchive.mutate(project),
+      });
+    },
+    onError,
+  });
   const remove = useMutation({
     mutationFn: (project: ProjectSummary) => api.deleteProject(project.id),
     onSuccess: async (_, project) => {
@@ -54,10 +85,10 @@ export function useProjectActions() {
       undoNotification({
         message: t('deleted', { name: project.name }),
         undoLabel: t('undo'),
-        undo: () => void api.restoreProject(project.id).then(refresh, onError),
+        undo: () => restore.mutate(project),
       });
     },
     onError,
   });
-  return { create, importZip, duplicate, rename, remove };
+  return { create, importFile, duplicate, rename, archive, unarchive, remove, restore };
 }

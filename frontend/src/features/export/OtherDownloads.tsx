@@ -1,0 +1,105 @@
+import { Button, Group, SegmentedControl, Select, Stack, Text } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import { IconFileTypeXml, IconFileZip, IconPhoto } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { api } from '@/api/client';
+import { useProjectStore } from '@/store/project';
+import type { Theme } from './palette';
+import { pngOf, saveAs, svgOf } from './picture';
+
+/** Everything else that leaves the studio: the project, XML, and pictures of a tree. */
+export function OtherDownloads({ projectId }: { readonly projectId: string }) {
+  const { t } = useTranslation('export');
+  const diagrams = useProjectStore((state) => state.diagrams);
+  const mainTree = useProjectStore((state) => state.mainTree);
+  const [tree, setTree] = useState(useProjectStore.getState().activeTree ?? mainTree);
+  const [theme, setTheme] = useState<Theme>('light');
+
+  const picture = async (kind: 'svg' | 'png') => {
+    const { vocabulary } = useProjectStore.getState();
+    const diagram = diagrams[tree];
+    if (!diagram) return;
+    const svg = svgOf(diagram, vocabulary, theme);
+    try {
+      const blob = kind === 'svg' ? new Blob([svg], { type: 'image/svg+xml' }) : await pngOf(svg);
+      saveAs(blob, `${tree}.${kind}`);
+    } catch {
+      notifications.show({ color: 'red', message: t('pictureFailed') });
+    }
+  };
+
+  return (
+    <section aria-label={t('others')}>
+      <Stack gap="sm">
+        <Text size="sm" fw={600}>
+          {t('others')}
+        </Text>
+        <Group gap="sm">
+          <Button
+            component="a"
+            variant="default"
+            href={api.exportUrl(projectId)}
+            download
+            data-testid="download-project"
+            leftSection={<IconFileZip size={16} />}
+          >
+            {t('project')}
+          </Button>
+          <Button
+            component="a"
+            variant="default"
+            href={api.xmlUrl(projectId, false)}
+            download
+            data-testid="download-xml"
+            leftSection={<IconFileTypeXml size={16} />}
+          >
+            {t('xml')}
+          </Button>
+          <Button
+            component="a"
+            variant="default"
+            href={api.xmlUrl(projectId, true)}
+            download
+            data-testid="download-self-contained"
+            leftSection={<IconFileTypeXml size={16} />}
+          >
+            {t('selfContained')}
+          </Button>
+        </Group>
+        <Text size="sm" fw={600} mt="xs">
+          {t('picture')}
+        </Text>
+        <Group gap="sm">
+          <Select
+            aria-label={t('pictureOf')}
+            data={Object.keys(diagrams)}
+            value={tree}
+            allowDeselect={false}
+            onChange={(value) => setTree(value ?? mainTree)}
+          />
+          <SegmentedControl
+            aria-label={t('pictureTheme')}
+            value={theme}
+            onChange={(value) => setTheme(value as Theme)}
+            data={[
+              { value: 'light', label: t('light') },
+              { value: 'dark', label: t('dark') },
+            ]}
+          />
+          {(['svg', 'png'] as const).map((kind) => (
+            <Button
+              key={kind}
+              variant="default"
+              data-testid={`download-${kind}`}
+              leftSection={<IconPhoto size={16} />}
+              onClick={() => void picture(kind)}
+            >
+              {kind.toUpperCase()}
+            </Button>
+          ))}
+        </Group>
+      </Stack>
+    </section>
+  );
+}

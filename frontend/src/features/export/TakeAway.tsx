@@ -1,0 +1,27 @@
+import { Modal } from '@mantine/core';
+import { lazy, Suspense } from 'react';
+import { useTranslation } from 'react-i18next';
+import { closeTakeAway, useTakeAway } from './takeAway';
+
+const Contents = lazy(async () => ({ default: (await import('./TakeAwayContents')).TakeAwayContents }));
+
+/** Shows what can be taken along, before it is. */
+export function TakeAway() {
+  const { t } = useTranslation('export');
+  const isOpen = useTakeAway((state) => state.isOpen);
+  return (
+    <Modal
+      opened={isOpen}
+      onClose={closeTakeAway}
+      title={t('title')}
+      size="xl"
+      closeButtonProps={{ 'aria-label': t('close') }}
+    >
+      {isOpen ? (
+        <Suspense fallback={null}>
+          <Contents />
+        </Suspense>
+      ) : null}
+    </Modal>
+  );
+}

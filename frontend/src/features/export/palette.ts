@@ -1,0 +1,23 @@
+import tokens from '@/ui/tokens.css?raw';
+
+export type Theme = 'light' | 'dark';
+
+/** The value of a colour token (`--bts-<name>`) in a theme. */
+export type Palette = (name: string) => string;
+
+const DARK = "[data-mantine-color-scheme='dark'] {";
+
+function read(block: string): Map<string, string> {
+  return new Map(
+    [...block.matchAll(/--bts-([\w-]+):\s*([^;]+);/g)].map(([, name = '', value = '']) => [name, value]),
+  );
+}
+
+const [lightBlock = '', darkBlock = ''] = tokens.split(DARK);
+const light = read(lightBlock);
+const dark = read(darkBlock);
+
+/** The colours of a theme, also of the one that the page does not show: pictures stand alone. */
+export function paletteOf(theme: Theme): Palette {
+  return (name) => (theme === 'dark' ? dark.get(name) : undefined) ?? light.get(name) ?? 'currentColor';
+}

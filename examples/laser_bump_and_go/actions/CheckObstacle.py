@@ -36,11 +36,8 @@ class CheckObstacle(py_trees.behaviour.Behaviour):
     def nearest_ahead(self):
         scan = self.scan
         half_width = math.radians(get_input(self, "amplitude"))
-        first, step = scan.angle_min, scan.angle_increment
-        ahead = (
-            distance
-            for i, distance in enumerate(scan.ranges)
-            if abs(math.remainder(first + i * step, math.tau)) <= half_width
-        )
-        seen = (distance for distance in ahead if scan.range_min <= distance <= scan.range_max)
-        return min(seen, default=math.inf)
+        to_each_side = math.floor(half_width / scan.angle_increment + 1e-6)
+        front, count = round(-scan.angle_min / scan.angle_increment), len(scan.ranges)
+        # A scan goes all the way round, so to the right of its first ray is its last one.
+        ahead = [scan.ranges[(front + i) % count] for i in range(-to_each_side, to_each_side + 1)]
+        return min((r for r in ahead if scan.range_min <= r <= scan.range_max), default=math.inf)

@@ -6,6 +6,7 @@ They are committed, so that the start page needs no renderer. Draw one again whe
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from typing import TYPE_CHECKING, Final
 
@@ -32,6 +33,8 @@ MOST_BYTES: Final = 30_000
 FOV: Final = 1.05
 SETTLE_STEPS: Final = 480  # people are on their way, robots stand on their wheels
 _DRAWN_AT: Final = 2  # times the size, for smooth edges
+_ROBOT_FOV: Final = 0.7
+_ROBOT_DISTANCE: Final = 4.6  # in radii, for the height of the picture
 _QUALITIES: Final = (86, 78, 70, 60, 45, 30)
 _STAGE: Final = """
 format: bt-studio/universe
@@ -52,9 +55,10 @@ def universe_picture(renderer: Renderer, universe_id: str) -> bytes:
 def robot_picture(renderer: Renderer, robot_id: str) -> bytes:
     """Returns the picture of a robot as WebP, near or far by its size."""
     universe = parse_universe(_STAGE % robot_id)
-    reach = _reach(universe)
-    eye = (1.55 * reach, -1.75 * reach, 1.35 * reach)
-    return _webp(_draw(renderer, universe, look_at(eye, (0.0, 0.0, 0.36 * reach), 0.7)))
+    middle, radius = _ball_round(universe)
+    away = radius * _ROBOT_DISTANCE
+    eye = (middle[0] + 0.62 * away, middle[1] - 0.66 * away, middle[2] + 0.42 * away)
+    return _webp(_draw(renderer, universe, look_at(eye, middle, _ROBOT_FOV)))
 
 
 def _draw(renderer: Renderer, universe: Universe, view: Viewpoint) -> NDArray[np.uint8]:
@@ -67,12 +71,14 @@ def _draw(renderer: Renderer, universe: Universe, view: Viewpoint) -> NDArray[np
     return small
 
 
-def _reach(universe: Universe) -> float:
-    """How far a robot reaches from where it stands, in m."""
+def _ball_round(universe: Universe) -> tuple[tuple[float, float, float], float]:
+    """Returns the middle and the radius of a ball round a universe's robot, in m."""
     world = BulletWorld(universe)
+    world.step(SETTLE_STEPS)
     low, high = world.robots[0].bounds
     world.close()
-    return max(high[0] - low[0], high[1] - low[1], high[2] - low[2])
+    middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+    return middle, math.dist(low, high) / 2
 
 
 def _webp(picture: NDArray[np.uint8]) -> bytes:

@@ -16,6 +16,7 @@ from executor.robots.sensors import (
     Imu,
     Lidar,
     NotNegative,
+    Part,
     Positive,
     Sensor,
     Strict,
@@ -76,7 +77,8 @@ class _Document(Strict):
     urdf: str
     drive: Drive
     wheels: tuple[str, ...] = ()
-    friction: dict[str, float] = Field(default_factory=dict)
+    friction: dict[str, NotNegative] = Field(default_factory=dict)
+    skid: dict[str, Part] = Field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
 
 
@@ -86,7 +88,8 @@ class RobotConfig:
 
     Args:
         wheels: links whose contact is no collision: wheels and casters.
-        friction: sideways friction by link, where it is not 0.8.
+        friction: friction by link, where it is not 0.8.
+        skid: what is left of it along y by link, from 0 to 1: wheels that turn by skidding slide sideways.
     """
 
     id: str
@@ -96,6 +99,7 @@ class RobotConfig:
     drive: Drive
     wheels: tuple[str, ...]
     friction: dict[str, float]
+    skid: dict[str, float]
     lidars: tuple[Lidar, ...]
     cameras: tuple[Camera, ...]
     imus: tuple[Imu, ...] = ()
@@ -151,6 +155,7 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
         drive=document.drive,
         wheels=document.wheels,
         friction=document.friction,
+        skid=document.skid,
         lidars=tuple(sensor for sensor in document.sensors if isinstance(sensor, Lidar)),
         cameras=tuple(sensor for sensor in document.sensors if isinstance(sensor, Camera)),
         imus=tuple(sensor for sensor in document.sensors if isinstance(sensor, Imu)),

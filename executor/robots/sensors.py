@@ -13,6 +13,7 @@ Topic = Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$", max_lengt
 SensorName = Annotated[str, StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=80)]
 Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+Part = Annotated[float, Field(ge=0, le=1)]
 Rate = Annotated[float, Field(gt=0, le=60, allow_inf_nan=False)]
 
 
@@ -117,7 +118,7 @@ class Battery(Strict):
     capacity_ah: Positive = 4.4
     idle_a: NotNegative = 0.6
     drive_a: NotNegative = 1.8
-    start: float = Field(default=1.0, ge=0, le=1)
+    start: Part = 1.0
 
 
 Sensor = Annotated[Lidar | Camera | Imu | Bumper | Battery, Field(discriminator="kind")]

@@ -74,10 +74,10 @@ class DifferentialDrive:
         if last is None or dt_s <= 0:
             self.state = replace(self.state, wheel_angles=(left, right))
             return old
-        moved_left = self._believed((left - last[0]) * limit.wheel_radius)
-        moved_right = self._believed((right - last[1]) * limit.wheel_radius)
-        width = limit.track * limit.turn_factor
-        moved, turned = (moved_left + moved_right) / 2, (moved_right - moved_left) / width
+        ways = (left - last[0]) * limit.wheel_radius, (right - last[1]) * limit.wheel_radius
+        moved, turned = self._motion(*ways)
+        rates = moved / dt_s, turned / dt_s  # what the wheels do is measured well, only its sum drifts
+        moved, turned = self._motion(*map(self._believed, ways))
         middle = old.yaw + turned / 2
         # The chord of an arc, not its length: exact for constant rates.
         chord = moved * (math.sin(turned / 2) / (turned / 2) if abs(turned) > 1e-9 else 1.0)
@@ -85,11 +85,14 @@ class DifferentialDrive:
             old.x + chord * math.cos(middle),
             old.y + chord * math.sin(middle),
             wrap(old.yaw + turned),
-            moved / dt_s,
-            turned / dt_s,
+            *rates,
         )
         self.state = replace(self.state, wheel_angles=(left, right), odometry=odometry)
         return odometry
+
+    def _motion(self, left: float, right: float) -> tuple[float, float]:
+        limit = self._config
+        return (left + right) / 2, (right - left) / (limit.track * limit.turn_factor)
 
     def _believed(self, way: float) -> float:
         """Returns what odometry takes a wheel's way for: a random walk along the way."""

@@ -269,6 +269,10 @@ class BulletRobot:
                 self.uid, index, lateralFriction=friction, linearDamping=0.0, angularDamping=0.0,
                 rollingFriction=0.0, spinningFriction=0.0, restitution=0.0,
             )  # fmt: skip
+            if name in self.config.skid:
+                self._bullet.changeDynamics(
+                    self.uid, index, anisotropicFriction=[1.0, self.config.skid[name], 1.0]
+                )
         self._bullet.changeDynamics(
             self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING
         )

@@ -21,7 +21,6 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
   node_path: '',
   time: 1,
   launch_node: '',
-  launch_node: '',
   ...more,
 });
 

@@ -12,6 +12,9 @@ import { Banner } from '@/features/run/Banner';
 import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunActions } from '@/features/run/actions';
 import { useRunReactions } from '@/features/run/useRunReactions';
+import { registerTopicActions } from '@/features/topics/actions';
+import { ConnectDialog } from '@/features/topics/ConnectDialog';
+import { PublishDialog } from '@/features/topics/PublishDialog';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -70,7 +73,12 @@ function Workbench({ projectId }: StudioProps) {
   }, [name]);
 
   useEffect(() => {
-    const unregister = [registerCanvasActions(), registerRunActions(), registerFrameActions()];
+    const unregister = [
+      registerCanvasActions(),
+      registerRunActions(),
+      registerTopicActions(),
+      registerFrameActions(),
+    ];
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
@@ -103,6 +111,9 @@ function Workbench({ projectId }: StudioProps) {
       <CommandPalette />
       <ConflictDialog />
       <FileDialog />
+      <TakeAway />
+      <PublishDialog />
+      <ConnectDialog />
       <RestoredNotice />
     </div>
   );

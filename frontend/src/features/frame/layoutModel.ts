@@ -1,4 +1,11 @@
-import { Model, type IJsonModel, type IJsonTabNode, type IJsonTabSetNode } from 'flexlayout-react';
+import {
+  Actions,
+  DockLocation,
+  Model,
+  type IJsonModel,
+  type IJsonTabNode,
+  type IJsonTabSetNode,
+} from 'flexlayout-react';
 
 /** Panels of the frame; their names are texts of `frame:panel`. */
 export type PanelId =
@@ -11,7 +18,11 @@ export type PanelId =
   | 'video'
   | 'camera'
   | 'console'
-  | 'problems';
+  | 'problems'
+  | 'timeline'
+  | 'topics';
+
+const NEW_PANELS: readonly PanelId[] = ['timeline', 'topics'];
 
 export type FrameWidth = 'wide' | 'narrow';
 
@@ -67,6 +78,8 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'palette',
               'console',
               'problems',
+              'timeline',
+              'topics',
               'blackboard',
               'explorer',
               'outline',
@@ -90,7 +103,10 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
         {
           type: 'row',
           weight: 53,
-          children: [tabset(EDITORS, 74, []), tabset('output', 26, ['console', 'problems'])],
+          children: [
+            tabset(EDITORS, 74, []),
+            tabset('output', 26, ['console', 'problems', 'timeline', 'topics']),
+          ],
         },
         {
           type: 'row',
@@ -136,12 +152,22 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
   if (kept) {
     try {
       const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
-      if (model.getNodeById(EDITORS)) return model;
+      if (model.getNodeById(EDITORS)) return withNewPanels(model);
     } catch {
       // A layout that cannot be read is replaced by the default one.
     }
   }
   return Model.fromJson(defaultLayout(width, hasWebGl));
+}
+
+/** Panels that came with an update, which a kept layout does not know yet, beside the console. */
+function withNewPanels(model: Model): Model {
+  const beside = model.getNodeById('console')?.getParent();
+  for (const id of NEW_PANELS) {
+    if (!beside || model.getNodeById(id)) continue;
+    model.doAction(Actions.addTab(panel(id), beside.getId(), DockLocation.CENTER, -1, false));
+  }
+  return model;
 }
 
 export function keepLayout(width: FrameWidth, model: Model): void {

@@ -7,6 +7,8 @@ import { Inspector } from '@/features/inspector/Inspector';
 import { Outline } from '@/features/outline/Outline';
 import { Palette } from '@/features/palette/Palette';
 import { ProblemsPanel } from '@/features/problems/ProblemsPanel';
+import { TimelinePanel } from '@/features/timeline/TimelinePanel';
+import { TopicsPanel } from '@/features/topics/TopicsPanel';
 import { CameraPanel } from '@/features/viewer/CameraPanel';
 import { VideoPanel } from '@/features/viewer/VideoPanel';
 import { ErrorBoundary } from './ErrorBoundary';
@@ -33,6 +35,8 @@ const panels: Record<PanelId, () => ReactNode> = {
   camera: () => <CameraPanel />,
   console: () => <ConsolePanel />,
   problems: () => <ProblemsPanel />,
+  timeline: () => <TimelinePanel />,
+  topics: () => <TopicsPanel />,
 };
 
 function documentOf(tab: DocumentTab): ReactNode {

@@ -2,7 +2,7 @@ import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { PicturePanel } from './PicturePanel';
 import { useStream } from './useStream';
-import { useVisible } from './useVisible';
+import { useVisible } from '@/ui/useVisible';
 import classes from './viewer.module.css';
 
 const CAMERA_HZ = 15;

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
 import { useStream } from './useStream';
-import { useVisible } from './useVisible';
+import { useVisible } from '@/ui/useVisible';
 import classes from './viewer.module.css';
 import { hasWebGl } from './webgl';
 

@@ -12,7 +12,7 @@ import { CameraInset } from './CameraInset';
 import { Stage } from './Stage';
 import { useStream } from './useStream';
 import { useUsesCamera } from './useUsesCamera';
-import { useVisible } from './useVisible';
+import { useVisible } from '@/ui/useVisible';
 import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';

@@ -4,10 +4,14 @@ import { socketUrl } from '@/api/http';
 import type { SessionInfo } from '@/api/types';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { ControlSocket } from './control';
+import { forgetRun, rememberRun } from './memory';
 import { receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';
+import { resetTopics, useTopicsStore } from './topics';
 
 const RETRY_MS = [300, 600, 1200, 2500, 5000];
+/** How often a topic that is listened to is heard. */
+export const ECHO_HZ = 10;
 const STORAGE_PREFIX = 'bts.session.';
 
 /** States in which the manager gives streams. */
@@ -73,7 +77,11 @@ function disconnect(): void {
   socket?.close();
   socket = null;
   session = null;
+  isStreaming = false;
+  isWorldUp = false;
   streams.close();
+  forgetRun();
+  resetTopics();
   resetSession();
 }
 
@@ -105,14 +113,31 @@ function openSocket(info: SessionInfo): Promise<void> {
 
 function onIntroduced(info: SessionInfo, introspection: Introspection): void {
   attempt = 0;
+  rememberRun(info.id);
   set({ connection: 'open', connectionMessage: '', sessionId: info.id });
   streams.open(info.stream_url, introspection.client_id);
   followStreams(introspection.state);
+  followTopics(introspection.state);
 }
 
 function followState(message: ServerMessage): void {
   if (message.command === 'state-changed' || message.command === 'snapshot') {
-    followStreams((message.data as { state: State }).state);
+    const { state } = message.data as { state: State };
+    followStreams(state);
+    followTopics(state);
+  }
+}
+
+let isWorldUp = false;
+
+/** A world that comes up, or comes back, is told what is listened to. */
+function followTopics(state: State): void {
+  const wasUp = isWorldUp;
+  isWorldUp = state !== 'idle' && state !== 'connected';
+  if (!isWorldUp || wasUp) return;
+  for (const topic of Object.keys(useTopicsStore.getState().echoes)) {
+    // A topic that is not there now is asked for again by whoever opens it.
+    send('echo_topic', { topic, max_hz: ECHO_HZ }).catch(() => undefined);
   }
 }
 
@@ -132,6 +157,7 @@ function followStreams(state: State): void {
 
 function onLost(reason: string): void {
   isStreaming = false;
+  isWorldUp = false;
   streams.disconnect();
   set({ connection: 'reconnecting', connectionMessage: reason, isLaunching: false, progress: null });
   retryTimer = setTimeout(() => void retry(), RETRY_MS[Math.min(attempt, RETRY_MS.length - 1)]);
@@ -154,5 +180,6 @@ function onEnded(): void {
   streams.close();
   socket = null;
   session = null;
+  resetTopics();
   resetSession({ connection: 'lost' });
 }

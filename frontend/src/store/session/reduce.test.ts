@@ -27,7 +27,6 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
   node_path: '',
   time: 0,
   launch_node: '',
-  launch_node: '',
   ...more,
 });
 
@@ -41,7 +40,6 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   tick_hz: 20,
   speed: 1,
   universe: 'walled_room',
-  launch_nodes: [],
   launch_nodes: [],
   ...more,
 });

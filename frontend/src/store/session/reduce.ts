@@ -19,6 +19,7 @@ export const initialSession: SessionData = {
   logs: [],
   nextLogId: 1,
   faults: [],
+  launchNodes: [],
   finished: null,
   sim: null,
   simTime: 0,
@@ -55,6 +56,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     faults: [...state.faults, data],
     ...appendLogs(state, [logOf(data, t)]),
   }),
+  launch_nodes: (_, data) => ({ launchNodes: data.nodes }),
   finished: (_, data) => ({ finished: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
   snapshot: (state, data, { seq }) => ({
@@ -62,6 +64,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     tree: data.tree?.nodes ?? [],
     blackboard: mergeBlackboard({}, data.blackboard, seq),
     faults: data.faults,
+    launchNodes: data.launch_nodes,
     tickHz: data.tick_hz,
     speed: data.speed,
     universe: data.universe,
@@ -103,7 +106,8 @@ function mergeBlackboard(
 function logOf(fault: Fault, time: number): Log {
   const source = fault.node_id || fault.kind === 'exception' ? 'action' : 'manager';
   const text = fault.traceback || fault.message;
-  return { source, level: 'error', text, node_id: fault.node_id, node_path: fault.node_path, time };
+  const { node_id, node_path } = fault;
+  return { source, level: 'error', text, node_id, node_path, time, launch_node: '' };
 }
 
 /** Adds lines as the console shows them: one row a line of text, numbered. */

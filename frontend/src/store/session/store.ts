@@ -1,7 +1,10 @@
 import { create } from 'zustand';
-import type { Fault, ServerMessage, Snapshot, Tick, Tree } from '@/generated/messages';
+import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
+import { feedHistory } from './historyFeed';
+import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { initialSession, reduceAll } from './reduce';
+import { feedTopics } from './topics';
 import type { SessionData } from './types';
 
 export const useSessionStore = create<SessionData>(() => initialSession);
@@ -27,34 +30,12 @@ export function flush(): void {
   queue = [];
   if (messages.length === 0) return;
   useSessionStore.setState((state) => reduceAll(state, messages));
-  for (const message of messages) showLive(message);
-}
-
-/** Passes on to the canvas what concerns the blocks. */
-function showLive({ command, data }: ServerMessage): void {
-  const live = useLiveStore.getState();
-  switch (command) {
-    case 'tree':
-      return live.setTree((data as Tree).nodes);
-    case 'snapshot': {
-      const { tree, statuses, faults } = data as Snapshot;
-      live.setTree(tree?.nodes ?? []);
-      live.setStatuses(statuses);
-      return faults.forEach(showFault);
-    }
-    case 'tick': {
-      const { changed, flashed } = data as Tick;
-      if (changed.length > 0) live.setStatuses(changed);
-      if (flashed.length > 0) live.flash(flashed);
-      return;
-    }
-    case 'fault':
-      return showFault(data as Fault);
+  for (const message of messages) {
+    feedLive(message);
+    feedHistory(message);
+    feedTopics(message);
   }
-}
-
-function showFault(fault: Fault): void {
-  if (fault.node_id) useLiveStore.getState().setFault(fault.node_id, fault.tree_id, fault.message);
+  showDueStatuses();
 }
 
 export function resetSession(change: Partial<SessionData> = {}): void {
@@ -62,5 +43,6 @@ export function resetSession(change: Partial<SessionData> = {}): void {
   const { tickHz, speed, projectId, logs, nextLogId } = useSessionStore.getState();
   // What was printed can still be read after the session has ended.
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
+  forgetPending();
   useLiveStore.getState().clear();
 }

@@ -3,6 +3,7 @@ import type {
   Fault,
   Finished,
   Introspection,
+  LaunchNode,
   Log,
   Progress,
   Sim,
@@ -40,6 +41,8 @@ export interface SessionData {
   logs: LogLine[];
   nextLogId: number;
   faults: Fault[];
+  /** Extra nodes of the project's launch files. */
+  launchNodes: LaunchNode[];
   finished: Finished | null;
   sim: Sim | null;
   simTime: number;

@@ -1,0 +1,64 @@
+import { memo, useEffect, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { NodeStatus } from '@/generated/messages';
+import { history } from '@/store/session/history';
+import type { TimelineRow } from './rows';
+import classes from './timeline.module.css';
+
+const SUMMARY_EVERY_MS = 1000;
+
+interface RowButtonProps {
+  readonly row: TimelineRow;
+  readonly index: number;
+  readonly top: number;
+  readonly isTabStop: boolean;
+  readonly onSelect: (row: TimelineRow) => void;
+  readonly onFocus: (index: number) => void;
+}
+
+/** A node's row: its name beside its strip, and in words for those who cannot see the strip. */
+export const RowButton = memo(function RowButton(props: RowButtonProps) {
+  const { row, index, top, isTabStop, onSelect, onFocus } = props;
+  const { t } = useTranslation(['timeline', 'run']);
+  const { status, seconds, times } = useSummary(row.uid);
+  const summary = t('summary', {
+    name: row.name,
+    type: row.type,
+    status: t(`run:status.${status}`),
+    seconds: seconds.toFixed(1),
+    count: times,
+  });
+  return (
+    <button
+      type="button"
+      className={classes['row']}
+      style={{ transform: `translateY(${top}px)`, paddingLeft: 10 + Math.min(row.depth, 8) * 12 }}
+      tabIndex={isTabStop ? 0 : -1}
+      data-index={index}
+      data-status={status}
+      data-node={row.node}
+      aria-label={summary}
+      onClick={() => onSelect(row)}
+      onFocus={() => onFocus(index)}
+    >
+      <span className={classes['name']}>{row.name}</span>
+    </button>
+  );
+});
+
+/** What a node is doing and has done, once a second. */
+function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
+  const [summary, setSummary] = useState(() => ({ status: history.status(uid), ...history.runningOf(uid) }));
+  useEffect(() => {
+    const timer = setInterval(() => {
+      const next = { status: history.status(uid), ...history.runningOf(uid) };
+      setSummary((old) =>
+        old.status === next.status && old.times === next.times && Math.abs(old.seconds - next.seconds) < 0.1
+          ? old
+          : next,
+      );
+    }, SUMMARY_EVERY_MS);
+    return () => clearInterval(timer);
+  }, [uid]);
+  return summary;
+}

@@ -1,0 +1,111 @@
+import { history, HISTORY_S } from '@/store/session/history';
+import { AXIS_PX, drawTimeline, paletteOf } from './draw';
+import { spanOf, zoomed, type Span } from './span';
+
+const FIRST_LENGTH_S = 30;
+const REDRAW_MS = 100;
+
+/** What part of the run is shown, and the canvas that shows it; drawn ten times a second at most. */
+export class TimelineView {
+  /** Called when the view begins or ceases to follow the run. */
+  onFollowing: (isFollowing: boolean) => void = () => undefined;
+  private canvas: HTMLCanvasElement | null = null;
+  private scroller: HTMLElement | null = null;
+  private uids: readonly number[] = [];
+  /** The end that is shown; null follows the run. */
+  private end: number | null = null;
+  private length = FIRST_LENGTH_S;
+  private frame = 0;
+
+  /** Draws on a canvas, for the rows of a scroller, until the returned function is called. */
+  attach(canvas: HTMLCanvasElement, scroller: HTMLElement): () => void {
+    this.canvas = canvas;
+    this.scroller = scroller;
+    this.redraw();
+    let drawnAt = -1;
+    const timer = setInterval(() => {
+      if (history.now === drawnAt) return;
+      drawnAt = history.now;
+      this.redraw();
+    }, REDRAW_MS);
+    const resized = new ResizeObserver(this.redraw);
+    resized.observe(canvas);
+    // The colours are those of the theme.
+    const themed = new MutationObserver(this.redraw);
+    themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
+    return () => {
+      clearInterval(timer);
+      resized.disconnect();
+      themed.disconnect();
+      cancelAnimationFrame(this.frame);
+      this.frame = 0;
+      this.canvas = null;
+    };
+  }
+
+  setRows(uids: readonly number[]): void {
+    this.uids = uids;
+    this.redraw();
+  }
+
+  span(): Span {
+    return spanOf(this.end, this.length, history.begin, history.now);
+  }
+
+  readonly redraw = (): void => {
+    if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
+  };
+
+  /** Zooms about a share of the width. */
+  zoom(factor: number, share = 1): void {
+    const longest = Math.min(HISTORY_S, history.now - history.begin);
+    this.show(zoomed(this.span(), factor, share, longest));
+  }
+
+  /** Moves by a share of the width. */
+  pan(share: number): void {
+    const { from, to } = this.span();
+    const by = (to - from) * share;
+    this.show({ from: from + by, to: to + by });
+  }
+
+  showAll(): void {
+    this.show({ from: history.begin, to: history.now });
+  }
+
+  follow(): void {
+    this.setEnd(null);
+  }
+
+  private show({ from, to }: Span): void {
+    this.length = to - from;
+    this.setEnd(to >= history.now ? null : Math.max(to, history.begin + this.length));
+  }
+
+  private setEnd(end: number | null): void {
+    if ((end === null) !== (this.end === null)) this.onFollowing(end === null);
+    this.end = end;
+    this.redraw();
+  }
+
+  private draw(): void {
+    this.frame = 0;
+    const { canvas } = this;
+    const context = canvas?.getContext('2d');
+    if (!canvas || !context) return;
+    const ratio = window.devicePixelRatio || 1;
+    const { clientWidth: width, clientHeight: height } = canvas;
+    if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
+    if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    drawTimeline(history, {
+      context,
+      width,
+      height: Math.max(height, AXIS_PX),
+      span: this.span(),
+      uids: this.uids,
+      scrollTop: this.scroller?.scrollTop ?? 0,
+      palette: paletteOf(canvas),
+    });
+  }
+}

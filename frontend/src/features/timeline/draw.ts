@@ -1,0 +1,105 @@
+import { BIT } from '@/store/session/lane';
+import type { History } from '@/store/session/history';
+import { marks, timeLabel, type Span } from './span';
+
+export const ROW_PX = 22;
+export const AXIS_PX = 22;
+const PADDING_PX = 3;
+
+export interface Palette {
+  surface: string;
+  line: string;
+  text: string;
+  running: string;
+  success: string;
+  failure: string;
+  skipped: string;
+}
+
+export function paletteOf(element: Element): Palette {
+  const style = getComputedStyle(element);
+  const of = (name: string) => style.getPropertyValue(`--bts-${name}`).trim();
+  return {
+    surface: of('surface'),
+    line: of('border'),
+    text: of('muted'),
+    running: of('running-bright'),
+    success: of('success-bright'),
+    failure: of('failure-bright'),
+    skipped: of('skipped'),
+  };
+}
+
+interface Picture {
+  context: CanvasRenderingContext2D;
+  width: number;
+  height: number;
+  span: Span;
+  /** The node of each row, and how far the rows are scrolled, px. */
+  uids: readonly number[];
+  scrollTop: number;
+  palette: Palette;
+}
+
+/** Draws the axis and the strips of the rows that can be seen; the cost does not depend on the others. */
+export function drawTimeline(history: History, picture: Picture): void {
+  const { context, width, height, span, uids, scrollTop, palette } = picture;
+  context.clearRect(0, 0, width, height);
+  const scale = width / (span.to - span.from);
+  const xOf = (t: number) => (t - span.from) * scale;
+
+  context.font = '11px Inter Variable, system-ui, sans-serif';
+  context.textBaseline = 'middle';
+  for (const mark of marks(span, width)) {
+    const x = Math.round(xOf(mark)) + 0.5;
+    context.fillStyle = palette.line;
+    context.fillRect(x - 0.5, AXIS_PX - 5, 1, height);
+    context.fillStyle = palette.text;
+    context.fillText(timeLabel(mark), x + 4, AXIS_PX / 2);
+  }
+  context.fillStyle = palette.line;
+  context.fillRect(0, AXIS_PX - 1, width, 1);
+
+  context.save();
+  context.beginPath();
+  context.rect(0, AXIS_PX, width, height - AXIS_PX);
+  context.clip();
+  const first = Math.floor(scrollTop / ROW_PX);
+  const last = Math.min(uids.length, Math.ceil((scrollTop + height - AXIS_PX) / ROW_PX));
+  for (let row = first; row < last; row++) {
+    const top = AXIS_PX + row * ROW_PX - scrollTop;
+    for (const { start, end, mask } of history.stretches(uids[row] ?? -1, span.from, span.to)) {
+      const left = Math.max(xOf(start), 0);
+      drawStretch(context, mask, left, Math.max(xOf(end) - left, 1), top, palette);
+    }
+  }
+  context.restore();
+
+  const now = xOf(history.now);
+  if (now >= 0 && now <= width) {
+    context.fillStyle = palette.text;
+    context.fillRect(Math.min(Math.round(now), width - 1), AXIS_PX - 5, 1, height);
+  }
+}
+
+/** Told apart by place as well as colour: running fills the row, success stands, failure hangs, skipped is a line. */
+function drawStretch(
+  context: CanvasRenderingContext2D,
+  mask: number,
+  x: number,
+  width: number,
+  top: number,
+  palette: Palette,
+): void {
+  const y = top + PADDING_PX;
+  const full = ROW_PX - 2 * PADDING_PX;
+  const part = Math.round(full * 0.55);
+  const fill = (color: string, from: number, height: number) => {
+    context.fillStyle = color;
+    context.fillRect(x, from, width, height);
+  };
+  if (mask & BIT.RUNNING) fill(palette.running, y, full);
+  if (mask & BIT.SUCCESS) fill(palette.success, y + full - part, part);
+  if (mask & BIT.FAILURE) fill(palette.failure, y, part);
+  if (mask & BIT.SKIPPED) fill(palette.skipped, y + full / 2 - 1, 2);
+}

@@ -1,0 +1,44 @@
+import type { NodeStatus, TreeNode } from '@/generated/messages';
+import { BIT, type Stretch } from '@/store/session/lane';
+
+export interface TimelineRow {
+  uid: number;
+  name: string;
+  type: string;
+  depth: number;
+  node: string;
+  tree: string;
+}
+
+/** The engine numbers nodes without a name of their own: `Forward::6`. */
+export const plainName = (node: Pick<TreeNode, 'name' | 'type'>) =>
+  node.name.replace(/::\d+$/, '') || node.type;
+
+/** The nodes of the running tree, in the order of the tree; a search keeps those whose name or type has it. */
+export function rowsOf(nodes: readonly TreeNode[], search: string): TimelineRow[] {
+  const depths = new Map<number, number>();
+  const wanted = search.trim().toLowerCase();
+  const rows: TimelineRow[] = [];
+  for (const node of nodes) {
+    const depth = (depths.get(node.parent) ?? -1) + 1;
+    depths.set(node.uid, depth);
+    const name = plainName(node);
+    if (wanted && !`${name} ${node.type}`.toLowerCase().includes(wanted)) continue;
+    rows.push({
+      uid: node.uid,
+      name,
+      type: node.type,
+      depth: wanted ? 0 : depth,
+      node: node.node_id,
+      tree: node.tree_id,
+    });
+  }
+  return rows;
+}
+
+const ORDER: NodeStatus[] = ['FAILURE', 'SUCCESS', 'RUNNING', 'SKIPPED'];
+
+/** The statuses that a stretch holds, the most telling first. */
+export function statusesOf({ mask }: Stretch): NodeStatus[] {
+  return ORDER.filter((status) => (mask & BIT[status]) !== 0);
+}

@@ -1,0 +1,40 @@
+/** The stretch of simulated time that is shown, s. */
+export interface Span {
+  from: number;
+  to: number;
+}
+
+export const SHORTEST_S = 0.5;
+
+const STEPS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
+
+/** The end of what is shown: now, while the view follows the run. */
+export function spanOf(end: number | null, length: number, begin: number, now: number): Span {
+  const to = Math.min(end ?? now, Math.max(now, begin + length));
+  const from = Math.max(Math.min(to - length, Math.max(now - length, begin)), begin);
+  return { from, to: Math.max(from + length, to) };
+}
+
+/** Zooms by a factor about a share of the span, 0 its begin and 1 its end. */
+export function zoomed({ from, to }: Span, factor: number, share: number, longest: number): Span {
+  const length = Math.min(Math.max((to - from) * factor, SHORTEST_S), Math.max(longest, SHORTEST_S));
+  const fixed = from + (to - from) * share;
+  return { from: fixed - length * share, to: fixed + length * (1 - share) };
+}
+
+/** Times at which the axis has a mark, at least so many pixels apart. */
+export function marks({ from, to }: Span, width: number, apart = 70): number[] {
+  const wanted = ((to - from) * apart) / Math.max(width, 1);
+  const step = STEPS.find((candidate) => candidate >= wanted) ?? 600;
+  const found: number[] = [];
+  for (let i = Math.ceil(from / step); i * step <= to; i++) found.push(i * step);
+  return found;
+}
+
+/** `12.5 s` below a minute, `3:05` above. */
+export function timeLabel(t: number): string {
+  if (t < 60) return `${Number(t.toFixed(2))} s`;
+  const minutes = Math.floor(t / 60);
+  const seconds = t - minutes * 60;
+  return `${minutes}:${seconds.toFixed(seconds % 1 > 0.001 ? 1 : 0).padStart(2, '0')}`;
+}

@@ -1,0 +1,52 @@
+import { Alert, Button, Code, CopyButton, Group, Modal, Stack, Text } from '@mantine/core';
+import { IconCheck, IconCopy } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { create } from 'zustand';
+import { useSessionStore } from '@/store/session/store';
+import { exportLines } from './environment';
+
+const useConnecting = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
+
+export const openConnect = () => useConnecting.setState({ isOpen: true });
+const close = () => useConnecting.setState({ isOpen: false });
+
+/** What a terminal needs so that RViz and `ros2` see this session. */
+export function ConnectDialog() {
+  const { t } = useTranslation('topics');
+  const isOpen = useConnecting((state) => state.isOpen);
+  const environment = useSessionStore((state) => state.introspection?.ros_environment);
+  const lines = environment ? exportLines(environment) : '';
+  return (
+    <Modal opened={isOpen} onClose={close} title={t('connectTitle')} size="lg">
+      <Stack gap="sm" data-testid="connect-ros">
+        {lines ? (
+          <>
+            <Text size="sm">{t('connectText')}</Text>
+            <Code block data-testid="ros-environment">
+              {lines}
+            </Code>
+            <Group justify="space-between">
+              <Text size="xs" c="dimmed">
+                {t('connectThen')} <Code>ros2 topic list</Code> <Code>rviz2</Code>
+              </Text>
+              <CopyButton value={lines}>
+                {({ copied, copy }) => (
+                  <Button
+                    data-autofocus
+                    leftSection={copied ? <IconCheck size={15} /> : <IconCopy size={15} />}
+                    color={copied ? 'teal' : 'indigo'}
+                    onClick={copy}
+                  >
+                    {t(copied ? 'copied' : 'copy')}
+                  </Button>
+                )}
+              </CopyButton>
+            </Group>
+          </>
+        ) : (
+          <Alert color="gray">{t(environment ? 'connectClosed' : 'connectOff')}</Alert>
+        )}
+      </Stack>
+    </Modal>
+  );
+}

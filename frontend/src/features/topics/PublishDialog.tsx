@@ -1,0 +1,138 @@
+import { Alert, Autocomplete, Button, Group, JsonInput, Modal, Stack, Text } from '@mantine/core';
+import { useEffect, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { describeType, publish } from '@/store/run/topics';
+import { useTopicsStore } from '@/store/session/topics';
+import { closePublish, usePublishing } from './publishing';
+
+const DESCRIBE_AFTER_MS = 250;
+
+/** Says one message on a topic; the type's own defaults are filled in to start from. */
+export function PublishDialog() {
+  const { t } = useTranslation('topics');
+  const opened = usePublishing((state) => state.opened);
+  return (
+    <Modal opened={opened !== null} onClose={closePublish} title={t('publishTitle')} size="lg">
+      {opened ? <PublishForm {...opened} /> : null}
+    </Modal>
+  );
+}
+
+interface PublishFormProps {
+  readonly topic: string;
+  readonly type: string;
+}
+
+function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
+  const { t } = useTranslation('topics');
+  const topics = useTopicsStore((state) => state.topics);
+  const [topic, setTopic] = useState(firstTopic);
+  const [type, setType] = useState(firstType);
+  const description = useTopicsStore((state) => state.descriptions[type]);
+  const [typed, setTyped] = useState<string | null>(null);
+  const [result, setResult] = useState<{ isError: boolean; text: string } | null>(null);
+  const unknown = useDescription(type);
+  const text = typed ?? (description ? JSON.stringify(description.example, null, 2) : '{}');
+
+  const chooseTopic = (name: string) => {
+    setTopic(name);
+    const known = topics.find((row) => row.name === name);
+    if (!known || known.type === type) return;
+    setType(known.type);
+    setTyped(null);
+  };
+
+  const submit = async () => {
+    try {
+      const message: unknown = JSON.parse(text);
+      if (typeof message !== 'object' || message === null || Array.isArray(message)) {
+        throw new Error(t('noObject'));
+      }
+      await publish(topic.trim(), type.trim(), message as Record<string, unknown>);
+      setResult({ isError: false, text: t('published', { topic: topic.trim() }) });
+    } catch (error) {
+      const { message, hint = '' } = error as Error & { hint?: string };
+      setResult({ isError: true, text: [message, hint].filter(Boolean).join(' ') });
+    }
+  };
+
+  return (
+    <form
+      data-testid="publish"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void submit();
+      }}
+    >
+      <Stack gap="sm">
+        <Group grow align="start">
+          <Autocomplete
+            label={t('name')}
+            placeholder="/cmd_vel"
+            data={topics.map((row) => row.name)}
+            value={topic}
+            required
+            data-autofocus
+            onChange={chooseTopic}
+          />
+          <Autocomplete
+            label={t('type')}
+            placeholder="geometry_msgs/msg/Twist"
+            data={[...new Set(topics.map((row) => row.type))].sort()}
+            value={type}
+            required
+            error={unknown}
+            onChange={(value) => {
+              setType(value);
+              setTyped(null);
+            }}
+          />
+        </Group>
+        <JsonInput
+          label={t('message')}
+          description={t('messageHelp')}
+          value={text}
+          formatOnBlur
+          autosize
+          minRows={6}
+          maxRows={16}
+          validationError={t('notJson')}
+          styles={{ input: { fontFamily: 'var(--bts-font-mono)', fontSize: 12.5 } }}
+          onChange={setTyped}
+        />
+        {description ? (
+          <Text size="xs" c="dimmed">
+            {Object.entries(description.fields)
+              .map(([name, of]) => `${name}: ${of}`)
+              .join(' · ')}
+          </Text>
+        ) : null}
+        {result ? (
+          <Alert color={result.isError ? 'red' : 'teal'} role="status" py={8}>
+            {result.text}
+          </Alert>
+        ) : null}
+        <Group justify="end">
+          <Button variant="default" onClick={closePublish}>
+            {t('close')}
+          </Button>
+          <Button type="submit">{t('publishOnce')}</Button>
+        </Group>
+      </Stack>
+    </form>
+  );
+}
+
+/** Asks for a type's fields once it was typed; what is returned says why there are none. */
+function useDescription(type: string): string | null {
+  const isKnown = useTopicsStore((state) => type in state.descriptions);
+  const [refusal, setRefusal] = useState<{ type: string; text: string } | null>(null);
+  useEffect(() => {
+    if (isKnown || !/^\w+\/msg\/\w+$/.test(type)) return;
+    const timer = setTimeout(() => {
+      describeType(type).catch((error: Error) => setRefusal({ type, text: error.message }));
+    }, DESCRIBE_AFTER_MS);
+    return () => clearTimeout(timer);
+  }, [type, isKnown]);
+  return refusal?.type === type ? refusal.text : null;
+}

@@ -1,0 +1,101 @@
+import { TextInput, Tooltip } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import { IconEar, IconEarOff, IconSearch } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { TopicInfo } from '@/generated/messages';
+import { listen, unlisten } from '@/store/run/topics';
+import { useTopicsStore } from '@/store/session/topics';
+import { bytesLabel, rateLabel } from './labels';
+import classes from './topics.module.css';
+
+/** Every topic with its type, rate and size; a click listens to it. */
+export function TopicList() {
+  const { t } = useTranslation('topics');
+  const topics = useTopicsStore((state) => state.topics);
+  const isKnown = useTopicsStore((state) => state.isKnown);
+  const [search, setSearch] = useState('');
+  const shown = useMemo(() => {
+    const wanted = search.trim().toLowerCase();
+    return topics.filter(({ name, type }) => `${name} ${type}`.toLowerCase().includes(wanted));
+  }, [topics, search]);
+  return (
+    <div className={classes['list']}>
+      <TextInput
+        size="xs"
+        type="search"
+        className={classes['search']}
+        value={search}
+        placeholder={t('search')}
+        aria-label={t('search')}
+        leftSection={<IconSearch size={14} />}
+        onChange={(event) => setSearch(event.currentTarget.value)}
+      />
+      {shown.length === 0 ? (
+        <p className={classes['empty']}>{t(isKnown ? 'nothingMatches' : 'asking')}</p>
+      ) : (
+        <table className={classes['table']}>
+          <thead>
+            <tr>
+              <th scope="col">{t('name')}</th>
+              <th scope="col" className={classes['type']}>
+                {t('type')}
+              </th>
+              <th scope="col" className={classes['number']}>
+                {t('rate')}
+              </th>
+              <th scope="col" className={classes['number']}>
+                {t('size')}
+              </th>
+            </tr>
+          </thead>
+          <tbody>
+            {shown.map((topic) => (
+              <Row key={topic.name} topic={topic} />
+            ))}
+          </tbody>
+        </table>
+      )}
+    </div>
+  );
+}
+
+function Row({ topic }: { readonly topic: TopicInfo }) {
+  const { t } = useTranslation('topics');
+  const isEchoed = useTopicsStore((state) => topic.name in state.echoes);
+  const toggle = () => {
+    if (isEchoed) return unlisten(topic.name);
+    listen(topic.name).catch((error: Error) =>
+      notifications.show({ color: 'red', title: t('refused'), message: error.message }),
+    );
+  };
+  const Icon = isEchoed ? IconEarOff : IconEar;
+  const ends = [
+    topic.type,
+    t('publishers', { names: topic.publishers.join(', ') || '—' }),
+    t('subscribers', { names: topic.subscribers.join(', ') || '—' }),
+  ].join('\n');
+  return (
+    <tr data-testid={`topic-${topic.name}`} data-echoed={isEchoed || undefined} data-hz={topic.hz ?? ''}>
+      <th scope="row">
+        <Tooltip label={<span className={classes['ends']}>{ends}</span>} position="right" openDelay={500}>
+          <button
+            type="button"
+            className={classes['topic']}
+            aria-pressed={isEchoed}
+            aria-label={t(isEchoed ? 'unlisten' : 'listen', { topic: topic.name })}
+            onClick={toggle}
+          >
+            <Icon size={14} aria-hidden="true" />
+            <span>{topic.name}</span>
+          </button>
+        </Tooltip>
+      </th>
+      <td className={classes['type']} title={topic.type}>
+        {topic.type.replace('/msg/', '/')}
+      </td>
+      <td className={classes['number']}>{rateLabel(topic.hz)}</td>
+      <td className={classes['number']}>{bytesLabel(topic.bytes_per_s)}</td>
+    </tr>
+  );
+}

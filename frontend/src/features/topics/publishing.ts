@@ -1,0 +1,13 @@
+import { create } from 'zustand';
+
+interface Publishing {
+  /** What the dialogue opens with; null while it is closed. */
+  opened: { topic: string; type: string } | null;
+}
+
+export const usePublishing = create<Publishing>(() => ({ opened: null }));
+
+export const openPublish = (topic: string, type: string) =>
+  usePublishing.setState({ opened: { topic, type } });
+
+export const closePublish = () => usePublishing.setState({ opened: null });

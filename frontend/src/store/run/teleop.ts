@@ -1,0 +1,62 @@
+import { create } from 'zustand';
+import { send } from '@/store/session/connection';
+import { useSessionStore } from '@/store/session/store';
+
+export interface Direction {
+  /** Ahead 1, back -1. */
+  linear: number;
+  /** Left 1, right -1. */
+  angular: number;
+}
+
+interface TeleopData {
+  isOn: boolean;
+  /** Speeds that a held key asks for, m/s and rad/s. */
+  linear: number;
+  angular: number;
+  direction: Direction;
+}
+
+/** The world forgets a command after a while, so one that holds is repeated. */
+const REPEAT_MS = 100;
+const STILL: Direction = { linear: 0, angular: 0 };
+
+export const useTeleop = create<TeleopData>(() => ({
+  isOn: false,
+  linear: 0.3,
+  angular: 1,
+  direction: STILL,
+}));
+
+let repeating: ReturnType<typeof setInterval> | undefined;
+
+/** Driving by hand needs a world whose time goes on, or may: a paused one stands still. */
+export function canDrive(): boolean {
+  const { executor, introspection } = useSessionStore.getState();
+  return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';
+}
+
+/** Drives into a direction until another one, or none, is given. */
+export function drive(direction: Direction): void {
+  const before = useTeleop.getState().direction;
+  if (before.linear === direction.linear && before.angular === direction.angular) return;
+  useTeleop.setState({ direction });
+  clearInterval(repeating);
+  repeating = undefined;
+  command();
+  if (direction.linear !== 0 || direction.angular !== 0) repeating = setInterval(command, REPEAT_MS);
+}
+
+export const halt = () => drive(STILL);
+
+export function setDriving(isOn: boolean): void {
+  halt();
+  useTeleop.setState({ isOn });
+}
+
+function command(): void {
+  const { direction, linear, angular } = useTeleop.getState();
+  send('teleop', { linear: direction.linear * linear, angular: direction.angular * angular }).catch(() => {
+    clearInterval(repeating);
+  });
+}

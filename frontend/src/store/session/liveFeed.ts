@@ -1,0 +1,66 @@
+import type { Fault, NodeStatus, ServerMessage, Snapshot, Tick, Tree } from '@/generated/messages';
+import { useLiveStore } from '@/store/project/live';
+import { useStatusRate } from './statusRate';
+
+const pending = new Map<number, NodeStatus>();
+const flashes = new Map<number, NodeStatus>();
+let shownAt = 0;
+let timer: ReturnType<typeof setTimeout> | undefined;
+
+/** Passes on to the canvas what concerns the blocks: statuses at the user's rate, all else at once. */
+export function feedLive({ command, data }: ServerMessage): void {
+  const live = useLiveStore.getState();
+  switch (command) {
+    case 'tree':
+      forgetPending();
+      return live.setTree((data as Tree).nodes);
+    case 'snapshot': {
+      forgetPending();
+      const { tree, statuses, faults } = data as Snapshot;
+      live.setTree(tree?.nodes ?? []);
+      live.setStatuses(statuses);
+      return faults.forEach(showFault);
+    }
+    case 'tick': {
+      const { changed, flashed } = data as Tick;
+      for (const [uid, status] of changed) pending.set(uid, status);
+      for (const [uid, status] of flashed) flashes.set(uid, status);
+      return;
+    }
+    // What a stopped tree shows is its end, not what was on its way.
+    case 'state-changed':
+      return showStatuses();
+    case 'fault':
+      return showFault(data as Fault);
+  }
+}
+
+/** Shows what gathered, now or when the rate allows; called once after each batch of messages. */
+export function showDueStatuses(): void {
+  if (pending.size === 0 && flashes.size === 0) return;
+  const { hz } = useStatusRate.getState();
+  const wait = hz > 0 ? 1000 / hz - (performance.now() - shownAt) : 0;
+  if (wait <= 1) return showStatuses();
+  timer ??= setTimeout(showStatuses, wait);
+}
+
+function showStatuses(): void {
+  clearTimeout(timer);
+  timer = undefined;
+  shownAt = performance.now();
+  const live = useLiveStore.getState();
+  if (pending.size > 0) live.setStatuses([...pending]);
+  if (flashes.size > 0) live.flash([...flashes]);
+  forgetPending();
+}
+
+export function forgetPending(): void {
+  clearTimeout(timer);
+  timer = undefined;
+  pending.clear();
+  flashes.clear();
+}
+
+function showFault(fault: Fault): void {
+  if (fault.node_id) useLiveStore.getState().setFault(fault.node_id, fault.tree_id, fault.message);
+}

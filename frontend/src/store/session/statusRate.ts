@@ -1,0 +1,18 @@
+import { create } from 'zustand';
+
+/** How often statuses on the canvas may change, Hz; 0 is as often as the screen. */
+export const STATUS_RATES = [0, 20, 10, 5, 2] as const;
+
+const KEY = 'bts.statusRate';
+
+function kept(): number {
+  const value = Number(localStorage.getItem(KEY) ?? 0);
+  return STATUS_RATES.some((rate) => rate === value) ? value : 0;
+}
+
+export const useStatusRate = create<{ hz: number }>(() => ({ hz: kept() }));
+
+export function setStatusRate(hz: number): void {
+  localStorage.setItem(KEY, String(hz));
+  useStatusRate.setState({ hz });
+}

@@ -12,7 +12,7 @@ RUN --mount=type=cache,target=/root/.npm --mount=type=secret,id=npmrc,target=/ro
 COPY tree_gardener/catalog.json /build/tree_gardener/catalog.json
 COPY frontend ./
 # Types are checked by `make lint`.
-RUN npx vite build --logLevel warn
+RUN node_modules/.bin/vite build --logLevel warn
 
 FROM debian:bookworm-slim AS python
 RUN apt-get update -q && DEBIAN_FRONTEND=noninteractive \

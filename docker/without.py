@@ -1,8 +1,7 @@
 """Leaves packages out of a lock: `python without.py requirements.lock web.without > web.lock`.
 
 Both images are installed from the one lock of the project, so that no version differs between them; each
-leaves out what only the other one needs. A name in the list may end in `*`; one that matches nothing
-is an error.
+leaves out what only the other one needs. A name in the list may end in `*`.
 """
 
 from __future__ import annotations
@@ -14,18 +13,19 @@ from pathlib import Path
 
 
 def without(lock: str, patterns: list[str]) -> str:
-    """The lock less the packages that match.
-
-    Raises:
-        ValueError: a pattern matches no package.
-    """
+    """The lock less the packages that match."""
     blocks = re.split(r"(?m)^(?=[A-Za-z0-9])", lock)
-    names = [re.match(r"[A-Za-z0-9._-]*", block)[0] for block in blocks]  # type: ignore[index]
-    idle = [pattern for pattern in patterns if not fnmatch.filter(names, pattern)]
-    if idle:
-        raise ValueError(f"the lock has no package {', '.join(idle)}")
-    kept = zip(names, blocks, strict=True)
-    return "".join(block for name, block in kept if not any(fnmatch.fnmatch(name, p) for p in patterns))
+    return "".join(block for block in blocks if not _matches(name_of(block), patterns))
+
+
+def name_of(block: str) -> str:
+    """The package that a block of the lock is about; empty for what stands before the first."""
+    found = re.match(r"[A-Za-z0-9._-]+", block)
+    return found[0] if found else ""
+
+
+def _matches(name: str, patterns: list[str]) -> bool:
+    return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
 
 
 def read_patterns(text: str) -> list[str]:

@@ -17,6 +17,7 @@ from typing import IO, TYPE_CHECKING, Any, Final
 from django.apps import apps
 from django.core import serializers
 from django.core.management.color import no_style
+from django.core.serializers.json import DjangoJSONEncoder
 from django.db import connection, transaction
 from django.db.migrations.recorder import MigrationRecorder
 
@@ -89,6 +90,13 @@ def read_backup(source: IO[bytes]) -> dict[str, int]:
         raise BackupError(f"This is no readable backup: {error}.") from error
 
 
+class _ExactEncoder(DjangoJSONEncoder):
+    """Keeps the microseconds, which Django's own leaves out."""
+
+    def default(self, o: Any) -> Any:
+        return o.isoformat() if isinstance(o, datetime) else super().default(o)
+
+
 class _snapshot(transaction.Atomic):  # noqa: N801 - used as a function
     """One transaction that sees the state of one moment."""
 
@@ -112,7 +120,7 @@ def _models() -> list[type[Model]]:
 def _lines(model: type[Model]) -> Iterator[bytes]:
     rows = model._base_manager.order_by("pk").iterator(chunk_size=ROWS_AT_ONCE)
     for row in rows:
-        yield serializers.serialize("jsonl", [row]).strip().encode() + b"\n"
+        yield serializers.serialize("jsonl", [row], cls=_ExactEncoder).strip().encode() + b"\n"
 
 
 def _member(name: str) -> str:

@@ -123,6 +123,9 @@ class _Handler(BaseHTTPRequestHandler):
         except KeeperError as error:
             log.info("%s %s: %s", self.command, self.path, error.detail)
             status, answer = error.status, {"code": error.code, "detail": error.detail, "log": error.log}
+        except Exception as error:
+            log.exception("%s %s", self.command, self.path)
+            status, answer = 500, {"code": "keeper_failed", "detail": f"The keeper failed: {error}."}
         data = json.dumps(answer).encode()
         self.send_response(status)
         self.send_header("Content-Type", "application/json")

@@ -1,0 +1,101 @@
+"""Liveness, readiness and metrics, before any guard; and log lines that programs can read."""
+
+from __future__ import annotations
+
+import json
+import logging
+import sys
+
+import pytest
+
+from backend.config import metrics, probes
+from backend.config.environment import environment
+from backend.config.logs import JsonFormatter, TextFormatter
+
+pytestmark = pytest.mark.django_db(transaction=True)
+
+
+async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None):
+    """Status and body of an answer."""
+    sent = []
+
+    async def send(message):
+        sent.append(message)
+
+    async def application(scope, receive, send):
+        await send({"type": "http.response.start", "status": 404, "headers": []})
+        await send({"type": "http.response.body", "body": b""})
+
+    scope = {"type": "http", "path": path, "method": "GET", "client": client, "headers": list(headers)}
+    await probes.probed(inner or application)(scope, None, send)
+    return sent[0]["status"], b"".join(message.get("body", b"") for message in sent[1:]).decode()
+
+
+async def test_a_process_that_answers_is_alive_and_ready():
+    assert await ask(probes.LIVE, client=("10.0.0.9", 5)) == (200, '{"status": "ok"}\n')
+    assert (await ask(probes.READY, client=("10.0.0.9", 5)))[0] == 200
+
+
+async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch):
+    monkeypatch.setattr(probes, "_trouble", lambda: "The database does not answer: OperationalError.")
+    status, body = await ask(probes.READY)
+    assert status == 503
+    assert "database" in json.loads(body)["detail"]
+    assert (await ask(probes.LIVE))[0] == 200
+
+
+async def test_metrics_count_requests_and_sessions():
+    def count(text):
+        return next(int(row.split()[1]) for row in text.splitlines() if 'requests_total{status="4xx"}' in row)
+
+    before = count((await ask(probes.METRICS))[1])
+    await ask("/nowhere")
+    status, text = await ask(probes.METRICS)
+    assert (status, count(text)) == (200, before + 1)
+    assert 'bt_studio_sessions{state="queued"} 0' in text
+    assert 'bt_studio_request_seconds_bucket{le="+Inf"}' in text
+
+
+async def test_metrics_are_not_for_everybody(monkeypatch):
+    assert (await ask(probes.METRICS, client=("172.18.0.1", 5)))[0] == 403
+    from pydantic import SecretStr
+
+    changed = environment().model_copy(update={"metrics_token": SecretStr("m3trics")})
+    monkeypatch.setattr(probes, "environment", lambda: changed)
+    assert (await ask(probes.METRICS))[0] == 403
+    assert (await ask(probes.METRICS, headers=[(b"authorization", b"Bearer m3trics")]))[0] == 200
+
+
+async def test_a_request_that_fails_is_counted_as_such():
+    async def broken(scope, receive, send):
+        raise RuntimeError("defect")
+
+    before = metrics.requests.text()
+    with pytest.raises(RuntimeError):
+        await ask("/api", inner=broken)
+    assert metrics.requests.text() != before
+
+
+def test_histograms_add_up():
+    histogram = metrics.Histogram("x_seconds", "X.")
+    for seconds in (0.001, 0.3, 99):
+        histogram.observe(seconds)
+    text = histogram.text()
+    assert 'x_seconds_bucket{le="0.005"} 1\n' in text
+    assert 'x_seconds_bucket{le="0.5"} 2\n' in text
+    assert 'x_seconds_bucket{le="+Inf"} 3\n' in text
+    assert "x_seconds_count 3\n" in text
+
+
+def test_a_log_line_is_one_json_object_with_its_facts():
+    try:
+        raise ValueError("two\nlines")
+    except ValueError:
+        record = logging.LogRecord("bt", logging.ERROR, "", 1, "save %s", ("§",), sys.exc_info())
+    record.facts = {"status": 500}
+    line = JsonFormatter().format(record)
+    found = json.loads(line)
+    assert "\n" not in line
+    assert (found["message"], found["status"], found["level"]) == ("save §", 500, "error")
+    assert "ValueError" in found["exception"]
+    assert "status=500" in TextFormatter().format(record)

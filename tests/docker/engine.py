@@ -1,0 +1,103 @@
+"""A Docker engine for the tests: the one that runs here, or one of their own, started as root."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+REPOSITORY = Path(__file__).parents[2]
+DATA = REPOSITORY / "var" / "docker"
+SOCKET = Path("/var/run/docker.sock")
+PACKAGES = ("docker.io", "docker-compose", "debootstrap", "iptables")
+# Debian's program first: what else is called docker on a machine may be another client.
+CANDIDATES = ("/usr/bin/docker", "docker")
+DEADLINE_S = 120
+
+
+class Engine(NamedTuple):
+    """A running engine: its socket, and the programs that talk to it."""
+
+    socket: Path
+    docker: str
+    compose: tuple[str, ...]
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """What makes the programs talk to this engine."""
+        return {**os.environ, "DOCKER_HOST": f"unix://{self.socket}", "DOCKER": self.docker}
+
+    def run(self, *arguments: str, check: bool = True, **options: object) -> subprocess.CompletedProcess[str]:
+        """Runs `docker`."""
+        return _run((self.docker, *arguments), self.environment, check=check, **options)
+
+
+def _run(command, environment, *, check=True, **options):
+    done = subprocess.run(
+        command, env=environment, check=False, text=True, capture_output=True, cwd=REPOSITORY, **options
+    )
+    assert not check or done.returncode == 0, f"{' '.join(command)}\n{done.stdout}\n{done.stderr}"
+    return done
+
+
+def why_not() -> str:
+    """Why there can be no engine here; empty when there can."""
+    if os.geteuid() != 0:
+        return "it takes root to start a Docker engine"
+    if shutil.which("apt-get") is None and not _has_programs():
+        return "Docker is missing, and this is no Debian to install it from"
+    return ""
+
+
+def _has_programs() -> bool:
+    return all(shutil.which(name) for name in ("dockerd", "docker-compose", "debootstrap"))
+
+
+@contextmanager
+def engine(folder: Path) -> Iterator[Engine]:
+    """The engine of this machine, or one that is ended in the end; its images are kept in `var/docker`."""
+    if not _has_programs():
+        install = ["apt-get", "install", "-y", "-q", "--no-install-recommends", *PACKAGES]
+        quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+        _run(["apt-get", "update", "-q"], quiet)
+        _run(install, quiet)
+    if SOCKET.exists() and _engine(SOCKET).run("info", check=False).returncode == 0:
+        yield _engine(SOCKET)
+        return
+    DATA.mkdir(parents=True, exist_ok=True)
+    ours = _engine(folder / "docker.sock")
+    command = ["dockerd", "--data-root", str(DATA), "--exec-root", str(folder / "exec")]
+    command += ["--host", f"unix://{ours.socket}", "--pidfile", str(folder / "dockerd.pid")]
+    with (folder / "dockerd.log").open("wb") as log:
+        daemon = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
+    try:
+        deadline = time.monotonic() + DEADLINE_S
+        while ours.run("info", check=False).returncode:
+            assert daemon.poll() is None, (folder / "dockerd.log").read_text()[-4000:]
+            assert time.monotonic() < deadline, "dockerd does not answer"
+            time.sleep(0.2)
+        yield ours
+    finally:
+        daemon.send_signal(signal.SIGTERM)
+        daemon.wait(DEADLINE_S)
+
+
+def _engine(socket: Path) -> Engine:
+    docker = next(name for name in CANDIDATES if shutil.which(name))
+    plugin = subprocess.run([docker, "compose", "version"], capture_output=True, check=False).returncode == 0
+    return Engine(socket, docker, (docker, "compose") if plugin else ("docker-compose",))
+
+
+def build_images(engine: Engine, tag: str) -> None:
+    """Builds the images as a user does, with this machine's CA bundle as a secret of the build."""
+    bundle = os.environ.get("SSL_CERT_FILE") or "/etc/ssl/certs/ca-certificates.crt"
+    given = {"BT_STUDIO_CA": bundle} if Path(bundle).is_file() else {}
+    _run(["bash", "docker/images.sh", tag], engine.environment | given)

@@ -1,0 +1,196 @@
+"""The compose stack of a team's server, and a user of it."""
+
+from __future__ import annotations
+
+import http.cookiejar
+import json
+import re
+import secrets
+import socket
+import subprocess
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
+from typing import TYPE_CHECKING
+
+from websockets.asyncio.client import connect
+
+from tests.docker.engine import REPOSITORY, _run
+from tests.executor.session_client import SessionClient
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from tests.docker.engine import Engine
+
+COMPOSE = REPOSITORY / "docker" / "compose.yaml"
+DEADLINE_S = 240
+
+
+class Stack:
+    """One stack: `up`, `down`, and what is done to its containers."""
+
+    def __init__(self, engine: Engine, folder: Path, tag: str, **settings: str) -> None:
+        self.engine = engine
+        self.name = "btstudio" + secrets.token_hex(3)
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = probe.getsockname()[1]
+        self.base = f"http://127.0.0.1:{self.port}"
+        self._file = folder / f"{self.name}.env"
+        values = {
+            "BT_STUDIO_VERSION": tag,
+            "BT_STUDIO_PUBLIC_URL": self.base,
+            "BT_STUDIO_PUBLISH": f"127.0.0.1:{self.port}",
+            "BT_STUDIO_SECRET_KEY": secrets.token_hex(32),
+            "BT_STUDIO_DATABASE_PASSWORD": secrets.token_hex(16),
+            "BT_STUDIO_DOCKER_SOCKET": str(engine.socket),
+            **settings,
+        }
+        self._file.write_text("".join(f"{name}={value}\n" for name, value in values.items()))
+
+    def compose(self, *arguments: str, **options: object):
+        return _run((*self._command, *arguments), self.engine.environment, **options)
+
+    @property
+    def _command(self) -> tuple[str, ...]:
+        return (*self.engine.compose, "-p", self.name, "-f", str(COMPOSE), "--env-file", str(self._file))
+
+    def up(self) -> float:
+        """Starts everything; returns after how many seconds the first page came."""
+        started = time.monotonic()
+        self.compose("up", "-d")
+        self.await_page()
+        return time.monotonic() - started
+
+    def await_page(self) -> None:
+        deadline = time.monotonic() + DEADLINE_S
+        while True:
+            try:
+                with urllib.request.urlopen(self.base + "/accounts/login/", timeout=5):
+                    return
+            except OSError as error:
+                if time.monotonic() > deadline:
+                    logs = self.compose("logs", "--tail=40").stdout
+                    raise AssertionError(f"there is no page: {error}\n{logs}") from error
+                time.sleep(0.1)
+
+    def down(self) -> None:
+        for name in self.sessions():
+            self.engine.run("rm", "-f", name)
+        self.compose("down", "-v", "-t", "5")
+
+    def container(self, service: str) -> str:
+        return self.compose("ps", "-q", service).stdout.strip()
+
+    def gateway(self) -> str:
+        """The address of this machine on the network of the web server."""
+        format_ = "{{range .NetworkSettings.Networks}}{{.Gateway}} {{end}}"
+        return self.engine.run("inspect", "-f", format_, self.container("web")).stdout.split()[0]
+
+    def sessions(self) -> list[str]:
+        """The names of the executors' containers that run."""
+        label = f"label=org.bt-studio.stack={self.name}"
+        return self.engine.run("ps", "--filter", label, "--format", "{{.Names}}").stdout.split()
+
+    def studio(self, *arguments: str, **options: object):
+        """Runs `bt-studio` in the web container."""
+        return self.compose("exec", "-T", "web", "bt-studio", *arguments, **options)
+
+    def backup(self) -> bytes:
+        """What `bt-studio backup -` writes."""
+        return self._studio_bytes("backup", "-")
+
+    def restore(self, archive: bytes) -> None:
+        """Gives it to `bt-studio restore -`."""
+        self._studio_bytes("restore", "-", input=archive)
+
+    def _studio_bytes(self, *arguments: str, **options: object) -> bytes:
+        command = (*self._command, "exec", "-T", "web", "bt-studio", *arguments)
+        done = subprocess.run(
+            command, env=self.engine.environment, check=False, capture_output=True, cwd=REPOSITORY, **options
+        )
+        assert done.returncode == 0, done.stderr.decode()
+        return done.stdout
+
+    def add_user(self, name: str) -> User:
+        password = secrets.token_urlsafe(12)
+        self.studio("admin", "create", name, "--user", "--password-stdin", input=password + "\n")
+        return User(self, name, password)
+
+
+class User:
+    """Somebody who has signed in by the page's form."""
+
+    def __init__(self, stack: Stack, name: str, password: str) -> None:
+        self._base = stack.base
+        self._jar = http.cookiejar.CookieJar()
+        self._opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(self._jar))
+        self._name, self._password = name, password
+        self.sign_in()
+
+    def sign_in(self) -> None:
+        page = self._open("GET", "/accounts/login/").decode()
+        token = re.search(r'name="csrfmiddlewaretoken" value="([^"]+)"', page)
+        assert token is not None, page
+        form = {"login": self._name, "password": self._password, "csrfmiddlewaretoken": token[1]}
+        self._open("POST", "/accounts/login/", urllib.parse.urlencode(form).encode())
+        assert self.get("me")["user"] == self._name
+
+    def _open(self, method: str, path: str, data: bytes | None = None, kind: str = "") -> bytes:
+        headers = {"Origin": self._base, "Referer": self._base + path}
+        headers |= {"Content-Type": kind} if kind else {}
+        request = urllib.request.Request(self._base + path, data, headers, method=method)
+        try:
+            with self._opener.open(request, timeout=60) as response:
+                return response.read()
+        except urllib.error.HTTPError as error:
+            raise AssertionError(f"{method} {path}: {error.code} {error.read().decode()[:2000]}") from error
+
+    def _api(self, method: str, path: str, body: object = None):
+        data = None if body is None else json.dumps(body).encode()
+        answer = self._open(method, f"/api/v1/{path}", data, "application/json" if data else "")
+        return json.loads(answer) if answer else None
+
+    def get(self, path: str):
+        return self._api("GET", path)
+
+    def post(self, path: str, body: object = None):
+        return self._api("POST", path, body)
+
+    def delete(self, path: str):
+        return self._api("DELETE", path)
+
+    def app(self, project: str) -> str:
+        """The project as the executor takes it."""
+        return self.get(f"projects/{project}/app")["app_zip_base64"]
+
+    @property
+    def cookies(self) -> str:
+        return "; ".join(f"{cookie.name}={cookie.value}" for cookie in self._jar)
+
+    async def open_session(self, session: dict[str, str], *, stream: bool = True) -> RelayedClient:
+        return await RelayedClient(self._base, session["id"], self.cookies).open(stream=stream)
+
+
+class RelayedClient(SessionClient):
+    """A client of a session through the web server, as a browser is one."""
+
+    def __init__(self, base: str, session_id: str, cookies: str) -> None:
+        super().__init__(0)
+        self._origin = base
+        self._session_id = session_id
+        self._headers = {"Cookie": cookies}
+
+    def _connect(self, path: str):
+        return connect(
+            f"{self._origin.replace('http', 'ws', 1)}/ws/sessions/{self._session_id}{path}",
+            additional_headers=self._headers,
+            origin=self._origin,
+            subprotocols=["bt-studio.v1"],
+            max_size=None,
+            compression=None,
+            proxy=None,
+            open_timeout=60,
+        )

@@ -1,0 +1,259 @@
+"""The team's server as it is deployed: real images, real containers, users who may be careless or hostile."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.docker.engine import build_images, engine
+from tests.docker.stack import Stack
+
+TAG = "test"
+INTRUDER = (Path(__file__).parent / "intruder.py").read_text()
+BUMP, FOLLOW = "laser_bump_and_go", "visual_follow_person"
+ACTION = """
+import py_trees
+
+class Forward(py_trees.behaviour.Behaviour):
+    def __init__(self, name, ports=None):
+        super().__init__(name)
+
+    def update(self):
+{body}
+        return py_trees.common.Status.RUNNING
+"""
+FORK_BOMB = "        import os\n        while True:\n            os.fork()"
+MEMORY_HOG = "        self.hoard = getattr(self, 'hoard', []) + [bytearray(200 << 20)]"
+DISK_FILLER = (
+    "        import os\n        for n in range(10**6):\n"
+    "            with open(f'/tmp/{n}', 'wb') as file:\n                file.write(os.urandom(8 << 20))"
+)
+# Building everything from nothing takes minutes on a busy machine.
+pytestmark = [pytest.mark.timeout(1800)]
+
+
+@pytest.fixture(scope="module")
+def stack(tmp_path_factory):
+    """Images from the sources, and the stack with two places for robots."""
+    folder = tmp_path_factory.mktemp("docker")
+    with engine(folder) as running:
+        build_images(running, TAG)
+        made = Stack(running, folder, TAG, BT_STUDIO_MAX_SESSIONS="2", BT_STUDIO_SESSION_CPUS="1")
+        try:
+            print(f"from built images to the first page: {made.up():.1f} s")
+            yield made
+        finally:
+            print(made.compose("logs", "--tail=60", check=False).stdout)
+            made.down()
+
+
+@pytest.fixture(scope="module")
+def ann(stack):
+    return stack.add_user("ann")
+
+
+@pytest.fixture(scope="module")
+def ben(stack):
+    return stack.add_user("ben")
+
+
+@pytest.fixture(scope="module")
+def projects(ann, ben):
+    """Each user has one of the examples."""
+    return {
+        BUMP: ann.post("projects", {"name": "Bump", "template": BUMP})["id"],
+        FOLLOW: ben.post("projects", {"name": "Follow", "template": FOLLOW})["id"],
+    }
+
+
+async def started(user, project):
+    """A client of the project's session, once its manager has introduced itself."""
+    return await user.open_session(user.post(f"projects/{project}/session"))
+
+
+async def run(client, user, project, universe):
+    """Runs the project as it is stored."""
+    await run_app(client, user.app(project), universe)
+
+
+async def run_app(client, app, universe="walled_room", **more):
+    application = {"app_zip_base64": app, "tick_hz": 20.0, "on_finish": "repeat", **more}
+    reply = await client.ask(
+        "run", {"universe": {"universe": universe, "seed": 1}, "application": application}, timeout_s=240
+    )
+    assert reply == "ack", reply
+
+
+def ticks(client):
+    return max((tick["n"] for tick in client.named("tick")), default=0)
+
+
+async def ticks_on(client):
+    """The robot's program ticks, now."""
+    before = ticks(client)
+    await client.until(lambda: ticks(client) > before + 5, 120)
+
+
+def hostile(user, project, source):
+    """The project's app with another Forward, made by the server from a stored project."""
+    copy = user.post(f"projects/{project}/duplicate", {"name": f"copy {time.monotonic_ns()}"})
+    save(user, copy["id"], "actions/Forward.py", source, base=copy["revision"])
+    app = user.app(copy["id"])
+    user.delete(f"projects/{copy['id']}")
+    return app
+
+
+def save(user, project, path, content, *, base=0):
+    """Saves one file."""
+    change = {"files": [{"path": path, "content": content, "base_revision": base}]}
+    return user.post(f"projects/{project}/changes", change)
+
+
+async def test_two_users_run_both_examples_in_two_containers(stack, ann, ben, projects):
+    first, second = await started(ann, projects[BUMP]), await started(ben, projects[FOLLOW])
+    await asyncio.gather(
+        run(first, ann, projects[BUMP], "walled_room"), run(second, ben, projects[FOLLOW], "person_in_green")
+    )
+    assert len(stack.sessions()) == 2
+    for client in (first, second):
+        await client.until(lambda c=client: c.robot_position() is not None, 60)
+        start = client.robot_position()
+        await client.until(lambda c=client, start=start: math.dist(c.robot_position(), start) > 0.05, 120)
+    await first.close()
+    await second.close()
+
+
+async def test_a_stranger_reaches_neither_project_nor_session(ann, ben, projects):
+    session = ann.post(f"projects/{projects[BUMP]}/session")
+    for attempt in (
+        lambda: ben.get(f"projects/{projects[BUMP]}"),
+        lambda: ben.get(f"sessions/{session['id']}"),
+        lambda: ben.delete(f"sessions/{session['id']}"),
+    ):
+        with pytest.raises(AssertionError, match="404"):
+            attempt()
+    with pytest.raises(Exception, match=r"4404|no such session|403"):
+        await asyncio.wait_for(ben.open_session(session), 30)
+
+
+async def test_user_code_finds_no_way_out(stack, ann, ben, projects):
+    mine = ann.post(f"projects/{projects[BUMP]}/session")["id"]
+    other = ben.post(f"projects/{projects[FOLLOW]}/session")["id"]
+    # The address of this machine where the server is published: the nearest outside.
+    told = {"OWN_SESSION": mine, "OTHER_SESSION": other, "HOST": stack.gateway(), "PORT": stack.port}
+    secret = "".join(f"{name} = {value!r}\n" for name, value in told.items())
+    client = await started(ann, projects[BUMP])
+    await run_app(client, hostile(ann, projects[BUMP], INTRUDER + secret))
+    line = await client.event("log", lambda data: data["text"].startswith("FOUND "), timeout_s=60)
+    found = json.loads(line["data"]["text"].removeprefix("FOUND "))
+    assert found["uid"] == 10001
+    assert set(found["capabilities"]) == {"0"}
+    assert (found["no_new_privileges"], found["seccomp"]) == ("1", "2")
+    assert found["interfaces"] == ["lo"]
+    assert found["routes"] == []
+    for refused in (
+        "postgres",
+        "redis",
+        "web",
+        "host",
+        "gate_write",
+        "gate_unlink",
+        "gate_own",
+        "gate_other",
+        "root_write",
+    ):
+        assert found[refused].startswith("refused"), refused
+    assert found["docker"] == found["studio_files"] == []
+    assert found["gate_folder"] == ["gate.sock"]
+    assert found["mount"] == -1
+    assert found["managers"] == 1
+    await client.close()
+
+
+@pytest.mark.parametrize(
+    "body", [FORK_BOMB, MEMORY_HOG, DISK_FILLER], ids=["fork bomb", "memory hog", "disk filler"]
+)
+async def test_who_takes_too_much_ends_alone(ann, ben, projects, body):
+    bystander = await started(ben, projects[FOLLOW])
+    await run(bystander, ben, projects[FOLLOW], "person_in_green")
+    greedy = await started(ann, projects[BUMP])
+    await run_app(greedy, hostile(ann, projects[BUMP], ACTION.format(body=body)))
+    await greedy.event("fault", lambda data: data["kind"] != "timeout", timeout_s=120)
+    await greedy.until(lambda: greedy.state != "application_running", 60)
+    await ticks_on(bystander)
+    # The place is as good as new.
+    await run(greedy, ann, projects[BUMP], "walled_room")
+    await ticks_on(greedy)
+    await greedy.close()
+    await bystander.close()
+
+
+async def test_a_killed_web_server_loses_no_project_and_no_running_robot(stack, ann, projects):
+    project = projects[BUMP]
+    client = await started(ann, project)
+    await run(client, ann, project, "walled_room")
+    await ticks_on(client)
+    text = "saved just before the end"
+    base = ann.get(f"projects/{project}")["revision"]
+    save(ann, project, "assets/note.txt", text)
+    before = ticks(client)
+    stack.engine.run("kill", "--signal", "KILL", stack.container("web"))
+    stack.compose("up", "-d", "web")
+    stack.await_page()
+    await client.close()
+    assert ann.get(f"projects/{project}")["revision"] > base
+    assert ann._open("GET", f"/api/v1/projects/{project}/files/assets/note.txt").decode() == text
+    again = await started(ann, project)
+    await again.event("snapshot", timeout_s=60)
+    assert again.state == "application_running"
+    await again.until(lambda: ticks(again) > before, 120)
+    await again.close()
+
+
+async def test_a_full_server_queues_and_says_the_position(stack, ann, ben, projects):
+    third = ann.post("projects", {"name": "Third", "template": BUMP})["id"]
+    fourth = ben.post("projects", {"name": "Fourth", "template": BUMP})["id"]
+    running = [
+        ann.post(f"projects/{projects[BUMP]}/session"),
+        ben.post(f"projects/{projects[FOLLOW]}/session"),
+    ]
+    waiting = [ann.post(f"projects/{third}/session"), ben.post(f"projects/{fourth}/session")]
+    assert [one["state"] for one in waiting] == ["queued", "queued"]
+    assert [one["position"] for one in waiting] == [1, 2]
+    opening = asyncio.create_task(ann.open_session(waiting[0], stream=False))
+    ann.delete(f"sessions/{running[0]['id']}")
+    client = await asyncio.wait_for(opening, 120)
+    assert "number 1" in client.named("progress")[0]["message"]
+    assert ben.get(f"sessions/{waiting[1]['id']}")["position"] == 1
+    await client.close()
+    for user, session in ((ann, waiting[0]), (ben, waiting[1]), (ben, running[1])):
+        user.delete(f"sessions/{session['id']}")
+    assert stack.sessions() == []
+
+
+def test_an_executor_of_nobody_is_ended_when_the_web_server_starts(stack, ann, projects):
+    session = ann.post(f"projects/{projects[BUMP]}/session")["id"]
+    deadline = time.monotonic() + 120
+    while ann.get(f"sessions/{session}")["state"] != "ready":
+        assert time.monotonic() < deadline
+        time.sleep(0.2)
+    forget = f"DELETE FROM executor_sessions_session WHERE id = '{session}'"  # noqa: S608 - our own
+    stack.compose("exec", "-T", "postgres", "psql", "-U", "studio", "-c", forget)
+    stack.compose("restart", "-t", "5", "web")
+    stack.await_page()
+    assert stack.sessions() == []
+
+
+def test_a_backup_is_restored_into_an_empty_stack(stack, ann, projects):
+    archive = stack.backup()
+    listed = ann.get("projects")["items"]
+    stack.down()
+    stack.up()
+    stack.restore(archive)
+    ann.sign_in()
+    assert ann.get("projects")["items"] == listed

@@ -1,0 +1,138 @@
+"""A Docker engine that runs no containers: what the image is called says how its executor behaves.
+
+good      takes its socket from the gate and listens
+failing   ends with status 3
+never     runs, and never comes to the gate
+liar      shows a wrong token at the gate, and ends
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import socketserver
+import threading
+import time
+from datetime import UTC, datetime
+from http.server import BaseHTTPRequestHandler
+from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
+
+from executor.gate import fetch_listener
+
+
+class FakeDocker(socketserver.ThreadingUnixStreamServer):
+    """Listens at a path; `containers` has everything that was made and not removed."""
+
+    daemon_threads = True
+
+    def __init__(self, path, gate_folder):
+        self.containers = {}
+        self.listeners = {}
+        self.requests = []
+        self._gate = gate_folder / "gate.sock"
+        super().__init__(str(path), _Handler)
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def start(self, name):
+        container = self.containers[name]
+        container["State"] = {"Running": True, "ExitCode": 0, "OOMKilled": False, "FinishedAt": ""}
+        threading.Thread(target=self._run, args=(name, container), daemon=True).start()
+
+    def end(self, name, status, *, out_of_memory=False, at=None):
+        finished = datetime.fromtimestamp(at or time.time(), UTC).isoformat()
+        self.containers[name]["State"] = {
+            "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
+        }  # fmt: skip
+
+    def _run(self, name, container):
+        kind, command = container["Image"], container["Cmd"]
+        environment = dict(entry.split("=", 1) for entry in container["Env"])
+        session = command[command.index("--session") + 1]
+        token = environment["BT_STUDIO_MANAGER_TOKEN"]
+        if kind == "failing":
+            self.end(name, 3)
+        elif kind == "liar":
+            with contextlib.suppress(OSError):
+                self.listeners[name] = fetch_listener(self._gate, session, "wrong" + token)
+            self.end(name, 1)
+        elif kind == "good":
+            self.listeners[name] = fetch_listener(self._gate, session, token)
+
+    def close(self):
+        self.shutdown()
+        self.server_close()
+        for listener in self.listeners.values():
+            listener.close()
+
+
+class _Handler(BaseHTTPRequestHandler):
+    protocol_version = "HTTP/1.1"
+
+    def do_GET(self):
+        self._answer()
+
+    do_POST = do_DELETE = do_GET  # noqa: N815 - the base class's names
+
+    def _answer(self):
+        address = urlsplit(self.path)
+        path = address.path.removeprefix("/v1.41")
+        query = {name: values[0] for name, values in parse_qs(address.query).items()}
+        body = self.rfile.read(int(self.headers.get("Content-Length") or 0))
+        self.server.requests.append((self.command, path))
+        status, answer = self._act(path, query, json.loads(body) if body else None)
+        data = answer if isinstance(answer, bytes) else json.dumps(answer).encode()
+        self.send_response(status)
+        self.send_header("Content-Length", str(len(data)))
+        self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(data)
+
+    def _act(self, path, query, body):
+        docker = self.server
+        if path == "/containers/create":
+            if body["Image"] == "missing":
+                return 404, {"message": "No such image: missing"}
+            docker.containers[query["name"]] = body | {"Created": time.time(), "State": {"Running": False}}
+            return 201, {"Id": query["name"]}
+        if path == "/containers/json":
+            labels = [label.split("=", 1) for label in json.loads(query["filters"])["label"]]
+            return 200, [
+                {
+                    "Labels": one["Labels"],
+                    "State": "running" if one["State"]["Running"] else "exited",
+                    "Created": one["Created"],
+                }
+                for one in docker.containers.values()
+                if all(one["Labels"].get(key) == value for key, value in labels)
+            ]
+        name, _, verb = path.removeprefix("/containers/").partition("/")
+        if name not in docker.containers:
+            return 404, {"message": f"No such container: {name}"}
+        return self._act_on(docker, name, verb)
+
+    def _act_on(self, docker, name, verb):
+        if self.command == "DELETE":
+            del docker.containers[name]
+            return 204, b""
+        if verb == "json":
+            return 200, {"State": docker.containers[name]["State"]}
+        if verb == "logs":
+            line = b"the fake executor starts\n"
+            return 200, b"\x01\0\0\0" + len(line).to_bytes(4, "big") + line
+        if verb == "start":
+            docker.start(name)
+        if verb == "stop":
+            docker.end(name, 143)
+        return 204, b""
+
+    def address_string(self):
+        return "keeper"
+
+    def log_message(self, format, *args):  # noqa: A002
+        pass
+
+
+def gate_of(folder):
+    """The folder that a keeper below `folder` shares with executors."""
+    return Path(folder) / "gate"

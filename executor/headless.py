@@ -20,6 +20,7 @@ from websockets.exceptions import ConnectionClosed
 from executor import messages
 from executor.manager import Manager, ManagerSettings
 from executor.report import NodeCount, Report, quantiles
+from executor.universes import BUILTIN_IDS, builtin_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -45,6 +46,7 @@ class HeadlessOptions:
     universe: str | None = None
     seed: int = 0
     duration_s: float | None = None
+    robot: str | None = None
 
 
 @dataclass
@@ -258,13 +260,13 @@ def _run_data(project: Project, app_zip: bytes, options: HeadlessOptions) -> dic
     name = options.universe or settings.universe
     own = project.files.get(f"universes/{name}.yaml")
     universe: Any = name
+    assets = {path: data for path, data in project.files.items() if path.startswith(("assets/", "robots/"))}
+    if own is None and assets and name in BUILTIN_IDS:
+        own = builtin_path(name).read_bytes()  # with the project's robots at hand
     if own is not None:
-        assets = {
-            path: data for path, data in project.files.items() if path.startswith(("assets/", "robots/"))
-        }
         universe = {"document": own.decode(), "assets_zip_base64": _zip_base64(assets) if assets else ""}
     return {
-        "universe": {"universe": universe, "robot": settings.robot, "seed": options.seed},
+        "universe": {"universe": universe, "robot": options.robot or settings.robot, "seed": options.seed},
         "application": {
             "app_zip_base64": base64.b64encode(app_zip).decode(),
             "tick_hz": settings.tick_hz,

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import math
 import os
+import shutil
 import sys
+import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.report import NodeCount, Report, quantiles
@@ -20,7 +23,6 @@ from executor.ros.environment import lockstep_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from executor.ros.spin import DrainingExecutor
     from executor.world.bullet import BulletWorld
@@ -143,7 +145,10 @@ class _Run:
         own = project.files.get(f"universes/{universe}.yaml")
         robot = self._options.robot or project.settings.robot
         text = own.decode("utf-8") if own is not None else universe
-        return make_world(text, seed=self._options.seed, robot=robot)
+        folder = Path(tempfile.mkdtemp(prefix="bt-studio-assets-"))
+        self._stack.append(lambda: shutil.rmtree(folder, ignore_errors=True))
+        _write_assets(project, folder)
+        return make_world(text, seed=self._options.seed, robot=robot, assets=folder)
 
     def _join_ros(self) -> None:
         import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
@@ -276,6 +281,17 @@ def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
     if isinstance(project, Mapping):
         return open_files(project)
     return open_path(project)
+
+
+def _write_assets(project: Project, folder: Path) -> None:
+    """Writes the project's robots and assets where the world finds them."""
+    for name, data in project.files.items():
+        if name.startswith(("assets/", "robots/")):
+            path = folder / name
+            if not path.resolve().is_relative_to(folder.resolve()):
+                raise ValueError(f"{name!r} leads out of the project")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
 
 
 def _use_environment() -> None:

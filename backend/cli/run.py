@@ -19,6 +19,7 @@ LOCKSTEP_DURATION_S = 60.0
 def run(  # noqa: PLR0913, PLR0917 - one an option
     project: Annotated[str, typer.Argument(help="A project folder, zip or name.")],
     universe: Annotated[str | None, typer.Option(help="Universe in place of the project's.")] = None,
+    robot: Annotated[str | None, typer.Option(help="Robot in place of the project's.")] = None,
     duration: Annotated[
         float | None, typer.Option(min=0.0, help="Simulated seconds; 60 in lock-step, else until it ends.")
     ] = None,
@@ -37,9 +38,9 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     try:
         opened = cli.open_project(project)
         done = (
-            _in_lockstep(opened, universe, seed, duration)
+            _in_lockstep(opened, universe, robot, seed, duration)
             if lockstep
-            else _in_real_time(opened, universe, seed, duration)
+            else _in_real_time(opened, universe, robot, seed, duration)
         )
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from error
@@ -54,14 +55,16 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         raise CliError(*(_fault_line(fault) for fault in done.errors))
 
 
-def _in_lockstep(project: Project, universe: str | None, seed: int, duration: float | None) -> Report:
+def _in_lockstep(
+    project: Project, universe: str | None, robot: str | None, seed: int, duration: float | None
+) -> Report:
     from backend.cli.errors import CliError
     from executor.lockstep import LockstepOptions, run_lockstep
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
 
     wanted = LOCKSTEP_DURATION_S if duration is None else duration
-    options = LockstepOptions(universe=universe, seed=seed, duration_s=wanted)
+    options = LockstepOptions(universe=universe, robot=robot, seed=seed, duration_s=wanted)
     try:
         return run_lockstep(project, options, progress=lambda t: _progress(f"{t:6.1f} s of {wanted:g} s"))
     except DocumentError as error:
@@ -74,7 +77,9 @@ def _in_lockstep(project: Project, universe: str | None, seed: int, duration: fl
         _progress("")
 
 
-def _in_real_time(project: Project, universe: str | None, seed: int, duration: float | None) -> Report:
+def _in_real_time(
+    project: Project, universe: str | None, robot: str | None, seed: int, duration: float | None
+) -> Report:
     from backend.cli.errors import CliError
     from executor.headless import HeadlessError, HeadlessOptions, run_headless
     from translator import to_app_zip
@@ -86,7 +91,7 @@ def _in_real_time(project: Project, universe: str | None, seed: int, duration: f
         _progress("")
         print(line, flush=True)
 
-    options = HeadlessOptions(universe, seed, duration)
+    options = HeadlessOptions(universe, seed, duration, robot)
     try:
         return run_headless(project, to_app_zip(project), options, progress=progress, say=say)
     except HeadlessError as error:

@@ -183,7 +183,7 @@ def test_a_forgotten_password_is_reset_by_mail_and_strangers_learn_nothing(perso
     assert "/password/reset/key/" not in mail.outbox[-1].body
 
 
-def test_a_second_factor_is_asked_for(person):
+def test_a_second_factor_is_asked_for(person, django_capture_on_commit_callbacks):
     from allauth.mfa.totp.internal.auth import format_hotp_value, hotp_value
 
     person("ada")
@@ -197,7 +197,8 @@ def test_a_second_factor_is_asked_for(person):
     code = format_hotp_value(hotp_value(secret, int(time.time()) // 30))
     token = browser.client.cookies[settings.CSRF_COOKIE_NAME].value
     sent = {"code": code, "csrfmiddlewaretoken": token}
-    assert browser.client.post("/accounts/2fa/totp/activate/", sent).status_code == 302
+    with django_capture_on_commit_callbacks(execute=True):
+        assert browser.client.post("/accounts/2fa/totp/activate/", sent).status_code == 302
     second = Person()
     assert "2fa" in second.sign_in("ada")["Location"]
     assert second.problem("GET", "me", 401) == "sign_in_required"

@@ -1,0 +1,220 @@
+"""Every endpoint × every role × someone else's project; the policy is in `backend.projects.access`.
+
+The list of endpoints is the OpenAPI document, so that a new one without a row here fails.
+"""
+
+from __future__ import annotations
+
+import uuid
+
+import pytest
+from django.core.files.uploadedfile import SimpleUploadedFile
+
+from backend.accounts import groups, invitations
+from backend.accounts.models import GroupMember
+from backend.catalog import queries
+from backend.config.schema_view import document
+from backend.projects import actions, sharing
+from backend.projects.choices import Role
+from backend.sessions import actions as session_actions
+from backend.sessions.choices import SessionState
+from backend.sessions.models import Session
+from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
+
+ROLES = ("nobody", "guest", "other", "viewer", "editor", "owner")
+TREE = b'{"format": "bt-studio/diagram", "version": 1, "id": "MainTree", "root": null, "nodes": {}}'
+
+# What each role is answered, in the order of ROLES. 404: the project might as well not exist.
+READ = (401, 200, 404, 200, 200, 200)
+COPY = (401, 403, 404, 201, 201, 201)
+WRITE = (401, 403, 404, 403, 200, 200)
+DELETE_DRAFT = (401, 403, 404, 403, 204, 204)
+DRAFTS = (401, 403, 404, 403, 200, 200)
+MANAGE = (401, 403, 404, 403, 403, 200)
+MANAGE_READ = (401, 403, 404, 403, 403, 200)
+MANAGE_NEW = (401, 403, 404, 403, 403, 201)
+MANAGE_GONE = (401, 403, 404, 403, 403, 204)
+RUN = (401, 403, 404, 200, 200, 200)
+CHECK = (401, 403, 404, 200, 200, 200)
+NOT_OWNED = (401, 403, 404, 404, 404, 404)  # a session, group or invitation of somebody else
+PERSONAL = (401, 403, 200, 200, 200, 200)
+OPEN = (401, 200, 200, 200, 200, 200)
+NEW = (401, 403, 201, 201, 201, 201)
+BROKEN = (401, 422, 404, 422, 422, 422)  # the empty project has no root to translate
+
+P = "/api/v1/projects/{project_id}"
+POLICY = {
+    ("get", "/api/v1/projects"): PERSONAL,
+    ("post", "/api/v1/projects"): NEW,
+    ("post", "/api/v1/projects/import"): NEW,
+    ("get", P): READ,
+    ("patch", P): WRITE,
+    ("delete", P): MANAGE_GONE,
+    ("post", f"{P}/restore"): MANAGE,
+    ("post", f"{P}/archive"): MANAGE,
+    ("post", f"{P}/unarchive"): MANAGE,
+    ("post", f"{P}/duplicate"): COPY,
+    ("post", f"{P}/changes"): WRITE,
+    ("post", f"{P}/check"): CHECK,
+    ("get", f"{P}/app"): BROKEN,
+    ("get", f"{P}/xml"): BROKEN,
+    ("get", f"{P}/package"): BROKEN,
+    ("get", f"{P}/package/preview"): BROKEN,
+    ("get", f"{P}/export"): READ,
+    ("get", f"{P}/files/{{path}}"): READ,
+    ("get", f"{P}/revisions"): READ,
+    ("patch", f"{P}/revisions/{{number}}"): WRITE,
+    ("get", f"{P}/revisions/{{number}}/diff"): READ,
+    ("post", f"{P}/revisions/{{number}}/restore"): WRITE,
+    ("get", f"{P}/revisions/{{number}}/files/{{path}}"): READ,
+    ("get", f"{P}/drafts"): DRAFTS,
+    ("put", f"{P}/drafts/{{path}}"): WRITE,
+    ("delete", f"{P}/drafts/{{path}}"): DELETE_DRAFT,
+    ("get", f"{P}/shares"): MANAGE_READ,
+    ("post", f"{P}/shares"): MANAGE,
+    ("delete", f"{P}/shares/people/{{username}}"): MANAGE_GONE,
+    ("put", f"{P}/shares/groups/{{group_id}}"): (401, 403, 404, 403, 403, 404),
+    ("delete", f"{P}/shares/groups/{{group_id}}"): MANAGE_GONE,
+    ("post", f"{P}/shares/links"): MANAGE_NEW,
+    ("delete", f"{P}/shares/links/{{link_id}}"): MANAGE_GONE,
+    ("post", f"{P}/session"): RUN,
+    ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
+    ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
+    ("get", "/api/v1/me"): OPEN,
+    ("get", "/api/v1/me/usage"): PERSONAL,
+    ("get", "/api/v1/me/data"): PERSONAL,
+    ("delete", "/api/v1/me/data"): (401, 403, 204, 204, 204, 204),
+    ("get", "/api/v1/groups"): PERSONAL,
+    ("post", "/api/v1/groups"): (401, 403, 403, 403, 403, 403),
+    ("get", "/api/v1/groups/{group_id}"): (401, 403, 404, 200, 404, 404),
+    ("patch", "/api/v1/groups/{group_id}"): (401, 403, 404, 403, 404, 404),
+    ("delete", "/api/v1/groups/{group_id}"): (401, 403, 404, 403, 404, 404),
+    ("delete", "/api/v1/groups/{group_id}/members/{username}"): (401, 403, 404, 403, 404, 404),
+    ("post", "/api/v1/groups/{group_id}/invitations"): (401, 403, 404, 403, 404, 404),
+    ("delete", "/api/v1/invitations/{invitation_id}"): NOT_OWNED,
+    ("post", "/api/v1/actions/inspect"): (401, 403, 200, 200, 200, 200),
+    ("post", "/api/v1/python/format"): PERSONAL,
+    ("post", "/api/v1/python/lint"): PERSONAL,
+    ("get", "/api/v1/catalog/nodes"): OPEN,
+    ("get", "/api/v1/catalog/universes"): OPEN,
+    ("get", "/api/v1/catalog/universes/{universe_id}/preview"): OPEN,
+    ("get", "/api/v1/catalog/robots"): OPEN,
+    ("get", "/api/v1/catalog/robots/{robot_id}/preview"): OPEN,
+    ("get", "/api/v1/catalog/templates"): OPEN,
+}
+BODIES = {
+    ("post", "/api/v1/projects"): {"name": "Another"},
+    ("patch", P): {"base_revision": 1, "description": "new"},
+    ("post", f"{P}/changes"): {"files": [{"path": "new.txt", "base_revision": 0, "content": "x"}]},
+    ("post", f"{P}/check"): {"files": []},
+    ("post", f"{P}/duplicate"): {},
+    ("patch", f"{P}/revisions/{{number}}"): {"label": "first"},
+    ("post", f"{P}/revisions/{{number}}/restore"): {},
+    ("put", f"{P}/drafts/{{path}}"): {"base_revision": 1, "content": "typed"},
+    ("post", f"{P}/shares"): {"name": "other", "role": "viewer"},
+    ("put", f"{P}/shares/groups/{{group_id}}"): {"role": "viewer"},
+    ("post", f"{P}/shares/links"): {},
+    ("patch", "/api/v1/groups/{group_id}"): {"name": "Mine now"},
+    ("post", "/api/v1/groups"): {"name": "Mine"},
+    ("post", "/api/v1/groups/{group_id}/invitations"): {},
+    ("post", "/api/v1/python/format"): {"source": "x=1", "path": "a.py"},
+    ("post", "/api/v1/python/lint"): {"source": "x=1", "path": "a.py"},
+    ("post", "/api/v1/actions/inspect"): {"filename": "actions/A.py", "source": "class A: pass"},
+}
+
+
+@pytest.fixture
+def world(person, monkeypatch):  # noqa: F811
+    """One project, shared in every way, and everybody's browser."""
+    people = {name: person(name) for name in ("other", "viewer", "editor", "owner", "teacher")}
+    teacher = people["teacher"].user
+    teacher.is_teacher = True
+    teacher.save()
+    owner = people["owner"].user
+    files = {"trees/MainTree.json": TREE, "notes.txt": b"hello"}
+    project = actions.create_project(files, acting_user=owner, name="Robot")
+    group = groups.create("Class", acting_user=teacher)
+    GroupMember.objects.create(group=group, user=people["viewer"].user, joined_at=project.created_at)
+    sharing.GroupShare.objects.create(
+        project=project, group=group, role=Role.VIEWER, created_at=project.created_at
+    )
+    sharing.share_with_person(project.id, "editor", Role.EDITOR, acting_user=owner)
+    sharing.share_with_person(project.id, "teacher", Role.VIEWER, acting_user=owner)
+    sharing.make_link(project.id, acting_user=owner, days=None)
+    link = sharing.shares(project)["links"][0]
+    people["nobody"], people["guest"] = Person(), Person()
+    assert people["guest"].page(link["url"].partition(PUBLIC)[2]).status_code == 302
+    session = Session.objects.create(
+        project=project,
+        user=teacher,
+        state=SessionState.ENDED,
+        ros_domain_id=7,
+        created_at=project.created_at,
+    )
+    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
+    values = {
+        "project_id": project.id,
+        "path": "notes.txt",
+        "number": 1,
+        "username": "teacher",
+        "universe_id": queries.universes()[0]["id"],
+        "robot_id": queries.robots()[0]["id"],
+        "group_id": group.id,
+        "link_id": link["id"],
+        "session_id": session.id,
+        "invitation_id": invitation.id,
+    }
+    return people, values
+
+
+def ask(browser, method, path, values, body):
+    address = path.format(**values)
+    if path.endswith("/import"):
+        upload = SimpleUploadedFile("new.xml", b'<root BTCPP_format="4"><BehaviorTree ID="T"/></root>')
+        return browser.client.post(address, {"file": upload}).status_code
+    data = {} if method in {"get"} or body is None else {"data": body, "content_type": "application/json"}
+    return getattr(browser.client, method)(address, **data).status_code
+
+
+def operations():
+    return sorted((method, path) for path, methods in document()["paths"].items() for method in methods)
+
+
+def test_the_policy_names_every_endpoint():
+    assert set(operations()) == set(POLICY), set(operations()) ^ set(POLICY)
+
+
+WRITES = sorted(key for key in POLICY if key[0] != "get")
+
+
+def answers(people, values, method, path):
+    found = {}
+    for role in ROLES:
+        body = BODIES.get((method, path))
+        if path.endswith("/me/data") and people[role].user:
+            body = {"username": role}
+        found[role] = ask(people[role], method, path, values, body)
+    return found
+
+
+def policy(method, path):
+    return dict(zip(ROLES, POLICY[method, path], strict=True))
+
+
+def test_every_role_reads_what_the_policy_says(world):
+    reads = [key for key in POLICY if key[0] == "get"]
+    assert {key: answers(*world, *key) for key in reads} == {key: policy(*key) for key in reads}
+
+
+@pytest.mark.parametrize(("method", "path"), WRITES, ids=lambda part: part.removeprefix("/api/v1"))
+def test_every_role_writes_what_the_policy_says(method, path, world):
+    assert answers(*world, method, path) == policy(method, path)
+
+
+def test_what_does_not_exist_answers_as_what_one_may_not_know_of(world):
+    people, values = world
+    missing = values | {"project_id": uuid.uuid4()}
+    of_projects = [key for key in POLICY if "{project_id}" in key[1]]
+    answers = {key: ask(people["other"], *key, missing, BODIES.get(key)) for key in of_projects}
+    assert set(answers.values()) == {404}, answers

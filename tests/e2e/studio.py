@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -53,9 +54,13 @@ class Studio:
         return self.page.get_by_test_id(test_id)
 
     def run(self) -> None:
-        """Presses Run and waits until the application runs."""
+        """Presses Run and waits until the application runs; if one did already, until it has begun again."""
+        state = self.at("executor-state").get_attribute("data-state")
+        before = self.stat("t") if state == "application_running" else math.inf
         self.at("run").click()
         self.expect_state("application_running")
+        if math.isfinite(before):
+            wait_until(lambda: self.stat("t") < before, "the world begins again")
 
     def expect_state(self, state: str) -> None:
         """Waits for a rung of the ladder."""

@@ -1,4 +1,5 @@
 import { requestJson, requestText, urlOf } from './http';
+import type { PythonFinding } from './python';
 import type {
   ActionModel,
   AppBundle,
@@ -6,17 +7,16 @@ import type {
   CheckResult,
   FileChange,
   Me,
-  ProjectDetail,
   PackagePreview,
-  ProjectSettings,
+  ProjectDetail,
   ProjectPage,
+  ProjectSettings,
   SessionInfo,
   TemplateInfo,
   UniverseInfo,
 } from './types';
 
 export type ProjectSort = 'name' | '-updated_at';
-
 export type ProjectShelf = 'current' | 'archived' | 'deleted';
 
 interface ProjectQuery {
@@ -28,6 +28,7 @@ interface ProjectQuery {
 
 /** As many cards as fill a large screen twice. */
 const PAGE = 48;
+
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
 
 /** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
@@ -47,9 +48,9 @@ export const api = {
   ) => requestJson<ProjectDetail>(project(id), { method: 'PATCH', body }),
   deleteProject: (id: string) => requestJson<undefined>(project(id), { method: 'DELETE' }),
   restoreProject: (id: string) => requestJson<unknown>(`${project(id)}/restore`, { method: 'POST' }),
-  duplicateProject: (id: string) =>
   archiveProject: (id: string) => requestJson<unknown>(`${project(id)}/archive`, { method: 'POST' }),
   unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
+  duplicateProject: (id: string) =>
     requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
   importProject: (zip: File) => {
     const form = new FormData();
@@ -57,7 +58,6 @@ export const api = {
     return requestJson<ProjectDetail>('/projects/import', { method: 'POST', body: form });
   },
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),
-
   xmlUrl: (id: string, isSelfContained: boolean) =>
     urlOf(`${project(id)}/xml?self_contained=${String(isSelfContained)}`),
   packageUrl: (id: string, name: string) =>
@@ -67,6 +67,7 @@ export const api = {
       `${project(id)}/package/preview?${new URLSearchParams({ name }).toString()}`,
       { signal },
     ),
+
   saveChanges: (id: string, body: { message: string; files: FileChange[] }, keepalive = false) =>
     requestJson<ChangesResult>(`${project(id)}/changes`, { method: 'POST', body, keepalive }),
   check: (id: string, files: { path: string; content: string }[] = [], signal?: AbortSignal) =>
@@ -74,6 +75,18 @@ export const api = {
   xml: (id: string) => requestText(`${project(id)}/xml`),
   inspectAction: (source: string, filename: string) =>
     requestJson<ActionModel>('/actions/inspect', { method: 'POST', body: { source, filename } }),
+
+  formatPython: (source: string, filename: string) =>
+    requestJson<{ source: string }>('/python/format', { method: 'POST', body: { source, filename } }),
+  lintPython: async (source: string, filename: string, signal?: AbortSignal) => {
+    const body = { source, filename };
+    const answer = await requestJson<{ findings: PythonFinding[] }>('/python/lint', {
+      method: 'POST',
+      body,
+      signal,
+    });
+    return answer.findings;
+  },
 
   app: (id: string) => requestJson<AppBundle>(`${project(id)}/app`),
   startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),

@@ -4,13 +4,17 @@ import { EditorView } from '@codemirror/view';
 import { Center, Text } from '@mantine/core';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { useTabs } from '@/features/frame/tabs';
 import classes from './code.module.css';
 import { marksFor } from './diagnostics';
 import { extensionsFor } from './extensions';
+import { isOurs, lintMarks, servedMark } from './findings';
 import { applyKeptFontSize } from './fontSize';
+import { LanguageStatus } from './LanguageStatus';
+import { useFindings, type Linted } from './useFindings';
 
 interface CodeTabProps {
   readonly path: string;
@@ -54,7 +58,8 @@ export function CodeTab({ path }: CodeTabProps) {
   }, [path, label, isMissing]);
 
   useExternalText(view, text);
-  useMarks(view, path, text);
+  const findings = useFindings(path, text);
+  useMarks(view, path, text, findings);
   useLineTarget(view, path, text);
 
   if (isMissing) {
@@ -64,7 +69,12 @@ export function CodeTab({ path }: CodeTabProps) {
       </Center>
     );
   }
-  return <div ref={host} className={classes['editor']} data-testid="code-editor" data-path={path} />;
+  return (
+    <div className={classes['frame']}>
+      <div ref={host} className={classes['editor']} data-testid="code-editor" data-path={path} />
+      {path.endsWith('.py') ? <LanguageStatus path={path} /> : null}
+    </div>
+  );
 }
 
 type ViewRef = { readonly current: EditorView | null };
@@ -81,16 +91,23 @@ function useExternalText(view: ViewRef, text: string | null): void {
   }, [view, text]);
 }
 
-function useMarks(view: ViewRef, path: string, text: string | null): void {
+function useMarks(view: ViewRef, path: string, text: string | null, linted: Linted | null): void {
+  const served = useLanguageStore((state) => state.findings[path]);
+  const isServed = useLanguageStore((state) => state.state.kind === 'ready');
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const faults = useSessionStore((state) => state.faults);
   useEffect(() => {
     const editor = view.current;
     if (!editor) return;
-    const marks = marksFor(editor.state.doc, path, diagnostics, faults);
+    const { doc } = editor.state;
+    const marks = [
+      ...marksFor(doc, path, isServed ? diagnostics.filter(isOurs) : diagnostics, faults),
+      ...(served ?? []).map((finding) => servedMark(doc, finding)),
+      ...lintMarks(doc, linted, isServed),
+    ];
     editor.dispatch(setDiagnostics(editor.state, marks));
     // A text that came with the marks moves them: they are set again for it.
-  }, [view, path, diagnostics, faults, text]);
+  }, [view, path, diagnostics, faults, text, served, isServed, linted]);
 }
 
 function useLineTarget(view: ViewRef, path: string, text: string | null): void {

@@ -5,7 +5,7 @@ import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import classes from './code.module.css';
 import { editorTheme } from './editorTheme';
-import { languageOf } from './language';
+import { languageOf } from './modes';
 
 interface MergeViewProps {
   readonly path: string;

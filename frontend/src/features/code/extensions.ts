@@ -21,7 +21,9 @@ import {
 } from '@codemirror/view';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
-import { languageOf } from './language';
+import { languageOf } from './modes';
+import { languageSupport } from './language/client';
+import { saveKeys } from './language/keys';
 
 /** Everything that an editor of this file is made of. */
 export function extensionsFor(path: string, label: string): Extension {
@@ -43,9 +45,11 @@ export function extensionsFor(path: string, label: string): Extension {
     search({ top: true }),
     lintGutter(),
     languageOf(path),
+    languageSupport(path),
     editorTheme,
     EditorView.contentAttributes.of({ 'aria-label': label }),
     keymap.of([
+      ...saveKeys(path),
       ...fontSizeKeys,
       ...closeBracketsKeymap,
       ...defaultKeymap,

@@ -3,6 +3,8 @@ import { api } from '@/api/client';
 import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
+import { followRevisions } from '@/store/saving/live';
+import { tellTaken } from './tellTaken';
 import { leave, reattach } from '@/store/session/connection';
 
 type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
@@ -12,12 +14,14 @@ export function useProject(projectId: string): Opening {
   const [opening, setOpening] = useState<Opening>({ kind: 'loading' });
   useEffect(() => {
     const loading = new AbortController();
+    let unfollow: (() => void) | null = null;
     api.getProject(projectId, loading.signal).then(
       (detail) => {
         useProjectStore.getState().load(detail);
         startAutosave();
         restoreDraft(detail);
         setOpening({ kind: 'open' });
+        unfollow = followRevisions(projectId, tellTaken);
         void reattach(projectId);
       },
       (error: Error) => {
@@ -26,6 +30,7 @@ export function useProject(projectId: string): Opening {
     );
     return () => {
       loading.abort();
+      unfollow?.();
       stopAutosave();
       leave();
     };

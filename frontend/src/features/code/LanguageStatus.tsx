@@ -1,0 +1,47 @@
+import { Button, Checkbox } from '@mantine/core';
+import type { TFunction } from 'i18next';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useLanguageStore, type LanguageState } from '@/store/language';
+import { retryLanguage } from './language/client';
+import { formatsOnSave, setFormatsOnSave } from './language/ruff';
+import classes from './code.module.css';
+
+/** Under an editor of Python: whether there is help, and what to do when there is none. */
+export function LanguageStatus({ path }: { readonly path: string }) {
+  const { t } = useTranslation('code');
+  const state = useLanguageStore((store) => store.state);
+  const [formats, setFormats] = useState(formatsOnSave);
+  return (
+    <div
+      className={classes['language']}
+      data-state={state.kind}
+      data-testid="language-state"
+      data-path={path}
+    >
+      <span className={classes['languageText']} role="status">
+        {textOf(state, t)}
+      </span>
+      {state.kind === 'failed' && !state.willRetry ? (
+        <Button size="compact-xs" variant="light" onClick={retryLanguage}>
+          {t('language.retry')}
+        </Button>
+      ) : null}
+      <Checkbox
+        size="xs"
+        label={t('language.formatOnSave')}
+        checked={formats}
+        onChange={(event) => {
+          setFormatsOnSave(event.currentTarget.checked);
+          setFormats(event.currentTarget.checked);
+        }}
+      />
+    </div>
+  );
+}
+
+function textOf(state: LanguageState, t: TFunction<'code'>): string {
+  if (state.kind !== 'failed') return t(`language.${state.kind}`);
+  const text = t('language.failed', { reason: state.reason || t('language.lost') });
+  return state.willRetry ? `${text} ${t('language.retrying')}` : text;
+}

@@ -1,0 +1,183 @@
+import {
+  findReferencesKeymap,
+  hoverTooltips,
+  jumpToDefinitionKeymap,
+  LSPClient,
+  serverCompletion,
+  signatureHelp,
+} from '@codemirror/lsp-client';
+import type { Extension } from '@codemirror/state';
+import { keymap } from '@codemirror/view';
+import { notifications } from '@mantine/notifications';
+import { t } from '@/i18n';
+import { useLanguageStore, type CodeFinding, type LanguageState } from '@/store/language';
+import { useProjectStore } from '@/store/project';
+import { renameKeymap } from './rename';
+import { sanitizeHtml } from './sanitize';
+import { CLOSED, openSocket } from './socket';
+import { pathOf, uriOf } from './uris';
+import { ProjectWorkspace } from './workspace';
+
+const SEVERITIES = ['error', 'error', 'warning', 'info', 'info'] as const;
+const RETRY_AFTER_MS = [500, 2000, 8000, 30_000] as const;
+const SYNC_AFTER_MS = 700;
+/** A server that lived this long was well: its end starts the count of retries anew. */
+const WELL_AFTER_MS = 30_000;
+
+interface Published {
+  readonly uri: string;
+  readonly version?: number;
+  readonly diagnostics: readonly {
+    readonly range: { readonly start: CodeFinding['from']; readonly end: CodeFinding['to'] };
+    readonly severity?: number;
+    readonly message: string;
+    readonly code?: string | number;
+  }[];
+}
+
+function keepFindings({ uri, diagnostics }: Published): void {
+  const path = pathOf(uri);
+  if (path === null) return;
+  const found = diagnostics.map((item): CodeFinding => ({
+    from: item.range.start,
+    to: item.range.end,
+    severity: SEVERITIES[item.severity ?? 1] ?? 'info',
+    message: item.message,
+    source: `pyrefly ${item.code ?? ''}`.trim(),
+  }));
+  useLanguageStore.setState(({ findings }) => ({ findings: { ...findings, [path]: found } }));
+}
+
+function makeClient(): LSPClient {
+  return new LSPClient({
+    rootUri: 'file:///project',
+    timeout: 10_000,
+    sanitizeHTML: sanitizeHtml,
+    workspace: (client) =>
+      new ProjectWorkspace(client, (where) =>
+        notifications.show({ message: t('code:language.outside', { where }) }),
+      ),
+    notificationHandlers: {
+      'textDocument/publishDiagnostics': (_client, params: Published) => {
+        keepFindings(params);
+        return true;
+      },
+    },
+    extensions: [
+      serverCompletion(),
+      hoverTooltips({ hoverTime: 400 }),
+      signatureHelp(),
+      keymap.of([...renameKeymap, ...jumpToDefinitionKeymap, ...findReferencesKeymap]),
+    ],
+  });
+}
+
+const setState = (state: LanguageState) => useLanguageStore.setState({ state });
+
+/** The one connection of this page: made when a Python file is first opened, mended when it breaks. */
+class Connection {
+  readonly client = makeClient();
+  private socket: { close(): void } | null = null;
+  private retries = 0;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private syncing: ReturnType<typeof setTimeout> | undefined;
+  private readonly unwatch: () => void;
+
+  constructor(readonly projectId: string) {
+    let counter = useProjectStore.getState().changeCounter;
+    this.unwatch = useProjectStore.subscribe((project) => {
+      if (project.projectId !== projectId) return leaveLanguage();
+      if (project.changeCounter === counter) return;
+      counter = project.changeCounter;
+      clearTimeout(this.syncing);
+      this.syncing = setTimeout(() => {
+        this.wake();
+      }, SYNC_AFTER_MS);
+    });
+    this.open();
+  }
+
+  /** Brings unsaved texts to the server; connects again when it had gone for lack of work. */
+  wake(): void {
+    if (this.socket === null && useLanguageStore.getState().state.kind === 'off') this.open();
+    else if (this.client.serverCapabilities) this.client.sync();
+  }
+
+  retry(): void {
+    this.retries = 0;
+    clearTimeout(this.timer);
+    if (this.socket === null) this.open();
+  }
+
+  end(): void {
+    this.unwatch();
+    clearTimeout(this.timer);
+    clearTimeout(this.syncing);
+    const { socket } = this;
+    this.socket = null;
+    this.client.disconnect();
+    socket?.close();
+    useLanguageStore.setState({ state: { kind: 'off' }, findings: {} });
+  }
+
+  private open(): void {
+    setState({ kind: 'starting' });
+    const opened = Date.now();
+    const socket = openSocket(this.projectId, {
+      open: (transport) => {
+        this.client.connect(transport);
+        this.client.initializing.then(
+          () => {
+            if (this.socket === socket) setState({ kind: 'ready' });
+          },
+          () => undefined,
+        );
+      },
+      closed: (code, reason) => {
+        if (this.socket !== socket) return;
+        this.socket = null;
+        this.client.disconnect();
+        if (Date.now() - opened > WELL_AFTER_MS) this.retries = 0;
+        this.ended(code, reason);
+      },
+    });
+    this.socket = socket;
+  }
+
+  private ended(code: number, reason: string): void {
+    if (code === CLOSED.idle) return setState({ kind: 'off' });
+    const final = code === CLOSED.unavailable || code === CLOSED.noProject || code === CLOSED.tooMany;
+    const delay = final ? undefined : RETRY_AFTER_MS[this.retries];
+    this.retries += 1;
+    setState({ kind: 'failed', reason, willRetry: delay !== undefined });
+    if (delay !== undefined) {
+      this.timer = setTimeout(() => {
+        this.open();
+      }, delay);
+    }
+  }
+}
+
+let connection: Connection | null = null;
+
+/** What an editor of a Python file needs to have help; the connection is shared by all of them. */
+export function languageSupport(path: string): Extension {
+  const { projectId } = useProjectStore.getState();
+  if (!projectId || !path.endsWith('.py')) return [];
+  if (connection?.projectId !== projectId) {
+    connection?.end();
+    connection = new Connection(projectId);
+  }
+  connection.wake();
+  return connection.client.plugin(uriOf(path), 'python');
+}
+
+export function retryLanguage(): void {
+  connection?.retry();
+}
+
+/** For the end of the page of a project. */
+function leaveLanguage(): void {
+  connection?.end();
+  connection = null;
+}

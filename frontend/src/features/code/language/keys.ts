@@ -1,0 +1,29 @@
+import type { KeyBinding } from '@codemirror/view';
+import { perform } from '@/actions/registry';
+import { formatPython, formatsOnSave } from './ruff';
+
+/** Formatting, and saving with it; other files are saved by the shortcut of the whole page. */
+export function saveKeys(path: string): KeyBinding[] {
+  if (!path.endsWith('.py')) return [];
+  return [
+    {
+      key: 'Shift-Alt-f',
+      preventDefault: true,
+      run: (view) => {
+        void formatPython(view, path, 'asked');
+        return true;
+      },
+    },
+    {
+      key: 'Mod-s',
+      preventDefault: true,
+      run: (view) => {
+        const formatted = formatsOnSave() ? formatPython(view, path, 'saving') : Promise.resolve();
+        void formatted.then(() => {
+          perform('project.save');
+        });
+        return true;
+      },
+    },
+  ];
+}

@@ -1,0 +1,61 @@
+import { diff } from '@codemirror/merge';
+import type { ChangeSpec, Text } from '@codemirror/state';
+import type { EditorView } from '@codemirror/view';
+import { notifications } from '@mantine/notifications';
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { PythonFinding, PythonPlace } from '@/api/python';
+import { t } from '@/i18n';
+
+const KEY = 'bts.formatOnSave';
+
+export const formatsOnSave = (): boolean => localStorage.getItem(KEY) !== 'off';
+
+export function setFormatsOnSave(on: boolean): void {
+  localStorage.setItem(KEY, on ? 'on' : 'off');
+}
+
+/** Ruff counts code points, the editor UTF-16 units. */
+export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
+  if (line > doc.lines) return doc.length;
+  const { from, text } = doc.line(Math.max(line, 1));
+  const units = [...text].slice(0, Math.max(column - 1, 0)).join('').length;
+  return from + units;
+}
+
+/** The changes that make one text of another, so that cursors and marks stay where they are. */
+export function changesBetween(before: string, after: string): ChangeSpec[] {
+  return diff(before, after).map(({ fromA, toA, fromB, toB }) => ({
+    from: fromA,
+    to: toA,
+    insert: after.slice(fromB, toB),
+  }));
+}
+
+/**
+ * Formats the text as ruff does, as one step that undo takes back. A text with a syntax error, or one that
+ * changed meanwhile, stays as it is.
+ */
+export async function formatPython(view: EditorView, path: string, how: 'asked' | 'saving'): Promise<void> {
+  const before = view.state.doc;
+  try {
+    const { source } = await api.formatPython(before.toString(), path);
+    if (!view.state.doc.eq(before) || source === before.toString()) return;
+    view.dispatch({ changes: changesBetween(before.toString(), source), userEvent: 'format' });
+  } catch (error) {
+    // Saving goes on without: the editor's marks tell what is wrong.
+    if (how === 'saving') return;
+    const message = error instanceof ApiError ? error.message : String(error);
+    notifications.show({ color: 'yellow', title: t('code:format.failed'), message });
+  }
+}
+
+export function applyFix(view: EditorView, made: Text, finding: PythonFinding): void {
+  if (!finding.fix || !view.state.doc.eq(made)) return;
+  const changes = finding.fix.edits.map(({ start, end, content }) => ({
+    from: offsetOf(made, start),
+    to: offsetOf(made, end),
+    insert: content,
+  }));
+  view.dispatch({ changes, userEvent: 'fix' });
+}

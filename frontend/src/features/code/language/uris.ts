@@ -1,0 +1,12 @@
+/** What the server calls the project's files; where they lie on its machine stays its own business. */
+const PROJECT = 'file:///project/';
+const LIBRARY = 'file:///library/';
+
+export const uriOf = (path: string): string => PROJECT + path.split('/').map(encodeURIComponent).join('/');
+
+export const pathOf = (uri: string): string | null =>
+  uri.startsWith(PROJECT) ? decodeURIComponent(uri.slice(PROJECT.length)) : null;
+
+/** The module of a library that an address names, for people. */
+export const libraryOf = (uri: string): string | null =>
+  uri.startsWith(LIBRARY) ? decodeURIComponent(uri.slice(LIBRARY.length)) : null;

@@ -1,0 +1,80 @@
+import type { ProjectDetail } from '@/api/types';
+import { emptyHistory } from '@/model/history';
+import { currentText, openFiles } from './files';
+import type { ProjectData } from './state';
+import { knowing } from './transitions';
+
+/** What came from the server, by path. */
+export interface Merged {
+  readonly data: Partial<ProjectData>;
+  readonly taken: readonly string[];
+  /** Changed there and here: the next save asks the user. */
+  readonly kept: readonly string[];
+}
+
+/**
+ * Takes over what was saved elsewhere (another tab, another user). A file that is edited here stays as it
+ * is, on its old base, so that saving it becomes a conflict and neither version is lost.
+ */
+export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
+  const remote = openFiles(detail.files);
+  const files = { ...data.files };
+  const diagrams = { ...data.diagrams };
+  const histories = { ...data.histories };
+  const taken: string[] = [];
+  const kept: string[] = [];
+  const isEdited = (path: string) => currentText(data, path) !== data.files[path]?.savedText;
+
+  const drop = (path: string, tree: string | null) => {
+    Reflect.deleteProperty(files, path);
+    if (tree !== null) {
+      Reflect.deleteProperty(diagrams, tree);
+      Reflect.deleteProperty(histories, tree);
+    }
+    taken.push(path);
+  };
+  const treeOf = (path: string) => /^trees\/(.+)\.json$/.exec(path)?.[1] ?? null;
+
+  for (const theirs of Object.values(remote.files)) {
+    const mine = files[theirs.path];
+    if (theirs.path in data.removed || (mine && mine.revision >= theirs.revision)) continue;
+    if (mine && isEdited(theirs.path)) {
+      if (currentText(data, theirs.path) !== theirs.savedText) {
+        kept.push(theirs.path);
+        continue;
+      }
+    }
+    files[theirs.path] = theirs;
+    const tree = treeOf(theirs.path);
+    const diagram = tree === null ? undefined : remote.diagrams[tree];
+    if (tree !== null && diagram) {
+      diagrams[tree] = diagram;
+      // Steps back would undo on top of somebody else's work.
+      histories[tree] = emptyHistory;
+    }
+    taken.push(theirs.path);
+  }
+  for (const mine of Object.values(data.files)) {
+    if (mine.path in remote.files || mine.revision === 0) continue;
+    if (isEdited(mine.path)) kept.push(mine.path);
+    else drop(mine.path, mine.kind === 'tree' ? treeOf(mine.path) : null);
+  }
+  const active = data.activeTree;
+  const isActiveGone = active !== null && !(active in diagrams);
+  const main = detail.settings.main_tree;
+  const next: ProjectData = {
+    ...data,
+    files,
+    diagrams,
+    histories,
+    revision: Math.max(data.revision, detail.revision),
+    actions: detail.actions,
+    diagnostics: detail.diagnostics,
+    ...(kept.includes('project.json')
+      ? {}
+      : { settings: detail.settings, mainTree: main, name: detail.name, description: detail.description }),
+    activeTree: isActiveGone ? (main in diagrams ? main : (Object.keys(diagrams)[0] ?? null)) : active,
+    selection: data.selection.filter((id) => active !== null && diagrams[active]?.nodes[id] !== undefined),
+  };
+  return { data: knowing(next), taken, kept };
+}

@@ -1,0 +1,65 @@
+import { api } from '@/api/client';
+import { socketUrl } from '@/api/http';
+import { useProjectStore } from '@/store/project';
+import { mergeRemote } from '@/store/project/remote';
+import { saveNow } from './autosave';
+import { useSavingStore } from './store';
+
+/** Told what came from elsewhere: the paths, and what the other side called its change. */
+type OnTaken = (paths: readonly string[], notice: Notice) => void;
+
+interface Notice {
+  readonly type: 'revision';
+  readonly revision: number;
+  readonly author: string;
+  readonly message: string;
+}
+
+const RETRY_AFTER_MS = [1000, 3000, 10_000, 30_000] as const;
+const NO_SUCH_PROJECT = 4404;
+
+/** Follows the project's revisions until the returned function is called. */
+export function followRevisions(projectId: string, onTaken: OnTaken): () => void {
+  let socket: WebSocket | null = null;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let retries = 0;
+  let isLeft = false;
+
+  const open = () => {
+    socket = new WebSocket(socketUrl(`/ws/projects/${projectId}/notices`));
+    socket.onmessage = ({ data }: MessageEvent<string>) => {
+      retries = 0;
+      const notice = JSON.parse(data) as Notice;
+      // A lost answer is no harm: the next notice, or the next connection, says the same.
+      void catchUp(projectId, notice, onTaken).catch(() => undefined);
+    };
+    socket.onclose = ({ code }) => {
+      if (isLeft || code === NO_SUCH_PROJECT) return;
+      timer = setTimeout(open, RETRY_AFTER_MS[Math.min(retries, RETRY_AFTER_MS.length - 1)]);
+      retries += 1;
+    };
+  };
+  open();
+  return () => {
+    isLeft = true;
+    clearTimeout(timer);
+    socket?.close();
+  };
+}
+
+/** Fetches and takes over a revision that this page has not made itself. */
+export async function catchUp(projectId: string, notice: Notice, onTaken: OnTaken): Promise<void> {
+  const isKnown = () => {
+    const { projectId: open, revision } = useProjectStore.getState();
+    return open !== projectId || notice.revision <= revision;
+  };
+  // Our own save is announced to us, too, often before its answer is here.
+  if (!isKnown() && useSavingStore.getState().state.kind === 'saving') await saveNow().catch(() => undefined);
+  if (isKnown()) return;
+  const detail = await api.getProject(projectId);
+  const state = useProjectStore.getState();
+  if (state.projectId !== projectId || detail.revision <= state.revision) return;
+  const { data, taken } = mergeRemote(state, detail);
+  useProjectStore.setState(data);
+  if (taken.length > 0) onTaken(taken, notice);
+}

@@ -1,0 +1,151 @@
+"""Writing Python by hand: help while typing, formatting, renaming; and two tabs on one project."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.studio import Studio
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(400)]
+
+SOURCE = """import os
+import py_trees
+from geometry_msgs.msg import Twist
+
+from Turn import Turn
+
+
+class Forward(py_trees.behaviour.Behaviour):
+    def update(self):
+        twist = Twist()
+        twist.linear.x = 0.5
+        return   py_trees.common.Status.RUNNING
+"""
+
+
+def editor(studio: Studio) -> Locator:
+    return studio.at("code-editor").locator(".cm-content")
+
+
+def line(studio: Studio, text: str) -> Locator:
+    return studio.at("code-editor").locator(".cm-line", has_text=text).first
+
+
+def expect_help(studio: Studio) -> None:
+    expect(studio.at("language-state")).to_have_attribute("data-state", "ready", timeout=60_000)
+
+
+def offline(studio: Studio, *, yes: bool) -> None:
+    """Cuts one tab off; the other goes on."""
+    network = studio.page.context.new_cdp_session(studio.page)
+    network.send("Network.enable")
+    speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
+    network.send("Network.emulateNetworkConditions", {"offline": yes, **speed})
+
+
+def begin(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    studio.open_file("actions/Forward.py")
+    expect_help(studio)
+    studio.replace_code(SOURCE)
+
+
+def test_completion_findings_and_types(studio: Studio) -> None:
+    begin(studio)
+    page = studio.page
+
+    # Completion knows the fields of messages.
+    line(studio, "twist.linear.x").click()
+    page.keyboard.press("End")
+    page.keyboard.type("\ntwist.angular.")
+    options = page.locator(".cm-tooltip-autocomplete li")
+    expect(options.first).to_contain_text("x")
+    studio.picture("code-completion-light")
+    options.first.click()
+    page.keyboard.type(" = 0.1")
+    expect(line(studio, "twist.angular.x = 0.1")).to_be_visible()
+
+    # A wrong name is marked, with what to do; hovering tells types.
+    page.keyboard.type("\ntwist.liner")
+    expect(page.locator(".cm-lintRange-error")).to_be_visible(timeout=30_000)
+    page.keyboard.press("Control+z")
+    expect(page.locator(".cm-lintRange-error")).to_have_count(0, timeout=30_000)
+    line(studio, "import Twist").get_by_text("Twist").last.hover()
+    expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear", timeout=30_000)
+    studio.picture("code-hover-light")
+
+
+def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
+    begin(studio)
+    page = studio.page
+
+    # An import that is not used can be taken away by its finding; undo brings it back.
+    line(studio, "import os").get_by_text("os").hover()
+    page.get_by_role("button", name="Remove unused import: `os`").click()
+    expect(line(studio, "import os")).to_have_count(0)
+    page.keyboard.press("Control+z")
+    expect(line(studio, "import os")).to_be_visible()
+
+    # Saving formats, undo takes the format back, a broken file is saved as it is.
+    expect(line(studio, "return   py_trees")).to_be_visible()
+    page.keyboard.press("Control+s")
+    expect(line(studio, "return py_trees")).to_be_visible()
+    page.keyboard.press("Control+z")
+    expect(line(studio, "return   py_trees")).to_be_visible()
+    page.keyboard.press("Control+End")
+    page.keyboard.type("\ndef broken(:")
+    page.keyboard.press("Control+s")
+    studio.saved()
+    expect(line(studio, "def broken(:")).to_be_visible()
+    expect(line(studio, "return   py_trees")).to_be_visible()
+    page.keyboard.press("Control+z")
+
+    # F12 leads to another file of the project; F2 renames the action there: its file and its blocks, too.
+    line(studio, "from Turn import Turn").get_by_text("Turn").last.click()
+    page.keyboard.press("F12")
+    expect(page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"]')).to_be_visible()
+    turn = page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"] .cm-line')
+    turn.filter(has_text="class Turn").get_by_text("Turn").click()
+    page.keyboard.press("F2")
+    page.locator(".cm-lsp-rename-panel input").fill("Rotate")
+    page.keyboard.press("Enter")
+    expect(studio.at("file-actions/Rotate.py")).to_be_visible(timeout=30_000)
+    expect(studio.at("file-actions/Turn.py")).to_have_count(0)
+    studio.saved()
+    studio.at("file-actions/Forward.py").click()
+    expect(line(studio, "from Rotate import Rotate")).to_be_visible()
+
+
+def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio) -> None:
+    studio.new_from("laser_bump_and_go")
+    studio.open_file("actions/Forward.py")
+    other = Studio(studio.page.context.new_page(), studio.server)
+    other.page.goto(studio.page.url)
+    expect(other.at("canvas")).to_be_visible()
+    other.open_file("actions/Forward.py")
+
+    studio.replace_code("# said in the first tab\n")
+    expect(line(other, "# said in the first tab")).to_be_visible()
+    other.picture("code-two-tabs-light")
+
+    # Both write at once: the one that is late is asked, and nothing of either is lost.
+    offline(other, yes=True)
+    editor(other).click()
+    other.page.keyboard.press("Control+End")
+    other.page.keyboard.type("# from the second")
+    expect(other.at("save-state")).to_have_attribute("data-state", "failed")
+    studio.replace_code("# said in the first tab\n# and more\n")
+    offline(other, yes=False)
+    merge = other.page.get_by_role("dialog")
+    expect(merge).to_contain_text("Two versions of actions/Forward.py", timeout=60_000)
+    other.picture("code-conflict-light")
+    other.at("keep-mine").click()
+    other.saved()
+    expect(line(studio, "# from the second")).to_be_visible(timeout=60_000)
+    assert other.complaints == []

@@ -41,6 +41,12 @@ describe('the clipboard', () => {
     expect(fragment?.tops).toHaveLength(1);
     expect(Object.values(fragment!.nodes).map((node) => node.type)).toEqual(['Sequence', 'Turn']);
   });
+  it('keeps _autoremap an attribute, as files have it', () => {
+    const fragment = xmlToFragment('<SubTree ID="Other" _autoremap="true" goal="{goal}"/>');
+    expect(Object.values(fragment!.nodes)).toEqual([
+      { type: 'SubTree', tree: 'Other', ports: { goal: '{goal}' }, attributes: { _autoremap: 'true' } },
+    ]);
+  });
   it.each(['', 'hello', '<broken', '<!DOCTYPE x><a/>', '<root/>'])('refuses %j', (text) => {
     expect(xmlToFragment(text)).toBeNull();
   });

@@ -68,7 +68,7 @@ function readElement(xml: Element, nodes: Record<NodeId, DiagramNode>): NodeId {
     else if (name === '_bts_disabled') rest.disabled = true;
     else if (name === '_bts_collapsed') rest.collapsed = true;
     else if (name === '_bts_id' || name === '_bts_pos' || name === '_bts_skipIf') continue;
-    else if (name.startsWith('_') && name !== '_autoremap') attributes[name] = value;
+    else if (name.startsWith('_')) attributes[name] = value;
     else ports[name] = value;
   }
   nodes[id] = { type };

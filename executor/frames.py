@@ -8,10 +8,10 @@ from typing import Final
 import msgspec
 
 from executor.messages import Poses
+from executor.pose_codec import POSE_BYTES
 
 __all__ = ["supersede"]
 
-_POSE_BYTES: Final = 7 * 4
 _POSES_MARK: Final = b"\xa5poses"
 _decode_poses = msgspec.msgpack.Decoder(Poses).decode
 _encode = msgspec.msgpack.Encoder().encode
@@ -40,6 +40,4 @@ def _looks_like_poses(data: bytes) -> bool:
 
 def _split(frame: Poses) -> dict[int, bytes]:
     ids = struct.unpack(f"<{len(frame.ids) // 2}H", frame.ids)
-    return {
-        object_id: frame.poses[i * _POSE_BYTES : (i + 1) * _POSE_BYTES] for i, object_id in enumerate(ids)
-    }
+    return {object_id: frame.poses[i * POSE_BYTES : (i + 1) * POSE_BYTES] for i, object_id in enumerate(ids)}

@@ -19,6 +19,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor import messages
 from executor.manager import Manager, ManagerSettings
+from executor.pose_codec import POSE_BYTES, unpack
 from executor.report import NodeCount, Report, quantiles
 from executor.universes import BUILTIN_IDS, builtin_path
 
@@ -102,10 +103,11 @@ class _Measured:
                 robots = (o.id for o in frame.objects if o.kind == "robot")
                 self._base = next(robots, -1)
             case messages.Poses():
-                ids, poses = memoryview(frame.ids).cast("H"), memoryview(frame.poses).cast("f")
+                ids = list(memoryview(frame.ids).cast("H"))
                 if self._base in ids:
-                    at = list(ids).index(self._base) * 7
-                    self.report.trajectory.append(_trajectory_point(frame.t, poses[at : at + 7].tolist()))
+                    at = ids.index(self._base) * POSE_BYTES
+                    pose = unpack(frame.poses[at : at + POSE_BYTES])
+                    self.report.trajectory.append(_trajectory_point(frame.t, pose))
             case messages.Scan():
                 ranges = [r for r in memoryview(frame.ranges).cast("f") if math.isfinite(r) and r > 0]
                 nearest = [*ranges, *([] if self.report.min_range_m is None else [self.report.min_range_m])]

@@ -79,7 +79,11 @@ class Scene(Struct, tag="scene", tag_field="type"):
 
 
 class Poses(Struct, tag="poses", tag_field="type"):
-    """Poses that changed: `ids` little-endian uint16, `poses` float32 [x,y,z,qx,qy,qz,qw] an id."""
+    """Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
+
+    Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 says which of qx, qy, qz, qw is left out (the
+    largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)). Little-endian.
+    """
 
     t: float
     ids: bytes

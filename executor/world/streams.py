@@ -14,6 +14,7 @@ import numpy as np
 import simplejpeg
 
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
+from executor.pose_codec import pack
 from executor.render.interface import look_at
 
 if TYPE_CHECKING:
@@ -179,7 +180,7 @@ class Streams:
             Poses(
                 t=self._world.time_s,
                 ids=rows.astype("<u2").tobytes(),
-                poses=poses[rows].astype("<f4").tobytes(),
+                poses=pack(poses[rows]),
             ),
         )
         return True

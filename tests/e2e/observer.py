@@ -20,6 +20,8 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from executor.pose_codec import POSE_BYTES, unpack
+
 _ids = itertools.count(1)
 
 
@@ -124,6 +126,7 @@ class Observer:
 
     def _take_poses(self, frame: dict[str, Any]) -> None:
         ids = np.frombuffer(frame["ids"], "<u2")
-        poses = np.frombuffer(frame["poses"], "<f4").reshape(-1, 7)
+        records = [frame["poses"][at : at + POSE_BYTES] for at in range(0, len(frame["poses"]), POSE_BYTES)]
+        poses = [np.array(unpack(record), np.float32) for record in records]
         for object_id, pose in zip(ids.tolist(), poses, strict=True):
             self.poses.setdefault(object_id, []).append((frame["t"], pose))

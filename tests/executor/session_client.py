@@ -17,6 +17,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from executor.messages import Camera, Poses, Scan, Scene, View
+from executor.pose_codec import POSE_BYTES, unpack
 from translator import load, to_app_zip
 
 ROOT = Path(__file__).parents[2]
@@ -138,10 +139,10 @@ class SessionClient:
         for _, frame in self.frames:
             if isinstance(frame, Poses):
                 ids = memoryview(frame.ids).cast("H")
-                poses = memoryview(frame.poses).cast("f")
                 for i, object_id in enumerate(ids):
                     if object_id == base.id:
-                        position = list(poses[i * 7 : i * 7 + 3])
+                        record = frame.poses[i * POSE_BYTES : (i + 1) * POSE_BYTES]
+                        position = list(unpack(record)[:3])
         return position
 
 

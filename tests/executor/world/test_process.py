@@ -12,6 +12,7 @@ import pytest
 
 from executor.channel import Channel, socket_pair
 from executor.messages import Poses, Scene, Sim
+from executor.pose_codec import POSE_BYTES, unpack
 from executor.ros.environment import ros_environment
 
 ROOT = Path(__file__).parents[3]
@@ -88,7 +89,8 @@ def poses_until(remote: Remote, client: str, x_m: float) -> float:
         base = next(o.id for o in scene.objects if o.link == "base_link")
         ids = memoryview(frame.ids).cast("H").tolist()
         if base in ids:
-            row = memoryview(frame.poses).cast("f").tolist()[ids.index(base) * 7 :]
+            at = ids.index(base) * POSE_BYTES
+            row = unpack(frame.poses[at : at + POSE_BYTES])
             if row[0] >= x_m:
                 return frame.t
 

@@ -10,6 +10,7 @@ import simplejpeg
 from numpy.typing import NDArray
 
 from executor.messages import FRAMES, Camera, CameraPose, Poses, Scan, Scene, View
+from executor.pose_codec import POSE_BYTES, unpack
 from executor.render import Viewpoint
 from executor.universes import load_builtin
 from executor.world.bullet import BulletWorld
@@ -97,7 +98,7 @@ def test_the_scene_comes_first_then_only_what_moves(watched: Watched) -> None:
     moving = {o.id for o in frames[0].objects if o.kind in ("actor", "robot")}
     for frame in frames[2:]:
         assert set(np.frombuffer(frame.ids, "<u2").tolist()) <= moving
-        assert len(frame.poses) == len(frame.ids) // 2 * 28
+        assert len(frame.poses) == len(frame.ids) // 2 * POSE_BYTES
     assert 28 <= len(frames) - 1 <= 32
 
 
@@ -107,7 +108,8 @@ def test_applying_all_poses_gives_the_world(watched: Watched) -> None:
     frames = watched.run(0.5)
     seen = np.array([o.pose for o in frames[0].objects], np.float32)
     for frame in frames[1:]:
-        seen[np.frombuffer(frame.ids, "<u2")] = np.frombuffer(frame.poses, "<f4").reshape(-1, 7)
+        records = [frame.poses[at : at + POSE_BYTES] for at in range(0, len(frame.poses), POSE_BYTES)]
+        seen[np.frombuffer(frame.ids, "<u2")] = [unpack(record) for record in records]
     np.testing.assert_allclose(seen, watched.world.poses(), atol=2e-4)
 
 

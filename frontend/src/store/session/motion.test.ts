@@ -4,7 +4,18 @@ import { frames } from './frames';
 import { speedOf, useMotion } from './motion';
 import { currentPoses } from './poses';
 
-const bytes = (array: Float32Array | Uint16Array) => new Uint8Array(array.buffer);
+const bytes = (array: Uint16Array) => new Uint8Array(array.buffer);
+
+/** A pose at x m, turned by 2 asin(0.6) about z, packed as `executor/pose_codec.py` says. */
+function packed(x: number): Uint8Array {
+  const record = new DataView(new ArrayBuffer(16));
+  const units = Math.round(x * 10_000);
+  record.setUint16(0, units & 0xffff, true);
+  record.setInt8(2, units >> 16);
+  record.setUint8(9, 3);
+  record.setInt16(14, Math.round(0.6 * 32767 * Math.SQRT2), true);
+  return new Uint8Array(record.buffer);
+}
 
 const scene: Scene = {
   type: 'scene',
@@ -24,7 +35,7 @@ const poses = (t: number, x: number): Poses => ({
   type: 'poses',
   t,
   ids: bytes(new Uint16Array([4])),
-  poses: bytes(new Float32Array([x, 0, 0, 0, 0, 0, 1])),
+  poses: packed(x),
 });
 
 describe('speedOf', () => {
@@ -51,6 +62,17 @@ describe('poses', () => {
     frames.publish(scene);
     for (let step = 0; step <= 20; step += 1) frames.publish(poses(step * 0.1, step * 0.05));
     expect(useMotion.getState().speed).toBeCloseTo(0.5, 1);
+  });
+
+  it('are unpacked to a tenth of a millimetre, on either side of the origin', () => {
+    frames.publish(scene);
+    for (const x of [1.2345, -1.2345, -700, 0]) {
+      frames.publish(poses(0.1, x));
+      const pose = Array.from(currentPoses.get(4) ?? []);
+      expect(pose[0]).toBeCloseTo(x, 3);
+      expect(pose[5]).toBeCloseTo(0.6, 4);
+      expect(pose[6]).toBeCloseTo(0.8, 4);
+    }
   });
 
   it('are read also where the bytes do not begin at a multiple of four', () => {

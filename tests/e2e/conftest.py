@@ -52,6 +52,24 @@ def browser_without_webgl(playwright: Playwright) -> Iterator[Browser]:
     browser.close()
 
 
+@pytest.fixture(scope="module")
+def shared_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """One server for all tests of a module that do not mind each other's projects."""
+    with serving(tmp_path_factory.mktemp("shared")) as server:
+        yield server
+
+
+@pytest.fixture
+def shared_studio(shared_server: Server, browser: Browser) -> Iterator[Studio]:
+    """A fresh browser context on the module's server; its console must stay empty."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900}, accept_downloads=True)
+    studio = Studio(context.new_page(), shared_server)
+    studio.open()
+    yield studio
+    context.close()
+    assert studio.complaints == [], "the browser's console must stay empty"
+
+
 @pytest.fixture
 def server(tmp_path: Path) -> Iterator[Server]:
     with serving(tmp_path) as server:

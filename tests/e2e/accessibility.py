@@ -1,0 +1,28 @@
+"""What axe-core finds on a screen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from tests.e2e.studio import Studio
+
+AXE = Path(__file__).parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
+
+
+def expect_accessible(studio: Studio, scheme: str) -> None:
+    """Puts the page into a theme and lets axe-core look: nothing serious or critical is accepted."""
+    if studio.page.locator("html").get_attribute("data-mantine-color-scheme") != scheme:
+        studio.at("theme-toggle").click()
+        studio.page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]")
+    # Colours that are still fading in are no colours of the page.
+    studio.page.add_style_tag(content="*, ::before, ::after { transition: none !important }")
+    studio.page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = studio.page.evaluate(
+        "async () => (await axe.run(document, {resultTypes: ['violations']})).violations"
+        ".filter(each => ['serious', 'critical'].includes(each.impact))"
+        ".map(each => `${each.id}: `"
+        " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"
+    )
+    assert found == [], f"axe-core, {scheme}"

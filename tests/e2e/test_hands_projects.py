@@ -1,0 +1,182 @@
+"""The start page by hand: every way in, every way to put projects in order, and no way to lose one."""
+
+from __future__ import annotations
+
+import base64
+import io
+import re
+import zipfile
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.accessibility import expect_accessible
+from tests.fakes.react_diagrams import chain
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from playwright.sync_api import Locator
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
+
+BTCPP = b"""<root BTCPP_format="4" main_tree_to_execute="Patrol">
+  <BehaviorTree ID="Patrol"><Sequence><AlwaysSuccess/><Sleep msec="10"/></Sequence></BehaviorTree>
+</root>"""
+ACTION = b"""import py_trees
+
+
+class Wave(py_trees.behaviour.Behaviour):
+    def update(self):
+        return py_trees.common.Status.SUCCESS
+"""
+
+
+def zipped(files: Mapping[str, bytes]) -> bytes:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for path, data in files.items():
+            archive.writestr(path, data)
+    return buffer.getvalue()
+
+
+def cards(studio: Studio) -> Locator:
+    return studio.at("project-card")
+
+
+def card(studio: Studio, name: str) -> Locator:
+    return cards(studio).filter(has=studio.page.get_by_text(name, exact=True))
+
+
+def choose(studio: Studio, name: str, item: str) -> None:
+    """Opens a card's menu and clicks an item."""
+    card(studio, name).get_by_role("button", name=f"More for {name}").click()
+    studio.page.get_by_role("menuitem", name=item).click()
+
+
+def drop(studio: Studio, filename: str, data: bytes) -> None:
+    """Lets a file fall onto the page, as from the desktop."""
+    transfer = studio.page.evaluate_handle(
+        "([name, data]) => { const transfer = new DataTransfer();"
+        " const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));"
+        " transfer.items.add(new File([bytes], name)); return transfer }",
+        [filename, base64.b64encode(data).decode()],
+    )
+    studio.page.dispatch_event("body", "dragover", {"dataTransfer": transfer})
+    expect(studio.page.get_by_text("Drop a project zip")).to_be_visible()
+    studio.page.dispatch_event("body", "drop", {"dataTransfer": transfer})
+
+
+def home(studio: Studio) -> None:
+    studio.page.get_by_role("link", name="All projects").click()
+    expect(studio.at("projects")).to_be_visible()
+
+
+def make(studio: Studio, names: list[str]) -> None:
+    """Makes empty projects as fast as the server does."""
+    studio.page.evaluate(
+        "async names => { for (const name of names) await fetch('/api/v1/projects', {method: 'POST',"
+        " headers: {'Content-Type': 'application/json'}, body: JSON.stringify({name, template: 'empty'})}) }",
+        names,
+    )
+
+
+def test_projects_are_made_ordered_and_never_lost(shared_studio: Studio) -> None:
+    studio = shared_studio
+    expect(studio.page.get_by_text("No projects yet")).to_be_visible()
+    studio.page.get_by_role("button", name="Open the bump-and-go example").click()
+    expect(studio.at("node-n1")).to_be_visible()
+    home(studio)
+
+    choose(studio, "Laser bump and go", "Rename")
+    field = studio.page.get_by_role("textbox", name="Rename")
+    field.fill("Zig zag")
+    field.press("Enter")
+    expect(card(studio, "Zig zag")).to_be_visible()
+    choose(studio, "Zig zag", "Duplicate")
+    expect(cards(studio)).to_have_count(2)
+
+    copy = cards(studio).filter(has_text=re.compile(r"Zig zag.+Changed")).first.locator("a[title]")
+    copied = str(copy.get_attribute("title"))
+    assert copied != "Zig zag"
+    choose(studio, copied, "Delete")
+    expect(cards(studio)).to_have_count(1)
+    studio.page.get_by_role("button", name="Undo").last.click()
+    expect(cards(studio)).to_have_count(2)
+
+    choose(studio, copied, "Archive")
+    expect(cards(studio)).to_have_count(1)
+    shelf(studio, "Archive")
+    expect(card(studio, copied)).to_be_visible()
+    choose(studio, copied, "Take out of the archive")
+    expect(studio.page.get_by_text("The archive is empty.")).to_be_visible()
+    shelf(studio, "In use")
+    expect(cards(studio)).to_have_count(2)
+
+    choose(studio, copied, "Delete")
+    expect(cards(studio)).to_have_count(1)
+    shelf(studio, "Deleted")
+    card(studio, copied).get_by_role("button", name="Restore").click()
+    shelf(studio, "In use")
+    expect(card(studio, copied)).to_be_visible()
+
+
+def shelf(studio: Studio, name: str) -> None:
+    studio.at("shelf").click()
+    studio.page.get_by_role("option", name=name, exact=True).click()
+
+
+def test_long_lists_are_searched_sorted_and_paged(shared_studio: Studio) -> None:
+    studio = shared_studio
+    names = [f"Robot {number:03}" for number in range(120)]
+    make(studio, names)
+    studio.page.reload()
+    expect(cards(studio)).to_have_count(48)
+    studio.page.get_by_text("Name", exact=True).click()
+    search = studio.page.get_by_role("searchbox", name="Search projects")
+    search.fill("Robot")
+    expect(studio.at("projects")).to_have_attribute("data-total", "120")
+    expect(cards(studio).first).to_contain_text("Robot 000")
+    studio.at("more-projects").click()
+    expect(cards(studio)).to_have_count(96)
+    studio.at("more-projects").click()
+    expect(cards(studio)).to_have_count(120)
+    expect(studio.at("more-projects")).to_have_count(0)
+    search.fill("Robot 07")
+    expect(cards(studio)).to_have_count(12)
+    search.fill("nothing like it")
+    expect(studio.page.get_by_text("No project is called")).to_be_visible()
+    for scheme in ("light", "dark"):
+        search.fill("Robot 00")
+        expect(cards(studio)).to_have_count(11)
+        expect_accessible(studio, scheme)
+        studio.picture(f"start-{scheme}")
+
+
+def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> None:
+    studio = shared_studio
+    drop(studio, "patrol.xml", BTCPP)
+    expect(studio.at("canvas")).to_have_attribute("data-tree", "Patrol")
+    home(studio)
+
+    graph = chain("Sequence", "Wave")
+    drop(
+        studio,
+        "old.zip",
+        zipped({"old/graph.json": graph.to_bytes(), "old/actions/Wave.py": ACTION}),
+    )
+    expect(studio.page.locator("[data-type=Wave]")).to_be_visible()
+    project = studio.page.url.rstrip("/").split("/")[-1]
+    exported = studio.page.request.get(f"{studio.server.origin}/api/v1/projects/{project}/export").body()
+    home(studio)
+
+    drop(studio, "again.zip", exported)
+    expect(studio.page.locator("[data-type=Wave]")).to_be_visible()
+    home(studio)
+
+    drop(studio, "holiday.zip", b"no zip at all")
+    expect(studio.page.get_by_text("not a zip that can be read")).to_be_visible()
+    expect(studio.at("projects")).to_be_visible()

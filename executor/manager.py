@@ -43,6 +43,7 @@ from executor.gate import fetch_listener
 from executor.launching.reader import read_launch_files
 from executor.processes import Limits, Program
 from executor.protocol import About, Session
+from executor.ram.server import RamServer
 from executor.ros.environment import ros_environment
 from executor.server import SessionServer
 from executor.shared_memory import remove_abandoned_segments
@@ -69,6 +70,8 @@ class ManagerSettings:
         grace_s: how long a session without clients lives; 0 for ever.
         listener: a unix socket to listen at besides.
         is_closed_off: whether no other program can reach its ROS graph, since it runs in a container.
+        is_ram: whether it speaks the RAM dialect, to one client of this machine and without a token.
+        origins: pages that may drive it then, besides those of this machine.
     """
 
     host: str = "127.0.0.1"
@@ -77,6 +80,8 @@ class ManagerSettings:
     domain_id: int | None = None
     grace_s: float = 300.0
     is_closed_off: bool = False
+    is_ram: bool = False
+    origins: tuple[str, ...] = ()
     programs: dict[Kind, Program] | None = None
     listener: socket.socket | None = None
 
@@ -155,7 +160,11 @@ class Manager:
         self._supervisor = Supervisor(
             settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
         )
-        self._server = SessionServer(self.session, self.take, token=settings.token)
+        self._server: SessionServer | RamServer = (
+            RamServer(self.session, self.take, origins=settings.origins)
+            if settings.is_ram
+            else SessionServer(self.session, self.take, token=settings.token)
+        )
         self._folders = _Folders()
         self._events: deque[Event] = deque()
         self._is_handling = False
@@ -170,7 +179,7 @@ class Manager:
             OSError: the port is in use.
         """
         port = await self._server.start(self._settings.host, self._settings.port)
-        if self._settings.listener is not None:
+        if self._settings.listener is not None and isinstance(self._server, SessionServer):
             await self._server.start_at(self._settings.listener)
         self._do_all(self.session.prestart())
         self._set_timer()
@@ -268,14 +277,19 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--host", default="127.0.0.1")
     parser.add_argument("--port", type=int, default=7163)
     parser.add_argument("--token-env", default="", help="environment variable that holds the token")
+    parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
+    parser.add_argument(
+        "--allow-origin", action="append", default=[], help="page that may drive a --ram manager"
+    )
     parser.add_argument("--ready-fd", type=int, help="where to write the port, as a line of JSON")
     parser.add_argument("--domain-id", type=int, help="ROS domain of the session")
     parser.add_argument(
-        "--grace", type=float, default=300.0, help="seconds that a session lives without clients"
+        "--grace", type=float, help="seconds that a session lives without clients; 300, with --ram for ever"
     )
     parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
     parser.add_argument("--session", default="", help="the session's id, for the gate")
     options = parser.parse_args(arguments)
+    grace_s = options.grace if options.grace is not None else 0.0 if options.ram else 300.0
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
     if options.ready_fd is not None:
@@ -291,8 +305,10 @@ def main(arguments: list[str] | None = None) -> int:
         options.port,
         token,
         options.domain_id,
-        options.grace,
+        grace_s,
         is_closed_off=listener is not None,
+        is_ram=options.ram,
+        origins=tuple(options.allow_origin),
         listener=listener,
     )
     try:

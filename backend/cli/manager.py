@@ -19,17 +19,28 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     ] = None,
     domain_id: Annotated[int | None, typer.Option(min=0, max=101, help="ROS domain of the session.")] = None,
     grace: Annotated[
-        float, typer.Option(min=0, help="Seconds that the session lives without clients; 0: for ever.")
-    ] = 300.0,
+        float | None,
+        typer.Option(min=0, help="Seconds that it lives without clients; 0: for ever. 300, with --ram 0."),
+    ] = None,
+    ram: Annotated[  # noqa: FBT002 - typer's way
+        bool, typer.Option("--ram", help="Speak the protocol of JdeRobot's RAM, on loopback alone.")
+    ] = False,
+    allow_origin: Annotated[
+        list[str] | None,
+        typer.Option(help="Page that may drive a --ram manager, such as https://example.org; repeatable."),
+    ] = None,
 ) -> None:
     """Serves one session of world and application."""
     from executor.manager import main
 
-    arguments = ["--host", host, "--port", str(port), "--grace", str(grace)]
+    arguments = ["--host", host, "--port", str(port), *(["--ram"] if ram else [])]
+    for origin in allow_origin or []:
+        arguments += ["--allow-origin", origin]
     for name, value in (
         ("--token-env", token_env or None),
         ("--ready-fd", ready_fd),
         ("--domain-id", domain_id),
+        ("--grace", grace),
     ):
         if value is not None:
             arguments += [name, str(value)]

@@ -57,6 +57,8 @@ def main(arguments: list[str]) -> None:
         front_end_step(),
         tf2_step(),
     ]
+    if goal == "test":
+        steps.append(ram_client_step())
     for step in steps:
         take(step)
     if goal == "test":
@@ -174,6 +176,18 @@ def node_step() -> Step:
         [FRONTEND / "package-lock.json"],
         FRONTEND / "node_modules" / ".package-lock.json",
         lambda: run(["npm", "ci", "--no-audit", "--no-fund", "--loglevel=error"], cwd=FRONTEND),
+    )
+
+
+def ram_client_step() -> Step:
+    """JdeRobot's npm client, which drives the manager in the tests of the RAM dialect."""
+    folder = ROOT / "tests" / "ram_client"
+    return Step(
+        "ram-client",
+        "installing the npm client of the RAM tests",
+        [folder / "package-lock.json"],
+        folder / "node_modules" / ".package-lock.json",
+        lambda: run(["npm", "ci", "--no-audit", "--no-fund", "--loglevel=error"], cwd=folder),
     )
 
 

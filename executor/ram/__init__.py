@@ -1,0 +1,1 @@
+"""The protocol of JdeRobot's Robotics Application Manager, for clients that speak it."""

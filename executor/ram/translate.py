@@ -1,0 +1,166 @@
+"""Commands, states and errors of the RAM dialect as those of our own protocol, and back. No I/O."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import json
+import zipfile
+from dataclasses import dataclass
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING, Any, Final
+
+from executor import messages
+from executor.ladder import State
+from executor.universes.loader import BUILTIN_IDS
+
+if TYPE_CHECKING:
+    from msgspec import Struct
+
+__all__ = ["Native", "RamError", "error_text", "state_name", "to_native"]
+
+_RENAMED: Final = {
+    "launch_world": "launch_universe",
+    "prepare_tools": "prepare_visualization",
+    "terminate_tools": "terminate_visualization",
+    "terminate_world": "terminate_universe",
+}
+_SAME: Final = frozenset(
+    {
+        "connect", "disconnect", "pause", "prepare_visualization", "resume", "run_application",
+        "terminate_application", "terminate_universe", "terminate_visualization",
+    }
+)  # fmt: skip
+_NOT_OFFERED: Final = frozenset({"code_analysis", "code_autocomplete", "code_format", "style_check"})
+_VISUALIZATIONS: Final = frozenset(
+    {"none", "console", "gazebo_gra", "gazebo_rae", "physic_gra", "physic_rae", "bt_studio"}
+)
+_ALIASES: Final = {
+    "autoparking": "warehouse",
+    "empty_world": "empty",
+    "football_world": "football",
+    "follow_line": "line",
+    "follow_person": "person_in_green",
+    "follow_person_ros2": "person_in_green",
+    "hospital_follow_person": "person_in_green",
+    "laser_bump_and_go": "walled_room",
+    "maze_world": "maze",
+    "receptionist": "house",
+    "simple_circuit": "line",
+    "small_house": "house",
+    "small_warehouse_with_amazon_robot": "warehouse",
+    "turtlebot2": "walled_room",
+    "vacuum_cleaner": "house",
+    "warehouse_world": "warehouse",
+}
+SMALL_FILE_BYTES: Final = 1 << 20
+
+
+class RamError(Exception):
+    """The command is refused; the text is for the client."""
+
+
+@dataclass(frozen=True)
+class Native:
+    """A command of our own protocol; `is_2024` tells of which era the client is, where the command does."""
+
+    command: str
+    data: Struct
+    is_2024: bool | None = None
+
+
+def to_native(command: str, data: Any) -> Native:
+    """Returns what a command of the dialect means.
+
+    Raises:
+        RamError: there is no such command, or its data make no sense.
+    """
+    if command in _NOT_OFFERED:
+        raise RamError(f"{command} is not offered here: BT Studio's own editor does that")
+    name = _RENAMED.get(command, command)
+    if command not in _RENAMED and command not in _SAME:
+        raise RamError(f"Do not know event named '{command}'.")
+    match command:
+        case "launch_world":
+            return Native(name, messages.LaunchUniverse(universe=_universe_of(data)))
+        case "prepare_visualization":
+            if not isinstance(data, str) or data not in _VISUALIZATIONS:
+                known = ", ".join(sorted(_VISUALIZATIONS))
+                raise RamError(f"there is no visualization {data!r}; there are {known}")
+            return Native(name, messages.Empty(), is_2024=True)
+        case "prepare_tools":
+            if not isinstance(data, dict) or not isinstance(data.get("tools", []), list):
+                raise RamError("prepare_tools needs a list of tools")
+            return Native(name, messages.Empty(), is_2024=False)
+        case "run_application":
+            return Native(name, _application_of(data))
+        case _:
+            return Native(name, messages.Empty())
+
+
+def state_name(state: str, *, is_2024: bool) -> str:
+    """Names a rung of our ladder as clients of the dialect do."""
+    if state == State.UNIVERSE_READY:
+        return "world_ready"
+    if state == State.VISUALIZATION_READY:
+        return "visualization_ready" if is_2024 else "tools_ready"
+    return state
+
+
+def error_text(error: messages.Error, trigger: str, state: str) -> str:
+    """Returns an error as the dialect writes it; a command out of its turn has a text that clients know."""
+    if error.code == "wrong_state":
+        return f'"Can\'t trigger event {trigger} from state {state}!"'
+    return f"{error.message} {error.hint}".strip()
+
+
+def _universe_of(data: Any) -> str:
+    if not isinstance(data, dict):
+        raise RamError("launch_world needs an object with the world's name")
+    scene = data.get("scene")
+    source: dict[str, Any] = scene if isinstance(scene, dict) else data
+    if source.get("zip"):
+        raise RamError("a world of its own in a zip is not read here; import it as a universe of a project")
+    if isinstance(scene, dict) and "type" in scene and scene["type"] is None:
+        return "empty"
+    names = [str(source.get("name") or ""), str(data.get("name") or "")]
+    names.append(PurePosixPath(str(source.get("launch_file_path") or "")).name.partition(".")[0])
+    for name in names:
+        plain = name.strip().lower().replace(" ", "_").replace("-", "_")
+        if plain in BUILTIN_IDS:
+            return plain
+        if plain in _ALIASES:
+            return _ALIASES[plain]
+    known = ", ".join(sorted({*BUILTIN_IDS, *_ALIASES}))
+    raise RamError(f"the world {names[0] or names[2]!r} is not known here; there are {known}")
+
+
+def _application_of(data: Any) -> messages.RunApplication:
+    code = data.get("code") if isinstance(data, dict) else None
+    if not isinstance(code, str) or not code:
+        raise RamError("User code not found")
+    head, comma, archive = code.partition(",")
+    if not comma or not head.startswith("data:") or not head.endswith(";base64"):
+        raise RamError("the code is not a data URL: it must begin with data:…;base64, before the zip")
+    settings = _settings_of(archive)
+    tick_hz = settings.get("tick_hz")
+    is_rate = isinstance(tick_hz, int | float) and not isinstance(tick_hz, bool) and 0 < tick_hz <= 1000
+    # The program of those zips, `execute_docker.py`, ticks for ever.
+    finish: messages.OnFinish = "stop" if settings.get("on_finish") == "stop" else "repeat"
+    return messages.RunApplication(
+        archive, tick_hz=float(tick_hz) if is_rate and tick_hz is not None else 20.0, on_finish=finish
+    )
+
+
+def _settings_of(archive: str) -> dict[str, Any]:
+    """Reads the `project.json` that our own zips have; a bad archive is refused later, with its reason."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(base64.b64decode(archive))) as files:
+            if "project.json" not in files.namelist():
+                return {}
+            with files.open("project.json") as file:
+                found = json.loads(file.read(SMALL_FILE_BYTES))
+    except (binascii.Error, ValueError, zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError):
+        return {}
+    return found if isinstance(found, dict) else {}

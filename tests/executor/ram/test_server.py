@@ -1,0 +1,220 @@
+"""The RAM dialect as raw frames, with fake children."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import contextlib
+import io
+import json
+import zipfile
+
+import pytest
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from executor import messages
+from executor.manager import Manager, ManagerSettings
+from executor.ram.monitor import update_text
+from executor.ram.server import REFUSED, is_loopback
+from executor.ram.translate import RamError, to_native
+from tests.executor.test_server import empty_zip, manager
+
+CODE = f"data:application/zip;base64,{empty_zip()}"
+
+
+class Raw:
+    """A client of the dialect, frame by frame."""
+
+    def __init__(self, socket):
+        self.socket = socket
+        self.count = 0
+        self.seen = []
+
+    async def ask(self, command, data=None):
+        """Sends a command; returns what came until it was answered, shortened."""
+        self.count += 1
+        await self.socket.send(json.dumps({"id": f"r{self.count}", "command": command, "data": data}))
+        came = []
+        while not came or came[-1][0] not in {"ack", "error"}:
+            message = json.loads(await asyncio.wait_for(self.socket.recv(), 20))
+            data = message["data"]
+            short = {"state-changed": "state", "error": "message"}.get(message["command"])
+            if message["command"] != "update":
+                came.append((message["command"], data[short] if short else None))
+            self.seen.append(message)
+        assert self.seen[-1]["id"] == f"r{self.count}"
+        return came
+
+
+@contextlib.asynccontextmanager
+async def ram(**more):
+    async with (
+        manager(is_ram=True, grace_s=0, **more) as it,
+        connect(f"ws://127.0.0.1:{it.port}", proxy=None) as socket,
+    ):
+        yield it, Raw(socket)
+
+
+def changed(state):
+    return [("state-changed", state), ("ack", None)]
+
+
+async def test_a_session_of_2024_has_its_names_and_its_order_of_messages():
+    async with ram() as (_, raw):
+        assert await raw.ask("connect") == [("introspection", None), *changed("connected")]
+        old = {"name": "follow_person_ros2", "launch_file_path": "/opt/f.launch.py", "world": "gazebo"}
+        assert await raw.ask("launch_world", old) == changed("world_ready")
+        assert await raw.ask("prepare_visualization", "gazebo_rae") == changed("visualization_ready")
+        run = await raw.ask("run_application", {"type": "bt-studio", "code": CODE})
+        assert run == changed("application_running")
+        assert await raw.ask("pause") == changed("paused")
+        assert await raw.ask("terminate_application") == changed("visualization_ready")
+        assert await raw.ask("terminate_visualization") == changed("world_ready")
+        assert await raw.ask("terminate_universe") == changed("connected")
+        assert await raw.ask("disconnect") == changed("idle")
+
+
+@pytest.mark.parametrize(
+    ("command", "data", "text"),
+    [
+        ("pause", None, '"Can\'t trigger event pause from state idle!"'),
+        ("terminate_tools", None, '"Can\'t trigger event terminate_tools from state idle!"'),
+        ("to_application_running", None, "Do not know event named 'to_application_running'."),
+        ("launch_universe", {"universe": "empty"}, "Do not know event named 'launch_universe'."),
+        ("reset", None, "Do not know event named 'reset'."),
+        ("run_application", {"code": "eA=="}, "the code is not a data URL"),
+        ("run_application", {}, "User code not found"),
+        ("launch_world", {"name": "Mars"}, "the world 'Mars' is not known here; there are"),
+        ("launch_world", [], "launch_world needs an object"),
+        ("prepare_visualization", {"x": 1}, "there is no visualization"),
+        ("prepare_tools", {"tools": 5}, "prepare_tools needs a list"),
+        ("code_format", {"code": "x"}, "code_format is not offered here"),
+    ],
+)
+async def test_what_is_wrong_has_the_text_of_the_dialect_and_the_socket_stays(command, data, text):
+    async with ram() as (_, raw):
+        [(kind, message)] = await raw.ask(command, data)
+        assert (kind, message.startswith(text)) == ("error", True)
+        for frame in ("no json", "[]", '{"command": "connect"}', b"\x00", "[" * 50_000):
+            await raw.socket.send(frame)
+            assert json.loads(await raw.socket.recv())["command"] == "error"
+        await raw.socket.send('{"id": "g", "command": "gui", "data": 1}')
+        assert (await raw.ask("connect"))[-1] == ("ack", None)
+
+
+async def test_a_second_client_is_told_why_it_is_refused_and_a_later_one_begins_anew():
+    async with ram() as (it, raw):
+        await raw.ask("connect")
+        await raw.ask("launch_world", {"name": "empty"})
+        async with connect(f"ws://127.0.0.1:{it.port}", proxy=None) as second:
+            with pytest.raises(ConnectionClosed):
+                await second.recv()
+            assert (second.close_code, "another client" in second.close_reason) == (REFUSED, True)
+        await raw.socket.close()
+        async with connect(f"ws://127.0.0.1:{it.port}", proxy=None) as socket:
+            assert await Raw(socket).ask("connect") == [("introspection", None), *changed("connected")]
+
+
+@pytest.mark.parametrize(
+    ("origin", "is_welcome"),
+    [
+        ("http://localhost:7164", True),
+        ("http://127.0.0.1:3000", True),
+        ("https://studio.example", True),
+        ("https://evil.example", False),
+        ("http://localhost.evil.example", False),
+        ("null", False),
+    ],
+)
+async def test_only_pages_of_this_machine_or_of_the_list_may_drive(origin, is_welcome):
+    async with manager(is_ram=True, origins=("https://studio.example",)) as it:
+        url = f"ws://127.0.0.1:{it.port}"
+        if is_welcome:
+            async with connect(url, proxy=None, origin=origin):
+                return
+        with pytest.raises(InvalidStatus) as caught:
+            await connect(url, proxy=None, origin=origin)
+        assert caught.value.response.status_code == 403
+
+
+async def test_it_listens_on_loopback_alone():
+    assert [is_loopback(host) for host in ("127.0.0.1", "::1", "localhost", "0.0.0.0")] == [True] * 3 + [
+        False
+    ]  # noqa: S104
+    it = Manager(ManagerSettings(host="0.0.0.0", port=0, programs={}, is_ram=True))  # noqa: S104
+    with pytest.raises(OSError, match="loopback"):
+        await it.start()
+    await it.close()
+
+
+async def test_an_application_that_died_is_told_with_its_state():
+    async with ram(application="dies_when_started") as (_, raw):
+        await raw.ask("connect")
+        await raw.ask("launch_world", {"name": "maze", "scene": {"name": "x", "type": None}})
+        await raw.ask("prepare_tools", {"tools": ["state_monitor"], "config": {}})
+        [(kind, text)] = await raw.ask("run_application", {"entrypoint": "x", "linter": [], "code": CODE})
+        assert (kind, "exit code 4" in text) == ("error", True)
+
+
+# --- translation ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("data", "universe"),
+    [
+        ({"name": "x", "scene": {"name": "Warehouse", "type": "gz"}}, "warehouse"),
+        ({"name": "maze", "launch_file_path": ""}, "maze"),
+        ({"name": "x", "scene": {"name": "y", "launch_file_path": "/o/simple_circuit.launch.py"}}, "line"),
+        ({"name": "x", "scene": {"name": "y", "type": None}}, "empty"),
+    ],
+)
+def test_worlds_are_found_by_name_and_launch_file(data, universe):
+    native = to_native("launch_world", data)
+    assert (native.command, native.data.universe) == ("launch_universe", universe)
+
+
+def test_a_world_in_a_zip_is_refused():
+    with pytest.raises(RamError, match="zip"):
+        to_native("launch_world", {"name": "empty", "scene": {"name": "empty", "zip": "data:,"}})
+
+
+@pytest.mark.parametrize(
+    ("settings", "expected"),
+    [
+        (None, (20.0, "repeat")),
+        ({"tick_hz": 5, "on_finish": "stop"}, (5.0, "stop")),
+        ({"tick_hz": -5}, (20.0, "repeat")),
+        ([], (20.0, "repeat")),
+    ],
+)
+def test_our_own_zips_bring_their_settings(settings, expected):
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        if settings is not None:
+            archive.writestr("project.json", json.dumps(settings))
+    code = f"data:application/zip;base64,{base64.b64encode(packed.getvalue()).decode()}"
+    native = to_native("run_application", {"code": code})
+    assert (native.data.tick_hz, native.data.on_finish) == expected
+
+
+def test_the_monitor_nests_nodes_by_name():
+    from executor.mirror import Mirror
+
+    mirror = Mirror()
+    nodes = [(1, 0, "root"), (2, 1, "a"), (3, 1, "a"), (4, 2, "")]
+    mirror.apply(
+        messages.Tree([messages.TreeNode(u, p, "Sequence", "control", n, n, "", "") for u, p, n in nodes])
+    )
+    mirror.apply(messages.Tick(1, [(1, "RUNNING"), (2, "SUCCESS"), (3, "SKIPPED")], [], 0.1))
+    mirror.apply(messages.Blackboard([messages.BlackboardEntry("", "speed", "float", 0.3)]))
+    assert json.loads(update_text(mirror)) == {
+        "tree": {
+            "root": {
+                "state": "RUNNING",
+                "a": {"state": "SUCCESS", "Sequence": {"state": "INVALID"}},
+                "a_2": {"state": "INVALID"},
+            }
+        },
+        "blackboard": {"speed": "0.3"},
+    }

@@ -5,10 +5,12 @@ from __future__ import annotations
 import difflib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from pydantic import Field
 
+from executor.robots.expand import urdf_of
+from executor.robots.prepare import mesh_path
 from executor.robots.sensors import (
     Battery,
     Bumper,
@@ -22,8 +24,14 @@ from executor.robots.sensors import (
     Strict,
 )
 from executor.robots.urdf import Urdf, UrdfError, parse_urdf
-from executor.universes.document import DocumentError, Problem, read_yaml
+from executor.universes.document import DocumentError, Located, Problem, read_yaml
 from executor.universes.loader import validate
+from executor.world.mesh import MeshError, load_mesh
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from executor.messages import Mesh
 
 __all__ = [
     "Battery",
@@ -96,6 +104,7 @@ class RobotConfig:
     name: str
     urdf_path: Path
     urdf: Urdf
+    meshes: dict[str, Mesh]
     drive: Drive
     wheels: tuple[str, ...]
     friction: dict[str, float]
@@ -142,16 +151,14 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
     except DocumentError as error:
         raise RobotError(error.problems, f"{robot_id}/{file.name}") from error
     urdf_path = folder / document.urdf
-    try:
-        urdf = parse_urdf(urdf_path.read_bytes(), urdf_path.name)
-    except (OSError, UrdfError) as error:
-        raise RobotError([Problem(str(error), code="BTR002")], f"{robot_id}/{document.urdf}") from error
-    _check_names(robot_id, document, urdf)
+    urdf, meshes = _read_urdf(robot_id, urdf_path)
+    _check_names(robot_id, located, document, urdf)
     return RobotConfig(
         id=robot_id,
         name=document.name,
         urdf_path=urdf_path,
         urdf=urdf,
+        meshes=meshes,
         drive=document.drive,
         wheels=document.wheels,
         friction=document.friction,
@@ -164,16 +171,58 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
     )
 
 
-def _check_names(robot_id: str, document: _Document, urdf: Urdf) -> None:
-    links = (
-        *document.wheels,
-        *document.friction,
-        *(sensor.link for sensor in document.sensors if not isinstance(sensor, Battery)),
-    )
-    missing = [f"link {name!r}" for name in links if name not in urdf.links]
-    missing += [
-        f"joint {name!r}" for name in (*document.drive.left, *document.drive.right) if name not in urdf.joints
+def _read_urdf(robot_id: str, path: Path) -> tuple[Urdf, dict[str, Mesh]]:
+    where = f"{robot_id}/{path.name}"
+    try:
+        urdf = parse_urdf(urdf_of(path), path.name)
+    except OSError as error:
+        problem = Problem(f"the URDF cannot be read: {error.strerror or error}", code="BTR002")
+        raise RobotError([problem], where) from error
+    except UrdfError as error:
+        raise RobotError([Problem(error.message, error.line, code="BTR002")], where) from error
+    meshes, problems = {}, []
+    for name, line in urdf.mesh_files.items():
+        try:
+            meshes[name] = load_mesh(mesh_path(name, path.parent))
+        except MeshError as error:
+            problems.append(Problem(str(error), line, code="BTR004"))
+    if problems:
+        raise RobotError(problems, where)
+    return urdf, meshes
+
+
+def _check_names(robot_id: str, located: Located, document: _Document, urdf: Urdf) -> None:
+    """Refuses names of links and joints that the URDF does not have."""
+    drive = document.drive
+    links: list[tuple[tuple[str | int, ...], str]] = [
+        *((("wheels", i), name) for i, name in enumerate(document.wheels)),
+        *((("friction", name), name) for name in document.friction),
+        *((("skid", name), name) for name in document.skid),
+        *(
+            (("sensors", i, "link"), sensor.link)
+            for i, sensor in enumerate(document.sensors)
+            if not isinstance(sensor, Battery)
+        ),
     ]
-    if missing:
-        problems = [Problem(f"the URDF has no {what}", code="BTR003") for what in missing]
+    joints: list[tuple[tuple[str | int, ...], str]] = [
+        *((("drive", "left", i), name) for i, name in enumerate(drive.left)),
+        *((("drive", "right", i), name) for i, name in enumerate(drive.right)),
+    ]
+    problems = _missing("link", links, urdf.links, located) + _missing("joint", joints, urdf.joints, located)
+    if problems:
         raise RobotError(problems, f"{robot_id}/robot.yaml")
+
+
+def _missing(
+    what: str,
+    names: list[tuple[tuple[str | int, ...], str]],
+    known: Collection[str],
+    located: Located,
+) -> list[Problem]:
+    problems = []
+    for path, name in names:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, n=1)
+            hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(sorted(known))}"
+            problems.append(Problem(f"the URDF has no {what} {name!r}", *located.place(path), "BTR003", hint))
+    return problems

@@ -3,19 +3,42 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 from lxml import etree
 
 from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+T = TypeVar("T")
 _GREY: Final = (0.6, 0.6, 0.6, 1.0)
 Rgba = tuple[float, float, float, float]
 
 
 class UrdfError(Exception):
-    """A URDF that cannot be used."""
+    """A URDF that cannot be used; `line` counts from 1."""
+
+    def __init__(self, message: str, file: str, line: int = 1) -> None:
+        self.message = message
+        self.file = file
+        self.line = line
+        super().__init__(f"{file}:{line}: {message}")
+
+
+class _WrongError(ValueError):
+    """Something wrong with an element."""
+
+    def __init__(self, message: str, element: etree._Element) -> None:
+        self.line = _line(element)
+        super().__init__(message)
+
+
+def _line(element: etree._Element) -> int:
+    return int(str(element.sourceline))  # its stub thinks that it may be an ellipsis
 
 
 @dataclass(frozen=True)
@@ -64,6 +87,12 @@ class Urdf:
         """The joint that holds each link but the root."""
         return {joint.child: joint for joint in self.joints.values()}
 
+    @functools.cached_property
+    def mesh_files(self) -> dict[str, int]:
+        """The meshes that are named, by what is seen and by what can be touched, with the line of each."""
+        meshes = etree.fromstring(self.text.encode()).iterfind("link/*/geometry/mesh")
+        return {mesh.get("filename", ""): _line(mesh) for mesh in meshes}
+
     def rigid_parent(self, link: str) -> tuple[str, Pose]:
         """Returns the link that carries this one through fixed joints, and its pose in that link's frame."""
         pose = IDENTITY
@@ -83,51 +112,77 @@ def parse_urdf(data: bytes, file: str = "robot.urdf") -> Urdf:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as error:
-        raise UrdfError(f"{file}:{error.lineno}: {error.msg}") from error
+        raise UrdfError(str(error.msg), file, error.lineno or 1) from error
     if b"<!DOCTYPE" in data:
-        raise UrdfError(f"{file}: a URDF needs no DOCTYPE")
+        raise UrdfError("a URDF needs no DOCTYPE", file)
     if root.tag != "robot":
-        raise UrdfError(f"{file}:{root.sourceline}: the first element must be <robot>")
+        raise UrdfError("the first element must be <robot>", file, _line(root))
     try:
-        colors = {
-            m.get("name", ""): _color(m) for m in root.findall("material") if m.find("color") is not None
-        }
-        links = {link.get("name", ""): _link(link, colors) for link in root.findall("link")}
-        joints = {joint.get("name", ""): _joint(joint) for joint in root.findall("joint")}
-    except (ValueError, AttributeError, IndexError) as error:
-        raise UrdfError(f"{file}: {error}") from error
-    return Urdf(root.get("name", "robot"), _root_link(links, joints, file), links, joints, data.decode())
+        materials = [m for m in root.findall("material") if m.find("color") is not None]
+        colors = {m.get("name", ""): _color(m) for m in materials}
+        links = _by_name(root, "link", lambda element: _link(element, colors))
+        joints = _by_name(root, "joint", _joint)
+        top = _root_link(root, links, joints)
+    except _WrongError as error:
+        raise UrdfError(str(error), file, error.line) from error
+    text = etree.tostring(root, encoding="unicode")
+    return Urdf(root.get("name", "robot"), top, links, joints, text)
 
 
-def _root_link(links: dict[str, Link], joints: dict[str, Joint], file: str) -> str:
-    for joint in joints.values():
+def _by_name(root: etree._Element, tag: str, make: Callable[[etree._Element], T]) -> dict[str, T]:
+    found: dict[str, T] = {}
+    for element in root.findall(tag):
+        name = element.get("name", "")
+        if not name or name in found:
+            raise _WrongError(
+                f"the {tag} {name!r} stands here twice" if name else f"a {tag} needs a name", element
+            )
+        found[name] = make(element)
+    return found
+
+
+def _root_link(root: etree._Element, links: dict[str, Link], joints: dict[str, Joint]) -> str:
+    children: set[str] = set()
+    for element in root.findall("joint"):
+        joint = joints[element.get("name", "")]
         for name in (joint.parent, joint.child):
             if name not in links:
-                raise UrdfError(f"{file}: joint {joint.name!r} names the link {name!r}, which does not exist")
-    children = {joint.child for joint in joints.values()}
+                raise _WrongError(
+                    f"joint {joint.name!r} names the link {name!r}, which does not exist", element
+                )
+        if joint.child in children:
+            raise _WrongError(f"the links must form one tree, but {joint.child!r} has two parents", element)
+        children.add(joint.child)
     roots = [name for name in links if name not in children]
-    if len(roots) != 1 or len(children) != len(joints):
-        raise UrdfError(f"{file}: the links must form one tree; roots are {', '.join(roots) or 'none'}")
+    if len(roots) != 1:
+        raise _WrongError(f"the links must form one tree; roots are {', '.join(roots) or 'none'}", root)
     return roots[0]
 
 
-def _numbers(text: str) -> tuple[float, ...]:
-    return tuple(float(word) for word in text.split())
+def _numbers(element: etree._Element, key: str, default: str = "", *, count: int = 0) -> tuple[float, ...]:
+    text = element.get(key, default)
+    try:
+        values = tuple(float(word) for word in text.split())
+    except ValueError:
+        values = ()
+    if not values or (count and len(values) != count) or not all(map(math.isfinite, values)):
+        what = {1: "a number", 3: "three numbers", 4: "four numbers"}.get(count, "numbers")
+        raise _WrongError(f"<{element.tag}> needs {what} as {key!r}, not {text!r}", element)
+    return values
 
 
 def _origin(element: etree._Element) -> Pose:
     origin = element.find("origin")
     if origin is None:
         return IDENTITY
-    xyz, rpy = _numbers(origin.get("xyz", "0 0 0")), _numbers(origin.get("rpy", "0 0 0"))
-    if len(xyz) != 3 or len(rpy) != 3:
-        raise ValueError(f"line {origin.sourceline}: an origin needs three numbers")
+    xyz = _numbers(origin, "xyz", "0 0 0", count=3)
+    rpy = _numbers(origin, "rpy", "0 0 0", count=3)
     return from_xyz_rpy((*xyz, *rpy))
 
 
 def _color(material: etree._Element) -> Rgba:
     color = material.find("color")
-    red, green, blue, alpha = _numbers(color.get("rgba", "")) if color is not None else _GREY
+    red, green, blue, alpha = _numbers(color, "rgba", count=4) if color is not None else _GREY
     return red, green, blue, alpha
 
 
@@ -143,7 +198,7 @@ def _visual(element: etree._Element, colors: dict[str, Rgba]) -> Visual:
         color = _color(material) if own else colors.get(material.get("name", ""), _GREY)
     geometry = element.find("geometry")
     if geometry is None or len(geometry) == 0:
-        raise ValueError(f"line {element.sourceline}: a visual needs a geometry")
+        raise _WrongError("a visual needs a geometry", element)
     shape = geometry[0]
     kind = str(shape.tag)
     size, file = _size(kind, shape)
@@ -152,24 +207,22 @@ def _visual(element: etree._Element, colors: dict[str, Rgba]) -> Visual:
 
 def _size(kind: str, shape: etree._Element) -> tuple[tuple[float, ...], str]:
     if kind == "box":
-        return _numbers(shape.get("size", "")), ""
+        return _numbers(shape, "size", count=3), ""
     if kind in ("cylinder", "capsule"):
-        return (float(shape.get("radius", "")), float(shape.get("length", ""))), ""
+        return (*_numbers(shape, "radius", count=1), *_numbers(shape, "length", count=1)), ""
     if kind == "sphere":
-        return (float(shape.get("radius", "")),), ""
+        return _numbers(shape, "radius", count=1), ""
     if kind == "mesh":
-        return _numbers(shape.get("scale", "1 1 1")), shape.get("filename", "")
-    raise ValueError(f"line {shape.sourceline}: <{kind}> is not a shape")
+        return _numbers(shape, "scale", "1 1 1", count=3), shape.get("filename", "")
+    raise _WrongError(f"<{kind}> is not a shape", shape)
 
 
 def _joint(element: etree._Element) -> Joint:
     axis_element = element.find("axis")
-    axis = _numbers(axis_element.get("xyz", "1 0 0")) if axis_element is not None else (1.0, 0.0, 0.0)
+    axis = _numbers(axis_element, "xyz", count=3) if axis_element is not None else (1.0, 0.0, 0.0)
     parent, child = element.find("parent"), element.find("child")
-    if parent is None or child is None or len(axis) != 3:
-        raise ValueError(
-            f"line {element.sourceline}: a joint needs parent, child and an axis of three numbers"
-        )
+    if parent is None or child is None:
+        raise _WrongError("a joint needs a parent and a child", element)
     return Joint(
         element.get("name", ""),
         element.get("type", "fixed"),

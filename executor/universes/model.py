@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
 
-Shape = Literal["box", "cylinder", "sphere", "plane"]
+Shape = Literal["box", "cylinder", "sphere", "plane", "mesh"]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$")]
 Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
@@ -20,6 +20,7 @@ SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "cylinder": ("radius", "length"),
     "sphere": ("radius",),
     "plane": ("x", "y"),
+    "mesh": ("scale x", "scale y", "scale z"),
 }
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
@@ -41,12 +42,15 @@ class Ground(_Strict):
 class Model(_Strict):
     """A body of one shape; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
 
-    What is not `solid` is only seen: paint, a carpet, a line on the floor. Robots and rays go through it.
+    A mesh is read from `file`, a path in the project; its `size` is a scale. It is solid as it is drawn if it
+    stands, and as its convex hull if it has mass. What is not `solid` is only seen: paint, a carpet, a line
+    on the floor. Robots and rays go through it.
     """
 
     id: Name
     shape: Shape
-    size: tuple[Positive, ...]
+    size: tuple[Positive, ...] = ()
+    file: str = Field(default="", max_length=300)
     pose: Pose = (0, 0, 0, 0, 0, 0)
     color: Color = "#9aa4b0"
     mass: float = Field(default=0.0, ge=0, le=1e5)
@@ -57,6 +61,12 @@ class Model(_Strict):
     @model_validator(mode="after")
     def _size_fits_shape(self) -> Model:
         meaning = SIZE_MEANING[self.shape]
+        if (self.shape == "mesh") != bool(self.file):
+            raise ValueError(
+                "a mesh, and nothing else, needs a `file` of the project, such as assets/crate.obj"
+            )
+        if self.shape == "mesh" and not self.size:
+            return self
         if len(self.size) != len(meaning):
             raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
         if self.shape == "plane" and self.mass > 0:

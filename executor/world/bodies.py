@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from executor.messages import Shape
+from executor.world.interface import WorldError
+from executor.world.mesh import MeshError, load_mesh
 from executor.world.transforms import IDENTITY, Pose, from_xyz_rpy
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    from executor.messages import Mesh
     from executor.universes.model import Model
     from executor.world.engine import Bullet
 
@@ -37,12 +44,29 @@ def make_ground(bullet: Bullet, friction: float) -> int:
     return ground
 
 
-def make_body(bullet: Bullet, model: Model) -> Body:
-    """Makes the body of a primitive model."""
+def model_mesh(model: Model, assets: Path | None) -> Mesh:
+    """Reads the mesh of a model from the project's files.
+
+    Raises:
+        WorldError: it is not there, or cannot be used.
+    """
+    try:
+        if assets is None:
+            raise MeshError("there are no project files to take it from")
+        path = assets / model.file
+        if not path.resolve().is_relative_to(assets.resolve()):
+            raise MeshError("it lies outside of the project")
+        return load_mesh(path)
+    except MeshError as error:
+        raise WorldError(f"the mesh {model.file!r} of {model.id!r} cannot be used: {error}") from error
+
+
+def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
+    """Makes the body of a model."""
     pose = from_xyz_rpy(model.pose)
     uid: int = bullet.createMultiBody(
         model.mass,
-        _collision_shape(bullet, model) if model.solid else -1,
+        _collision_shape(bullet, model, mesh) if model.solid else -1,
         basePosition=pose[:3],
         baseOrientation=pose[3:],
         useMaximalCoordinates=model.mass == 0,  # a third of the cost of a step where much stands about
@@ -55,8 +79,14 @@ def make_body(bullet: Bullet, model: Model) -> Body:
 
 
 def scene_shape(model: Model) -> Shape:
-    """Returns what one sees of a primitive model."""
-    return Shape(shape=model.shape, size=list(model.size), pose=list(IDENTITY), color=rgba(model.color))
+    """Returns what one sees of a model."""
+    return Shape(
+        shape=model.shape,
+        size=list(model.size or (1.0, 1.0, 1.0)),
+        pose=list(IDENTITY),
+        color=rgba(model.color),
+        mesh=model.file,
+    )
 
 
 def capsule(bullet: Bullet, radius: float, length: float, at: Pose) -> int:
@@ -68,8 +98,10 @@ def capsule(bullet: Bullet, radius: float, length: float, at: Pose) -> int:
     return uid
 
 
-def _collision_shape(bullet: Bullet, model: Model) -> int:
+def _collision_shape(bullet: Bullet, model: Model, mesh: Mesh | None) -> int:
     size = model.size
+    if mesh is not None:
+        return _mesh_shape(bullet, model, mesh)
     if model.shape == "box":
         half = [length / 2 for length in size]
         shape: int = bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=half)
@@ -81,4 +113,17 @@ def _collision_shape(bullet: Bullet, model: Model) -> int:
         half = [size[0] / 2, size[1] / 2, FINITE_PLANE_THICKNESS / 2]
         below = [0, 0, -FINITE_PLANE_THICKNESS / 2]
         shape = bullet.createCollisionShape(bullet.GEOM_BOX, halfExtents=half, collisionFramePosition=below)
+    return shape
+
+
+def _mesh_shape(bullet: Bullet, model: Model, mesh: Mesh) -> int:
+    """Makes a shape of a mesh: true to its triangles if it never moves, else its convex hull."""
+    points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3).tolist()
+    options: dict[str, Any] = {"meshScale": list(model.size or (1.0, 1.0, 1.0))}
+    if model.mass == 0:
+        options |= {"flags": bullet.GEOM_FORCE_CONCAVE_TRIMESH}
+        options |= {"indices": np.frombuffer(mesh.indices, "<u4").tolist()}
+    shape: int = bullet.createCollisionShape(bullet.GEOM_MESH, vertices=points, **options)
+    if shape < 0:
+        raise WorldError(f"the mesh of {model.id!r} is too large to be solid; make it smaller")
     return shape

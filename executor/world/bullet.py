@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.messages import Light, Scene, SensorPlacement
+from executor.messages import Light, Mesh, Scene, SensorPlacement
 from executor.robots.config import RobotConfig, load_robot
 from executor.world.actor import BulletActor
-from executor.world.bodies import Body, make_body, make_ground, rgba, scene_shape
+from executor.world.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
 from executor.world.engine import Bullet
 from executor.world.interface import WorldError
+from executor.world.kinematics import mesh_key
 from executor.world.objects import Kind, SceneObjects
 from executor.world.placement import put_at_rest
 from executor.world.randomize import draw
@@ -75,6 +76,7 @@ class BulletWorld:
         self._configs: list[RobotConfig] = [
             load_robot(robot or place.model, assets) for place in universe.robots
         ]
+        self._meshes = _meshes(self._configs, self._universe, assets)
         self._bullet = Bullet()
         self._steps = 0
         self._poses: NDArray[np.float32] | None = None
@@ -232,7 +234,7 @@ class BulletWorld:
         )
 
     def _add_model(self, model: Model) -> None:
-        body = make_body(self._bullet, model)
+        body = make_body(self._bullet, model, self._meshes.get(model.file))
         self._content.bodies[model.id] = body
         self._content.names[body.uid] = model.id
         kind: Kind = "dynamic" if body.is_dynamic else "static"
@@ -259,8 +261,17 @@ class BulletWorld:
             name=universe.name,
             t=0.0,
             objects=self._objects.objects,
-            meshes={},
+            meshes=self._meshes,
             lights=[Light(list(light.direction), light.intensity) for light in universe.lights],
             ground_color=rgba(universe.ground.color),
             sensors=sensors,
         )
+
+
+def _meshes(configs: list[RobotConfig], universe: Universe, assets: Path | None) -> dict[str, Mesh]:
+    """Returns the meshes of robots and models by their names in the scene."""
+    found = {mesh_key(config, name): mesh for config in configs for name, mesh in config.meshes.items()}
+    for model in universe.models:
+        if model.shape == "mesh" and model.file not in found:
+            found[model.file] = model_mesh(model, assets)
+    return found

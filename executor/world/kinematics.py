@@ -42,7 +42,7 @@ def add_links(robot_id: str, config: RobotConfig, objects: SceneObjects) -> dict
     shapes: dict[str, list[Shape]] = {}
     for link in config.urdf.links.values():
         carrier, pose = config.urdf.rigid_parent(link.name)
-        shapes.setdefault(carrier, []).extend(_shape(visual, pose) for visual in link.visuals)
+        shapes.setdefault(carrier, []).extend(_shape(config, visual, pose) for visual in link.visuals)
     return {
         link: objects.add(robot_id, link, "robot", link_shapes, IDENTITY)
         for link, link_shapes in shapes.items()
@@ -64,12 +64,17 @@ def sensor_placements(config: RobotConfig, ids: Mapping[str, int]) -> list[Senso
     return placed
 
 
-def _shape(visual: Visual, carrier: Pose) -> Shape:
+def mesh_key(config: RobotConfig, name: str) -> str:
+    """Names a robot's mesh in the scene: two robots may have meshes of one name."""
+    return f"{config.id}/{name}"
+
+
+def _shape(config: RobotConfig, visual: Visual, carrier: Pose) -> Shape:
     pose = compose(carrier, visual.pose)
     return Shape(
         shape=visual.shape,  # type: ignore[arg-type]
         size=list(visual.size),
         pose=list(pose),
         color=list(visual.color),
-        mesh=visual.file,
+        mesh=mesh_key(config, visual.file) if visual.file else "",
     )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
+from executor.robots.prepare import physical_urdf
 from executor.world.collision import Collision, CollisionCounter
 from executor.world.drive import DifferentialDrive, DriveState, Odometry
 from executor.world.kinematics import add_links, link_pose, sensor_placements
@@ -57,9 +58,10 @@ class BulletRobot:
         self._bullet = bullet
         self._clock_s = 0.0
         start = from_xyz_rpy(place.pose)
-        self.uid: int = bullet.loadURDF(
-            str(config.urdf_path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
-        )
+        with physical_urdf(config.urdf.text, config.meshes) as path:
+            self.uid: int = bullet.loadURDF(
+                str(path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
+            )
         self._noise = np.random.default_rng([seed, index])
         self._drive = DifferentialDrive(config.drive, self._noise)
         self._counter = CollisionCounter()

@@ -1,0 +1,48 @@
+"""Turns xacro into URDF. It runs only where a robot is loaded: in the executor, never in the web server."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+from pathlib import Path
+
+from executor.robots.urdf import UrdfError
+
+
+def urdf_of(path: Path) -> bytes:
+    """Returns the URDF of a file, expanded if its name ends in `.xacro`.
+
+    Raises:
+        UrdfError: the macros are wrong.
+        OSError: it cannot be read.
+    """
+    if path.suffix != ".xacro":
+        return path.read_bytes()
+    import xacro  # noqa: PLC0415 - few robots need it
+
+    path.stat()  # a file that is missing is said in our words
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
+            document = xacro.process_file(str(path))
+        return bytes(document.toprettyxml(indent="  ", encoding="utf-8"))
+    except Exception as error:  # xacro evaluates what users wrote; anything may come of it
+        text = _in_words(error)
+        line = getattr(error, "lineno", None) or _line_of(text, path)
+        raise UrdfError(text, path.name, line) from error
+
+
+def _line_of(message: str, path: Path) -> int:
+    """Finds the line that a message speaks of: xacro names what it stumbled over, not where that stands."""
+    words = [word for pair in re.findall(r"'([^']+)'|(xacro:\w+)", message) for word in pair if word]
+    names = [*words, *(Path(word).name for word in words if "/" in word)]
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    return next((i for name in names for i, line in enumerate(lines, 1) if name in line), 1)
+
+
+def _in_words(error: Exception) -> str:
+    text = str(error).strip() or type(error).__name__
+    macros = getattr(error, "macros", None)
+    names = ", ".join(str(getattr(macro, "name", macro)) for macro in macros or ())
+    return f"xacro: {text}" + (f" (in {names})" if names else "")

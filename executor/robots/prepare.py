@@ -1,0 +1,63 @@
+"""Makes of a robot's URDF the one that the physics loads: meshes converted, no link without mass."""
+
+from __future__ import annotations
+
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from lxml import etree
+
+from executor.world.mesh import MeshError, write_obj
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from executor.messages import Mesh
+
+_FEATHER: Final = (
+    '<inertial><mass value="0.001"/>'
+    '<inertia ixx="1e-6" ixy="0" ixz="0" iyy="1e-6" iyz="0" izz="1e-6"/></inertial>'
+)
+
+
+def mesh_path(name: str, folder: Path) -> Path:
+    """Returns the file that a URDF names: relative to it, or `package://any/…` within the robot's folder.
+
+    Raises:
+        MeshError: it lies elsewhere.
+    """
+    if name.startswith("package://"):
+        package, _, rest = name.removeprefix("package://").partition("/")
+        candidates = [folder / rest, folder / package / rest, folder.parent / package / rest]
+        root = folder.parent
+    else:
+        candidates = [folder / name.removeprefix("file://")]
+        root = folder
+    inside = [path for path in candidates if path.resolve().is_relative_to(root.resolve())]
+    if not inside:
+        raise MeshError(f"{name} leads out of the robot's folder")
+    return next((path for path in inside if path.is_file()), inside[0])
+
+
+@contextmanager
+def physical_urdf(text: str, meshes: dict[str, Mesh]) -> Iterator[Path]:
+    """Gives a file that the physics loads, as long as it is needed."""
+    root = etree.fromstring(text.encode(), etree.XMLParser(resolve_entities=False, no_network=True))
+    with tempfile.TemporaryDirectory(prefix="bt-studio-urdf-") as name:
+        folder = Path(name)
+        files = {}
+        for number, (mesh_name, mesh) in enumerate(meshes.items()):
+            files[mesh_name] = folder / f"mesh_{number}.obj"
+            write_obj(mesh, files[mesh_name])
+        for link in root.findall("link"):
+            for visual in link.findall("visual"):  # we draw these ourselves
+                link.remove(visual)
+            if link.find("inertial") is None:
+                link.insert(0, etree.fromstring(_FEATHER))
+            for element in link.iterfind("collision/geometry/mesh"):
+                element.set("filename", str(files[element.get("filename", "")]))
+        path = folder / "robot.urdf"
+        path.write_bytes(etree.tostring(root))
+        yield path

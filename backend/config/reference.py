@@ -44,7 +44,7 @@ def _default(field: FieldInfo) -> str:
     value = field.default
     if isinstance(value, SecretStr):
         value = value.get_secret_value()
-    if isinstance(value, Path):
+    if isinstance(value, Path) and value.is_relative_to(REPOSITORY):
         value = value.relative_to(REPOSITORY)
     if isinstance(value, int) and value >= MEBIBYTE and value % MEBIBYTE == 0:
         return f"{value // MEBIBYTE} MiB (`{value}`)"

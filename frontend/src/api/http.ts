@@ -3,7 +3,7 @@ import { errorFrom, offlineError } from './errors';
 const BASE = '/api/v1';
 
 interface Options {
-  method?: 'GET' | 'POST' | 'PATCH' | 'DELETE';
+  method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
   body?: unknown;
   signal?: AbortSignal | undefined;
   /** Keeps a small request alive while the page goes away. */
@@ -28,8 +28,14 @@ async function send(path: string, { method = 'GET', body, signal, keepalive }: O
     if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
     throw offlineError(cause);
   }
+  // The session has ended, in another tab or by itself.
+  if (response.status === 401) window.location.assign(signInPath());
   if (!response.ok) throw await errorFrom(response);
   return response;
+}
+
+function signInPath(): string {
+  return `/accounts/login/?next=${encodeURIComponent(window.location.pathname)}`;
 }
 
 export async function requestJson<T>(path: string, options: Options = {}): Promise<T> {

@@ -54,6 +54,8 @@ export interface ProjectSettings {
   [key: string]: unknown;
 }
 
+export type ProjectRole = 'viewer' | 'editor' | 'owner';
+
 export interface ProjectSummary {
   id: string;
   name: string;
@@ -63,6 +65,9 @@ export interface ProjectSummary {
   revision: number;
   created_at: string;
   updated_at: string;
+  /** What the user may do with it. */
+  role?: ProjectRole;
+  owner?: string;
   /** The main tree's diagram, for the picture on the card. */
   root_diagram: unknown;
 }
@@ -163,15 +168,33 @@ export interface TemplateInfo {
   root_diagram?: unknown;
 }
 
+/** A behaviour of the built-in library; texts are by language. */
+export interface BehaviourInfo {
+  id: string;
+  version: string;
+  group: string;
+  universe: string;
+  summary: Record<string, string>;
+  doc: Record<string, string>;
+  diagram: unknown;
+  files: Record<string, string>;
+}
+
+/** A universe or a robot to choose; `preview` is the address of its picture. */
 export interface UniverseInfo {
   id: string;
   name: string;
   description?: string;
+  preview?: string;
 }
 
 export interface Me {
   mode: string;
-  user: string | null;
+  /** Empty for a guest, who came by a read-only link. */
+  user: string;
+  name: string;
+  email: string;
+  role: 'local' | 'administrator' | 'teacher' | 'user' | 'guest';
   version: string;
 }
 

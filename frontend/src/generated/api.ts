@@ -21,6 +21,23 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/catalog/behaviours": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description The built-in library, with every file that a behaviour brings. */
+        get: operations["list_behaviours"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/catalog/nodes": {
         parameters: {
             query?: never;
@@ -47,6 +64,23 @@ export interface paths {
         };
         /** @description Every built-in robot. */
         get: operations["list_robots"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/catalog/robots/{robot_id}/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description A picture of 480 by 270 pixels. */
+        get: operations["get_robot_preview"];
         put?: never;
         post?: never;
         delete?: never;
@@ -89,6 +123,111 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/catalog/universes/{universe_id}/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description A picture of 480 by 270 pixels. */
+        get: operations["get_universe_preview"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/groups": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Those that the user made or is in. */
+        get: operations["list_groups"];
+        put?: never;
+        /** @description Makes a group; for teachers. */
+        post: operations["create_group"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/groups/{group_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description The group, with members and invitations for who looks after it. */
+        get: operations["get_group"];
+        put?: never;
+        post?: never;
+        /** @description Removes the group; accounts and projects stay. */
+        delete: operations["delete_group"];
+        options?: never;
+        head?: never;
+        /** @description Gives the group another name. */
+        patch: operations["rename_group"];
+        trace?: never;
+    };
+    "/api/v1/groups/{group_id}/invitations": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Makes a link by which people make accounts and join. */
+        post: operations["invite_to_group"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/groups/{group_id}/members/{username}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** @description Takes someone out, or leaves. */
+        delete: operations["remove_group_member"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/invitations/{invitation_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** @description Takes the link back; whoever used it stays. */
+        delete: operations["revoke_invitation"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/me": {
         parameters: {
             query?: never;
@@ -96,8 +235,43 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The user, how they came in, and the version of the server. */
+        /** @description The user, what they may, and the version of the server. */
         get: operations["get_me"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/data": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description The account, its log and its projects, as one zip. */
+        get: operations["export_my_data"];
+        put?: never;
+        post?: never;
+        /** @description Deletes the account with all its projects, at once and for good. */
+        delete: operations["delete_my_account"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/me/usage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description Projects and bytes, with their limits. */
+        get: operations["get_my_usage"];
         put?: never;
         post?: never;
         delete?: never;
@@ -450,6 +624,93 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/projects/{project_id}/shares": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** @description People, groups and links; for the owner. */
+        get: operations["get_shares"];
+        put?: never;
+        /** @description Gives someone a role, or another one. */
+        post: operations["share_with_person"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/shares/groups/{group_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /** @description Gives everybody in the group a role. */
+        put: operations["share_with_group"];
+        post?: never;
+        /** @description Takes the role of the group away. */
+        delete: operations["unshare_with_group"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/shares/links": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description Makes a link by which anybody may read the project. */
+        post: operations["make_share_link"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/shares/links/{link_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** @description Ends the link at once, also for those who opened it. */
+        delete: operations["revoke_share_link"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/projects/{project_id}/shares/people/{username}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /** @description Takes their role away; one's own is given up. */
+        delete: operations["unshare_with_person"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/projects/{project_id}/unarchive": {
         parameters: {
             query?: never;
@@ -501,6 +762,40 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/python/format": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description The source in the usual style; 422 when it does not parse. */
+        post: operations["format_python"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/python/lint": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** @description What is likely wrong, with the edits that mend it. */
+        post: operations["lint_python"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/sessions/{session_id}": {
         parameters: {
             query?: never;
@@ -519,44 +814,12 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/catalog/robots/{robot_id}/preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** @description A picture of 480 by 270 pixels. */
-        get: operations["get_robot_preview"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
-    "/api/v1/catalog/universes/{universe_id}/preview": {
-        parameters: {
-            query?: never;
-            header?: never;
-            path?: never;
-            cookie?: never;
-        };
-        /** @description A picture of 480 by 270 pixels. */
-        get: operations["get_universe_preview"];
-        put?: never;
-        post?: never;
-        delete?: never;
-        options?: never;
-        head?: never;
-        patch?: never;
-        trace?: never;
-    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @enum {string} */
+        AccountRole: "local" | "administrator" | "teacher" | "user" | "guest";
         /** @description What the source of an action says about it. */
         Action: {
             name: string;
@@ -581,6 +844,34 @@ export interface components {
                 assets_zip_base64: string;
             };
             robot: string | null;
+        };
+        /** @description A behaviour to reuse: a subtree with ports; `summary` and `doc` are by language. */
+        Behaviour: {
+            /** @description Also the name of its tree. */
+            id: string;
+            version: string;
+            /** @description motion, navigation, vision, manipulation or ros. */
+            group: string;
+            /** @description A built-in universe to try it in. */
+            universe: string;
+            summary: {
+                [key: string]: string;
+            };
+            doc: {
+                [key: string]: string;
+            };
+            /** @description Its tree, with its ports. */
+            diagram: {
+                [key: string]: unknown;
+            };
+            /** @description Every file that it needs, by its path in a project. */
+            files: {
+                [key: string]: string;
+            };
+        };
+        /** @description The built-in library. */
+        BehaviourList: {
+            items: components["schemas"]["Behaviour"][];
         };
         /** @description The project after the change: all files, and what the translator says now. */
         ChangesDone: {
@@ -632,7 +923,7 @@ export interface components {
         /** @description One finding of the translator. */
         Diagnostic: {
             code: string;
-            severity: components["schemas"]["SeverityEnum"];
+            severity: components["schemas"]["DiagnosticSeverityEnum"];
             message: string;
             hint: string;
             tree: string;
@@ -642,6 +933,8 @@ export interface components {
             line: number | null;
             column: number | null;
         };
+        /** @enum {string} */
+        DiagnosticSeverityEnum: "error" | "warning" | "note";
         /** @description The differences between two revisions. */
         Diff: {
             older: number;
@@ -666,6 +959,12 @@ export interface components {
         DuplicateProjectRequest: {
             /** @default  */
             name: string;
+        };
+        /** @description A piece of text to be replaced. */
+        Edit: {
+            start: components["schemas"]["Place"];
+            end: components["schemas"]["Place"];
+            content: string;
         };
         /** @description A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels. */
         Entry: {
@@ -715,15 +1014,88 @@ export interface components {
             size: number;
             sha256: string;
         };
+        /** @description One finding of the linter. */
+        Finding: {
+            code: string;
+            severity: components["schemas"]["FindingSeverityEnum"];
+            message: string;
+            start: components["schemas"]["Place"];
+            end: components["schemas"]["Place"];
+            fix: components["schemas"]["Fix"] | null;
+        };
+        /** @enum {string} */
+        FindingSeverityEnum: "error" | "warning";
+        /** @description All findings about a source. */
+        Findings: {
+            findings: components["schemas"]["Finding"][];
+        };
+        /** @description What mends a finding. */
+        Fix: {
+            message: string;
+            edits: components["schemas"]["Edit"][];
+        };
+        /** @description A formatted source. */
+        Formatted: {
+            source: string;
+        };
+        /** @description A group; members and invitations are shown to who looks after it. */
+        Group: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            owner: string;
+            mine: boolean;
+            members: components["schemas"]["Person"][];
+            invitations: components["schemas"]["Invitation"][];
+        };
+        /** @description The user's groups. */
+        GroupList: {
+            items: components["schemas"]["Group"][];
+        };
         /** @description The source of an action. */
         InspectActionRequest: {
             source: string;
             filename: string;
         };
+        /** @description An invitation with its link. */
+        Invitation: {
+            /** Format: uuid */
+            id: string;
+            url: string;
+            /** Format: date-time */
+            expires_at: string;
+            uses: number;
+            max_uses: number;
+        };
+        /** @description How long an invitation works, and for how many. */
+        InviteRequest: {
+            /** @default 14 */
+            days: number;
+            /** @default 30 */
+            max_uses: number;
+        };
+        /** @description A read-only link. */
+        Link: {
+            /** Format: uuid */
+            id: string;
+            url: string;
+            /** Format: date-time */
+            expires_at: string | null;
+            /** Format: date-time */
+            created_at: string;
+        };
+        /** @description How long a link works. */
+        MakeLinkRequest: {
+            days?: number | null;
+        };
         /** @description The user and the server. */
         Me: {
             mode: components["schemas"]["ModeEnum"];
+            /** @description Empty for a guest, who came by a read-only link. */
             user: string;
+            name: string;
+            email: string;
+            role: components["schemas"]["AccountRole"];
             version: string;
         };
         /** @description The version of the request. */
@@ -731,7 +1103,11 @@ export interface components {
             content: string | null;
         };
         /** @enum {string} */
-        ModeEnum: "local";
+        ModeEnum: "local" | "team";
+        /** @description A name for a group. */
+        NamedRequest: {
+            name: string;
+        };
         /** @description `tree_gardener/catalog.json`. */
         Nodes: {
             format: string;
@@ -775,6 +1151,20 @@ export interface components {
         PatchedLabelRequest: {
             label?: string;
         };
+        /** @description A name for a group. */
+        PatchedNamedRequest: {
+            name?: string;
+        };
+        /** @description Someone as others see them. */
+        Person: {
+            username: string;
+            name: string;
+        };
+        /** @description A place in a text; both count from 1, columns in code points. */
+        Place: {
+            line: number;
+            column: number;
+        };
         /** @description A port that an action declares. */
         Port: {
             name: string;
@@ -816,6 +1206,9 @@ export interface components {
             archived_at: string | null;
             /** Format: date-time */
             deleted_at: string | null;
+            /** @description What the user who asked may do with it. */
+            role: components["schemas"]["ProjectRole"];
+            owner: string;
             root_diagram: {
                 [key: string]: unknown;
             } | null;
@@ -832,6 +1225,8 @@ export interface components {
             total: number;
             next_offset: number | null;
         };
+        /** @enum {string} */
+        ProjectRole: "viewer" | "editor" | "owner";
         /** @description A project in a list. */
         ProjectSummary: {
             /** Format: uuid */
@@ -850,6 +1245,9 @@ export interface components {
             archived_at: string | null;
             /** Format: date-time */
             deleted_at: string | null;
+            /** @description What the user who asked may do with it. */
+            role: components["schemas"]["ProjectRole"];
+            owner: string;
             root_diagram: {
                 [key: string]: unknown;
             } | null;
@@ -902,13 +1300,51 @@ export interface components {
             stream_url: string;
             /** @description Why it failed; else empty. */
             error: string;
+            /** @description Place in the queue, from 1, while it waits for one on the server. */
+            position: number | null;
             /** Format: date-time */
             created_at: string;
         };
+        /** @description With whom, and what they may do. */
+        SharePersonRequest: {
+            role: components["schemas"]["SharedRole"];
+            /** @description Name or e-mail address of an account. */
+            name: string;
+        };
+        /** @description A group with the role of all in it. */
+        SharedGroup: {
+            /** Format: uuid */
+            id: string;
+            name: string;
+            role: components["schemas"]["SharedRole"];
+        };
+        /** @description Someone with their role. */
+        SharedPerson: {
+            username: string;
+            name: string;
+            role: components["schemas"]["SharedRole"];
+        };
         /** @enum {string} */
-        SeverityEnum: "error" | "warning" | "note";
+        SharedRole: "viewer" | "editor";
+        /** @description What someone may do. */
+        SharedRoleRequest: {
+            role: components["schemas"]["SharedRole"];
+        };
+        /** @description With whom a project is shared. */
+        Shares: {
+            owner: components["schemas"]["Person"];
+            people: components["schemas"]["SharedPerson"][];
+            groups: components["schemas"]["SharedGroup"][];
+            links: components["schemas"]["Link"][];
+        };
+        /** @description A source with the name of its file. */
+        SourceRequest: {
+            source: string;
+            /** @default action.py */
+            filename: string;
+        };
         /** @enum {string} */
-        StateEnum: "starting" | "ready" | "failed" | "ended";
+        StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
         /** @description A project that new ones start from. */
         Template: {
             id: string;
@@ -934,6 +1370,13 @@ export interface components {
         UploadRequest: {
             /** Format: binary */
             file: string;
+        };
+        /** @description Room taken, and room given. */
+        Usage: {
+            projects: number;
+            max_projects: number;
+            bytes: number;
+            max_bytes: number;
         };
     };
     responses: never;
@@ -963,6 +1406,34 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Action"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_behaviours: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["BehaviourList"];
                 };
             };
             /** @description A problem document. */
@@ -1032,6 +1503,36 @@ export interface operations {
             };
         };
     };
+    get_robot_preview: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                robot_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/webp": string;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_templates: {
         parameters: {
             query?: never;
@@ -1088,6 +1589,282 @@ export interface operations {
             };
         };
     };
+    get_universe_preview: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                universe_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "image/webp": string;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    list_groups: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["GroupList"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    create_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NamedRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Group"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                group_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Group"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                group_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    rename_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                group_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["PatchedNamedRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Group"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    invite_to_group: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                group_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["InviteRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Invitation"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    remove_group_member: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                group_id: string;
+                username: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_invitation: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                invitation_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_me: {
         parameters: {
             query?: never;
@@ -1103,6 +1880,89 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    export_my_data: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/zip": string;
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    delete_my_account: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    get_my_usage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Usage"];
                 };
             };
             /** @description A problem document. */
@@ -1336,7 +2196,10 @@ export interface operations {
     archive_project: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 project_id: string;
             };
@@ -1478,7 +2341,10 @@ export interface operations {
     save_draft: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 path: string;
                 project_id: string;
@@ -1513,7 +2379,10 @@ export interface operations {
     discard_draft: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 path: string;
                 project_id: string;
@@ -1709,7 +2578,10 @@ export interface operations {
     restore_project: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 project_id: string;
             };
@@ -1773,7 +2645,10 @@ export interface operations {
     label_revision: {
         parameters: {
             query?: never;
-            header?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 number: number;
                 project_id: string;
@@ -1938,10 +2813,254 @@ export interface operations {
             };
         };
     };
-    unarchive_project: {
+    get_shares: {
         parameters: {
             query?: never;
             header?: never;
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Shares"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    share_with_person: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SharePersonRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Shares"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    share_with_group: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                group_id: string;
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SharedRoleRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Shares"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    unshare_with_group: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                group_id: string;
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    make_share_link: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["MakeLinkRequest"];
+            };
+        };
+        responses: {
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Shares"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revoke_share_link: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                link_id: string;
+                project_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    unshare_with_person: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
+            path: {
+                project_id: string;
+                username: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description No response body */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    unarchive_project: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description ETag of the revision that the write is based on; another one answers 412. */
+                "If-Match"?: string;
+            };
             path: {
                 project_id: string;
             };
@@ -2036,6 +3155,70 @@ export interface operations {
             };
         };
     };
+    format_python: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SourceRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Formatted"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    lint_python: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SourceRequest"];
+            };
+        };
+        responses: {
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Findings"];
+                };
+            };
+            /** @description A problem document. */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     get_session: {
         parameters: {
             query?: never;
@@ -2083,66 +3266,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
-            };
-            /** @description A problem document. */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_robot_preview: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                robot_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "image/webp": string;
-                };
-            };
-            /** @description A problem document. */
-            default: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-        };
-    };
-    get_universe_preview: {
-        parameters: {
-            query?: never;
-            header?: never;
-            path: {
-                universe_id: string;
-            };
-            cookie?: never;
-        };
-        requestBody?: never;
-        responses: {
-            200: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "image/webp": string;
-                };
             };
             /** @description A problem document. */
             default: {

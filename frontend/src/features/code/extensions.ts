@@ -19,6 +19,7 @@ import {
   lineNumbers,
   rectangularSelection,
 } from '@codemirror/view';
+import { useProjectStore } from '@/store/project';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
 import { languageOf } from './modes';
@@ -35,6 +36,7 @@ export function extensionsFor(path: string, label: string): Extension {
     foldGutter(),
     drawSelection(),
     EditorState.allowMultipleSelections.of(true),
+    EditorState.readOnly.of(useProjectStore.getState().role === 'viewer'),
     indentOnInput(),
     bracketMatching(),
     closeBrackets(),

@@ -2,6 +2,9 @@ import { Anchor, Divider, Group, Text } from '@mantine/core';
 import { IconChevronRight } from '@tabler/icons-react';
 import type { MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { ReadOnlyBadge } from '@/features/accounts/ReadOnlyBadge';
+import { ShareButton } from '@/features/accounts/ShareButton';
+import { UserMenu } from '@/features/accounts/UserMenu';
 import { RunControls } from '@/features/run/RunControls';
 import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
@@ -42,6 +45,7 @@ export function TopBar() {
           </Group>
         ) : null}
         <SaveIndicator />
+        <ReadOnlyBadge />
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
         <ActionButton action="edit.undo" testId="undo" isDisabled={!history?.past.length} />
@@ -51,8 +55,10 @@ export function TopBar() {
       </Group>
       <Group gap={2} wrap="nowrap" className={classes['right']}>
         <ActionButton action="project.takeAway" testId="open-take-away" />
+        <ShareButton />
         <ThemeToggle />
         <MoreMenu />
+        <UserMenu />
       </Group>
     </header>
   );

@@ -2,6 +2,7 @@ import { Button, FileButton, Group, Loader, Overlay, Text, Title, Tooltip } from
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useEffect } from 'react';
+import { UserMenu } from '@/features/accounts/UserMenu';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
 import { LanguageMenu } from './LanguageMenu';
@@ -46,6 +47,7 @@ export function StartPage() {
         <Group gap={4}>
           <LanguageMenu />
           <ThemeToggle />
+          <UserMenu />
         </Group>
       </header>
       <main className={classes['main']}>

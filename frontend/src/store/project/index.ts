@@ -4,11 +4,13 @@ import { produce, type Draft } from 'immer';
 import { renameUse } from '@/model/edits';
 import { emptyHistory, redo, seal, undo, type Travel } from '@/model/history';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
+import { refusingViewers } from './readOnly';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import { changeDiagrams, initialData, knowing, removeFile, type Change, type Diagrams } from './transitions';
 
 /** Everything about the open project that is saved, and what is selected in it. */
-export const useProjectStore = create<ProjectState>()((set, get) => {
+export const useProjectStore = create<ProjectState>()((setState, get) => {
+  const set = refusingViewers(setState);
   /** Records a change of trees as one step of `owner`'s history. */
   const commit = (
     owner: string,
@@ -59,6 +61,7 @@ export const useProjectStore = create<ProjectState>()((set, get) => {
         ...initialData,
         ...opened,
         projectId: detail.id,
+        role: detail.role ?? 'owner',
         name: detail.name,
         description: detail.description,
         settings: detail.settings,
@@ -224,7 +227,7 @@ export const useProjectStore = create<ProjectState>()((set, get) => {
     },
     setSettings: (patch) => {
       const settings = get().settings;
-      if (!settings) return;
+      if (!settings || get().role === 'viewer') return;
       const next = { ...settings, ...patch };
       set({ settings: next, mainTree: next.main_tree, name: next.name });
       get().setFileText('project.json', `${JSON.stringify(next, null, 2)}\n`);

@@ -4,6 +4,7 @@ import type {
   Diagnostic,
   FileChange,
   ProjectDetail,
+  ProjectRole,
   ProjectSettings,
 } from '@/api/types';
 import type { Diagram, NodeId } from '@/model/diagram';
@@ -23,6 +24,9 @@ export interface FileEntry {
 
 export interface ProjectData {
   readonly projectId: string | null;
+  /** A viewer's edits are refused, and counted. */
+  readonly role: ProjectRole;
+  readonly refusedEdits: number;
   readonly name: string;
   readonly description: string;
   readonly settings: ProjectSettings | null;

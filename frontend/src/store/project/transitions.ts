@@ -12,6 +12,8 @@ export type Diagrams = Readonly<Record<string, Diagram>>;
 
 export const initialData: ProjectData = {
   projectId: null,
+  role: 'owner',
+  refusedEdits: 0,
   name: '',
   description: '',
   settings: null,

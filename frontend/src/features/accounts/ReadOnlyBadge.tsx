@@ -1,0 +1,32 @@
+import { Badge, Tooltip } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import { IconEye } from '@tabler/icons-react';
+import { useEffect } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useProjectStore } from '@/store/project';
+
+const NOTE = 'read-only';
+
+/** Says that the project may only be read, and again when someone tries to change it. */
+export function ReadOnlyBadge() {
+  const { t } = useTranslation('accounts');
+  const role = useProjectStore((state) => state.role);
+  const refused = useProjectStore((state) => state.refusedEdits);
+  useEffect(() => {
+    if (refused > 0)
+      notifications.show({
+        id: NOTE,
+        title: t('readOnly.badge'),
+        message: t('readOnly.note'),
+        color: 'indigo',
+      });
+  }, [refused, t]);
+  if (role !== 'viewer') return null;
+  return (
+    <Tooltip label={t('readOnly.note')}>
+      <Badge variant="light" leftSection={<IconEye size={13} />} tt="none" data-testid="read-only">
+        {t('readOnly.badge')}
+      </Badge>
+    </Tooltip>
+  );
+}

@@ -1,0 +1,32 @@
+import { Button } from '@mantine/core';
+import { IconShare3 } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useProjectStore } from '@/store/project';
+import { ShareDialog } from './ShareDialog';
+import { useMe } from './useMe';
+
+/** Opens the sharing of the open project; for its owner, where there are accounts. */
+export function ShareButton() {
+  const { t } = useTranslation('accounts');
+  const me = useMe();
+  const [isOpen, setOpen] = useState(false);
+  const projectId = useProjectStore((state) => state.projectId);
+  const name = useProjectStore((state) => state.name);
+  const role = useProjectStore((state) => state.role);
+  if (!me || me.mode === 'local' || role !== 'owner' || projectId === null) return null;
+  return (
+    <>
+      <Button
+        size="xs"
+        variant="light"
+        leftSection={<IconShare3 size={15} />}
+        onClick={() => setOpen(true)}
+        data-testid="share"
+      >
+        {t('share.button')}
+      </Button>
+      <ShareDialog projectId={projectId} name={name} isOpen={isOpen} onClose={() => setOpen(false)} />
+    </>
+  );
+}

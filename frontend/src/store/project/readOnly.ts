@@ -1,0 +1,17 @@
+import type { ProjectState } from './state';
+
+type Part = Partial<ProjectState>;
+type Change = Part | ((state: ProjectState) => Part);
+
+/** The store's `set` that lets everything pass but edits of a project that may only be read. */
+export function refusingViewers(set: (change: (state: ProjectState) => Part) => void) {
+  return (change: Change): void => {
+    set((state) => {
+      const next = typeof change === 'function' ? change(state) : change;
+      const isEdit = next.changeCounter !== undefined && next.changeCounter !== state.changeCounter;
+      const isSameProject = next.projectId === undefined || next.projectId === state.projectId;
+      if (state.role === 'viewer' && isEdit && isSameProject) return { refusedEdits: state.refusedEdits + 1 };
+      return next;
+    });
+  };
+}

@@ -200,6 +200,11 @@ SPECTACULAR_SETTINGS: dict[str, Any] = {
     "SCHEMA_PATH_PREFIX": "/api/v1",
     "SORT_OPERATION_PARAMETERS": True,
     "ENUM_GENERATE_CHOICE_DESCRIPTION": False,
+    "ENUM_NAME_OVERRIDES": {
+        "AccountRole": ["local", "administrator", "teacher", "user", "guest"],
+        "ProjectRole": ["viewer", "editor", "owner"],
+        "SharedRole": ["viewer", "editor"],
+    },
     "POSTPROCESSING_HOOKS": ["drf_spectacular.hooks.postprocess_schema_enums"],
     "SERVERS": [],
 }

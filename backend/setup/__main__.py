@@ -29,7 +29,7 @@ PYTHON = VENV / "bin" / "python"
 FRONTEND = ROOT / "frontend"
 STAMPS = ROOT / "var" / "setup"
 NEEDED_NODE = (20, 19)
-TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri")
+TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-server")
 
 
 class Step(NamedTuple):
@@ -260,14 +260,14 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
 
 
 def ensure_debian_packages() -> None:
-    """Chromium and EGL, which the browser tests need; installed by root alone."""
+    """Chromium, EGL, PostgreSQL and Redis, which the tests need; installed by root alone."""
     missing = [name for name, present in test_programs() if not present]
     if not missing:
         return
     install = ["apt-get", "install", "-y", "--no-install-recommends", *missing]
     if os.geteuid() != 0 or shutil.which("apt-get") is None:
-        stop(f"the browser tests need {' and '.join(missing)}; install them with: sudo {' '.join(install)}")
-    say(f"installing the Debian packages {' '.join(missing)} on this machine, for the browser tests …")
+        stop(f"the tests need {' and '.join(missing)}; install them with: sudo {' '.join(install)}")
+    say(f"installing the Debian packages {' '.join(missing)} on this machine, for the tests …")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     subprocess.run(["apt-get", "update", "-q"], env=quiet, check=False, stdout=subprocess.DEVNULL)
     if subprocess.run(install, env=quiet, check=False, stdout=subprocess.DEVNULL).returncode:
@@ -282,6 +282,8 @@ def test_programs() -> list[tuple[str, bool]]:
         shutil.which("chromium") is not None,
         "libEGL.so.1" in libraries,
         bool(drivers),
+        any(Path("/usr/lib/postgresql").glob("*/bin/initdb")),
+        shutil.which("redis-server") is not None,
     )
     return list(zip(TEST_PACKAGES, present, strict=True))
 

@@ -55,6 +55,8 @@ class Api:
 @pytest.fixture(scope="session")
 def django_db_modify_db_settings(tmp_path_factory):
     """A file, as in use: SQLite's memory databases lock whole tables among threads."""
+    if environment().is_postgresql:
+        return
     settings.DATABASES["default"]["TEST"]["NAME"] = str(tmp_path_factory.mktemp("database") / "test.sqlite3")
 
 

@@ -95,6 +95,7 @@ POLICY = {
     ("post", "/api/v1/actions/inspect"): (401, 403, 200, 200, 200, 200),
     ("post", "/api/v1/python/format"): PERSONAL,
     ("post", "/api/v1/python/lint"): PERSONAL,
+    ("get", "/api/v1/catalog/behaviours"): OPEN,
     ("get", "/api/v1/catalog/nodes"): OPEN,
     ("get", "/api/v1/catalog/universes"): OPEN,
     ("get", "/api/v1/catalog/universes/{universe_id}/preview"): OPEN,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 from django.conf import settings as django_settings
@@ -57,7 +58,8 @@ def team(settings_of, db, tmp_path):
     settings_of(
         mode="team",
         public_url=f"http://{PUBLIC}",
-        database_url=f"sqlite:///{tmp_path}/unused",
+        # The database is the tests' own; the setting must be there.
+        database_url=os.environ.get("BT_STUDIO_DATABASE_URL", f"sqlite:///{tmp_path}/unused"),
         secret_key="s" * 40,
     )
     cache.clear()

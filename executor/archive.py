@@ -6,6 +6,7 @@ import base64
 import binascii
 import io
 import stat
+import struct
 import zipfile
 import zlib
 from pathlib import Path, PurePosixPath
@@ -17,7 +18,11 @@ MAX_FILES: Final = 5000
 MAX_FILE_BYTES: Final = 100 << 20
 MAX_TOTAL_BYTES: Final = 300 << 20
 MAX_PATH_CHARACTERS: Final = 240
+MAX_DIRECTORY_BYTES: Final = 4 << 20
 _CHUNK: Final = 1 << 20
+_END: Final = struct.Struct("<4s4H2LH")
+_END_OF_DIRECTORY: Final = b"PK\5\6"
+_LONGEST_TAIL: Final = _END.size + (1 << 16)
 
 
 class ArchiveError(Exception):
@@ -34,6 +39,7 @@ def unpack(archive_base64: str, folder: Path) -> None:
         data = base64.b64decode(archive_base64, validate=True)
     except (binascii.Error, ValueError) as error:
         raise ArchiveError(f"it is not base64: {error}") from error
+    _check_directory(data)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             _unpack_all(archive, folder)
@@ -41,6 +47,16 @@ def unpack(archive_base64: str, folder: Path) -> None:
         raise ArchiveError(f"it is not a readable zip: {error}") from error
     except (OSError, ValueError) as error:
         raise ArchiveError(f"it cannot be unpacked: {error}") from error
+
+
+def _check_directory(data: bytes) -> None:
+    """Refuses a directory of millions of entries, before each becomes an object of its own."""
+    at = data.rfind(_END_OF_DIRECTORY, max(0, len(data) - _LONGEST_TAIL))
+    if at < 0 or at + _END.size > len(data):
+        return  # it is no zip, which is said where it is read
+    *_, size, _, _ = _END.unpack_from(data, at)
+    if size > MAX_DIRECTORY_BYTES:
+        raise ArchiveError(f"its directory is larger than {MAX_DIRECTORY_BYTES >> 20} MB")
 
 
 def _unpack_all(archive: zipfile.ZipFile, folder: Path) -> None:

@@ -51,6 +51,7 @@ class Mirror:
         self.tick_ms = 0.0
         self.tick_hz = 0.0
         self.speed = 1.0
+        self.real_time_factor = 0.0
         self.universe = ""
 
     def begin_run(self, tick_hz: float) -> None:
@@ -85,6 +86,7 @@ class Mirror:
                 self.faults.append(event)
             case Sim():
                 self.speed = event.speed
+                self.real_time_factor = event.real_time_factor
             case _:
                 pass
 

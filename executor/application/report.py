@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import time
 import traceback
 from typing import TYPE_CHECKING, Any, Final
@@ -183,4 +184,8 @@ def _hint(cause: BaseException | None) -> str:
         return f"Install the package that provides '{cause.name}', or correct the import."
     if isinstance(cause, MemoryError):
         return "The application reached its limit of memory."
+    if isinstance(cause, OSError) and cause.errno == errno.EFBIG:
+        return "The application reached its limit of the size of a file."
+    if isinstance(cause, BlockingIOError):  # EAGAIN, as fork answers
+        return "The application reached its limit of processes."
     return ""

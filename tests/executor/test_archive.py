@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import io
+import random
 import stat
 import struct
 import zipfile
@@ -91,3 +93,47 @@ def test_an_encrypted_entry_is_refused(tmp_path):
 def test_what_is_not_base64_is_refused(tmp_path):
     with pytest.raises(ArchiveError, match="base64"):
         unpack("no base64!", tmp_path)
+
+
+def test_a_directory_of_millions_is_refused_before_it_is_read(tmp_path):
+    whole = bytearray(base64.b64decode(packed(("a", "x"))))
+    for size in (archive.MAX_DIRECTORY_BYTES + 1, 0xFFFFFFFF):
+        struct.pack_into("<L", whole, whole.rfind(b"PK\5\6") + 12, size)
+        with pytest.raises(ArchiveError, match="directory is larger"):
+            unpack(base64.b64encode(bytes(whole)).decode(), tmp_path)
+
+
+def test_entries_that_overlap_count_by_what_comes_out(tmp_path, monkeypatch):
+    """A bomb of the kind in which all entries of the directory point at the same data."""
+    monkeypatch.setattr(archive, "MAX_TOTAL_BYTES", 50_000)
+    whole = base64.b64decode(packed(("aaaa", b"0" * 20_000)))
+    start, end = whole.rfind(b"PK\1\2"), whole.rfind(b"PK\5\6")
+    entry, tail = whole[start:end], bytearray(whole[end:])
+    names = [f"{n:04}".encode() for n in range(100)]
+    directory = b"".join(entry.replace(b"aaaa", name) for name in names)
+    struct.pack_into("<HHL", tail, 8, len(names), len(names), len(directory))
+    with pytest.raises(ArchiveError):
+        unpack(base64.b64encode(whole[:start] + directory + bytes(tail)).decode(), tmp_path)
+    assert sum(p.stat().st_size for p in tmp_path.iterdir()) <= 50_000
+
+
+def test_no_entry_keeps_the_right_to_be_run_as_another_user(tmp_path):
+    entry = zipfile.ZipInfo("tool")
+    entry.external_attr = (stat.S_IFREG | stat.S_ISUID | 0o777) << 16
+    unpack(packed((entry, "x")), tmp_path)
+    assert not (tmp_path / "tool").stat().st_mode & (stat.S_ISUID | 0o111)
+
+
+def test_random_damage_never_breaks_out(tmp_path):
+    whole = base64.b64decode(packed(("a/b.py", "x" * 200), ("c", b"y" * 50)))
+    chance = random.Random(7)  # noqa: S311
+    folder = tmp_path / "in"
+    for n in range(300):
+        broken = bytearray(whole)
+        for _ in range(chance.randrange(1, 6)):
+            broken[chance.randrange(len(broken))] = chance.randrange(256)
+        target = folder / str(n)
+        target.mkdir(parents=True)
+        with contextlib.suppress(ArchiveError):
+            unpack(base64.b64encode(bytes(broken)).decode(), target)
+    assert [p.name for p in tmp_path.iterdir()] == ["in"]

@@ -156,6 +156,19 @@ async def test_too_much_memory_is_refused_to_the_process():
         assert "exit code 1" in event.reason or "memory" in event.reason
 
 
+@pytest.mark.parametrize(
+    ("habit", "limits", "reason"),
+    [
+        ("burns", {"cpu_s": 1}, "was ended: it used more than the 1 s of CPU time allowed"),
+        ("writes", {"file_bytes": 3 << 20}, "was ended: it wrote a file of more than the 3 MB allowed"),
+    ],
+)
+async def test_a_limit_that_is_hit_is_named(habit, limits, reason):
+    async with stage(habit, **limits) as it:
+        it.tell("start")
+        assert (await it.exit()).reason == reason
+
+
 async def test_a_program_that_does_not_exist_is_told():
     events = asyncio.Queue()
     supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)

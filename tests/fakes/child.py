@@ -6,6 +6,7 @@ import argparse
 import os
 import signal
 import sys
+import tempfile
 import time
 
 import msgspec
@@ -78,6 +79,18 @@ def leak():
         hoard.append(b"x" * 10_000_000)
 
 
+def burn():
+    while True:
+        pass
+
+
+def write_much():
+    signal.signal(signal.SIGXFSZ, signal.SIG_DFL)  # Python ignores it, other programs end by it
+    with tempfile.TemporaryFile() as file:
+        while True:
+            file.write(b"x" * 1_000_000)
+
+
 def die(code):
     sys.stderr.write("last words\n")
     sys.stderr.flush()
@@ -100,6 +113,8 @@ def main():
         "daemon": lambda: obey(channel, on_start=leave_daemon),
         "forks": lambda: obey(channel, on_start=fork_many),
         "leaks": lambda: obey(channel, on_start=leak),
+        "burns": lambda: obey(channel, on_start=burn),
+        "writes": lambda: obey(channel, on_start=write_much),
         "closes_pipe": lambda: (channel.close(), time.sleep(3600)),
         "talks_rubbish": lambda: (os.write(arguments.channel_fd, b"\xff" * 100), time.sleep(3600)),
     }

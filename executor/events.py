@@ -33,6 +33,7 @@ __all__ = [
     "Spawn",
     "StreamClosed",
     "StreamOpened",
+    "StreamPaced",
     "Tell",
     "TimePassed",
     "Unpack",
@@ -65,6 +66,14 @@ class StreamOpened:
     """A client's stream socket was opened: it needs its streams whole."""
 
     client: str
+
+
+@dataclass(frozen=True)
+class StreamPaced:
+    """A client's share of pictures that newer ones overtook before they could be sent, 0 to 1."""
+
+    client: str
+    lost: float
 
 
 @dataclass(frozen=True)
@@ -127,6 +136,7 @@ Event = (
     | ClientLeft
     | StreamOpened
     | StreamClosed
+    | StreamPaced
     | CommandCame
     | ChildSaid
     | ChildExited

@@ -15,6 +15,8 @@ __all__ = ["ControlOutbox", "StreamOutbox"]
 
 MAX_MESSAGES: Final = 4000
 MAX_BYTES: Final = 16 << 20
+PICTURES: Final = ("camera", "view")
+PACE_S: Final = 0.5
 
 
 class ControlOutbox:
@@ -63,6 +65,8 @@ class StreamOutbox:
     """The latest frame of each stream. A scene goes before the poses in it."""
 
     def __init__(self) -> None:
+        self._pictures = self._lost = 0
+        self._reported_s: float | None = None
         self._frames: dict[str, bytes] = {}
         self._filled = asyncio.Event()
 
@@ -72,7 +76,19 @@ class StreamOutbox:
             self._frames.pop("poses", None)
         waiting = self._frames.get(stream)
         self._frames[stream] = data if waiting is None else supersede(waiting, data)
+        if stream in PICTURES:
+            self._pictures += 1
+            self._lost += waiting is not None
         self._filled.set()
+
+    def lost_share(self, now_s: float) -> float | None:
+        """Returns the share of pictures that newer ones overtook, every `PACE_S`; else None."""
+        if not self._pictures or (self._reported_s is not None and now_s - self._reported_s < PACE_S):
+            return None
+        share = self._lost / self._pictures
+        is_first, self._reported_s = self._reported_s is None, now_s
+        self._pictures = self._lost = 0
+        return None if is_first else share
 
     async def take(self) -> bytes:
         """Returns the frame that has waited longest, the scene first."""

@@ -37,6 +37,7 @@ from executor.events import (
     Spawn,
     StreamClosed,
     StreamOpened,
+    StreamPaced,
     Tell,
     TimePassed,
     Unpack,
@@ -258,10 +259,8 @@ class Session:
             case ClientLeft():
                 for topic in self.clients.leave(event.client, self._now_s):
                     self.tell("world", "echo_topic", topic=topic, max_hz=0.0)
-            case StreamOpened():
-                self._open_stream(event.client)
-            case StreamClosed():
-                self._close_stream(event.client)
+            case StreamOpened() | StreamClosed() | StreamPaced():
+                self._on_stream(event)
             case CommandCame():
                 self._on_command(event)
             case ChildSaid():
@@ -287,6 +286,15 @@ class Session:
             ros_environment=dict(self.about.ros_environment),
         )
         self.send(client, payload)
+
+    def _on_stream(self, event: StreamOpened | StreamClosed | StreamPaced) -> None:
+        match event:
+            case StreamOpened():
+                self._open_stream(event.client)
+            case StreamClosed():
+                self._close_stream(event.client)
+            case StreamPaced() if self.state.reaches(State.VISUALIZATION_READY):
+                self.tell("world", "pace", client=event.client, lost=event.lost)
 
     def _open_stream(self, client: str) -> None:
         self.clients.set_stream(client, is_open=True)

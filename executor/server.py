@@ -10,6 +10,7 @@ import asyncio
 import contextlib
 import hmac
 import logging
+import time
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
@@ -19,8 +20,18 @@ from msgspec import UNSET, Struct
 from websockets.asyncio.server import Server, ServerConnection, serve, unix_serve
 from websockets.exceptions import ConnectionClosed
 
-from executor.events import ClientJoined, ClientLeft, CommandCame, Event, Send, StreamClosed, StreamOpened
+from executor.events import (
+    ClientJoined,
+    ClientLeft,
+    CommandCame,
+    Event,
+    Send,
+    StreamClosed,
+    StreamOpened,
+    StreamPaced,
+)
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
+from executor.metrics import CONTENT_TYPE, Traffic, metrics_text
 from executor.outbox import ControlOutbox, StreamOutbox
 
 if TYPE_CHECKING:
@@ -57,6 +68,7 @@ class SessionServer:
         self._controls: dict[str, ControlOutbox] = {}
         self._streams: dict[str, StreamOutbox] = {}
         self._seq = 0
+        self.traffic = Traffic()
         self._servers: list[Server] = []
 
     async def start(self, host: str, port: int) -> int:
@@ -92,6 +104,8 @@ class SessionServer:
 
     def send(self, effect: Send) -> None:
         """Queues an event for a client, or for all."""
+        self.traffic.refusals += effect.name == "error"
+        self.traffic.events += 1
         payload = msgspec.Raw(_encode(effect.payload))
         if effect.client is not None:
             self._queue(effect.client, effect.name, payload, effect.request)
@@ -105,8 +119,17 @@ class SessionServer:
         client, stream, data = message.get("client"), message.get("stream"), message.get("data")
         if not isinstance(data, bytes) or not isinstance(stream, str):
             return
-        for outbox in self._streams.values() if client is None else filter(None, [self._streams.get(client)]):
+        self.traffic.frames += 1
+        now_s = time.monotonic()
+        for name, outbox in list(self._streams.items()) if client is None else self._stream_of(client):
             outbox.put(stream, data)
+            lost = outbox.lost_share(now_s)
+            if lost is not None:
+                self._report(StreamPaced(name, lost))
+
+    def _stream_of(self, client: str) -> list[tuple[str, StreamOutbox]]:
+        outbox = self._streams.get(client)
+        return [] if outbox is None else [(client, outbox)]
 
     # --- requests ---------------------------------------------------------------------------------
 
@@ -114,10 +137,14 @@ class SessionServer:
         path = urlsplit(request.path).path
         if path == "/health":
             return self._health(connection)
+        if path == "/metrics":
+            return self._metrics(connection)
         if not self._is_authorized(request):
             return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
         if path not in {"/control", "/stream"}:
-            return connection.respond(HTTPStatus.NOT_FOUND, "There are /control, /stream and /health.\n")
+            return connection.respond(
+                HTTPStatus.NOT_FOUND, "There are /control, /stream, /health and /metrics.\n"
+            )
         if len(self._controls) >= MAX_CLIENTS:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many clients.\n")
         return None
@@ -137,6 +164,13 @@ class SessionServer:
         response = connection.respond(HTTPStatus.OK, _encode(body).decode() + "\n")
         del response.headers["Content-Type"]
         response.headers["Content-Type"] = "application/json"
+        return response
+
+    def _metrics(self, connection: ServerConnection) -> Response:
+        self.traffic.clients, self.traffic.streams = len(self._controls), len(self._streams)
+        response = connection.respond(HTTPStatus.OK, metrics_text(self._session, self.traffic))
+        del response.headers["Content-Type"]
+        response.headers["Content-Type"] = CONTENT_TYPE
         return response
 
     # --- connections ------------------------------------------------------------------------------
@@ -185,6 +219,7 @@ class SessionServer:
 
     def _take(self, client: str, frame: str | bytes) -> None:
         request = ""
+        self.traffic.commands += 1
         try:
             if isinstance(frame, bytes):
                 raise msgspec.DecodeError("commands are text frames")
@@ -202,6 +237,7 @@ class SessionServer:
         self._report(CommandCame(client, request, message.command, data))
 
     def _refuse(self, client: str, request: str, code: str, text: str) -> None:
+        self.traffic.refusals += 1
         self._queue(client, "error", msgspec.Raw(_encode(Error(code, text))), request)
 
     def _queue(self, client: str, name: str, payload: msgspec.Raw, request: str | None) -> None:
@@ -222,6 +258,7 @@ class SessionServer:
         return _encode(message)
 
     def _snapshot_message(self, client: str) -> bytes:
+        self.traffic.snapshots += 1
         _log.info("client %s is too slow and gets a snapshot", client)
         return self._envelope("snapshot", msgspec.Raw(_encode(self._session.mirror.snapshot())), None)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -12,8 +12,11 @@ if TYPE_CHECKING:
     Size = tuple[int, int]
 
 
+MOST_SIZES: Final = 6
+
+
 class Targets:
-    """Framebuffers by size. With `samples` > 1 the hardware smooths the edges."""
+    """Framebuffers of the sizes asked for last. With `samples` > 1 the hardware smooths the edges."""
 
     def __init__(self, context: Any, samples: int) -> None:
         self._context = context
@@ -21,27 +24,26 @@ class Targets:
         self._plain: dict[Size, Any] = {}
         self._sampled: dict[Size, Any] = {}
         self._measured: dict[Size, Any] = {}
-        self._pending: dict[Size, Any] = {}
+        self._drawn: Any = None
 
     def picture(self, width: int, height: int, *, smooth: bool) -> Any:
         """Returns the framebuffer to draw a picture into."""
         size = (width, height)
-        if size not in self._plain:
-            self._plain[size] = self._colored(size, 0)
+        self._plain[size] = self._plain.pop(size, None) or self._colored(size, 0)
         target = self._plain[size]
         if smooth and self._samples > 1:
-            if size not in self._sampled:
-                self._sampled[size] = self._colored(size, self._samples)
-            target = self._sampled[size]
-        self._pending[size] = target
+            target = self._sampled.pop(size, None) or self._colored(size, self._samples)
+            self._sampled[size] = target
+        self._drawn = target
+        for kept in (self._plain, self._sampled):
+            _forget_oldest(kept)
         return target
 
     def read(self, width: int, height: int) -> NDArray[np.uint8]:
         """Returns what was drawn into `picture` last, as rows of RGBA."""
-        size = (width, height)
-        target, plain = self._pending[size], self._plain[size]
-        if target is not plain:
-            self._context.copy_framebuffer(plain, target)
+        plain = self._plain[width, height]
+        if self._drawn is not plain:
+            self._context.copy_framebuffer(plain, self._drawn)
         picture = np.empty((height, width, 4), np.uint8)
         plain.read_into(picture, components=4)
         return picture
@@ -49,13 +51,24 @@ class Targets:
     def measured(self, width: int, height: int) -> Any:
         """Returns the framebuffer for two floats a pixel."""
         size = (width, height)
-        if size not in self._measured:
+        target = self._measured.pop(size, None)
+        if target is None:
             values = self._context.renderbuffer(size, 2, dtype="f4")
-            depth = self._context.depth_renderbuffer(size)
-            self._measured[size] = self._context.framebuffer([values], depth)
-        return self._measured[size]
+            target = self._context.framebuffer([values], self._context.depth_renderbuffer(size))
+        self._measured[size] = target
+        _forget_oldest(self._measured)
+        return target
 
     def _colored(self, size: Size, samples: int) -> Any:
         color = self._context.renderbuffer(size, 4, samples=samples)
         depth = self._context.depth_renderbuffer(size, samples=samples)
         return self._context.framebuffer([color], depth)
+
+
+def _forget_oldest(kept: dict[Size, Any]) -> None:
+    """Clients choose how wide their pictures are: memory must not grow with their fancy."""
+    while len(kept) > MOST_SIZES:
+        target = kept.pop(next(iter(kept)))
+        for attachment in (*target.color_attachments, target.depth_attachment):
+            attachment.release()
+        target.release()

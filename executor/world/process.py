@@ -139,14 +139,21 @@ class WorldProcess:
                 clockwork.teleop(float(message["linear"]), float(message["angular"]))
             case "move_body":
                 clockwork.move_body(str(message["id"]), message["pose"])
-            case "subscribe":
-                self._subscribe(clockwork, message)
-            case "unsubscribe":
-                clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
+            case "subscribe" | "unsubscribe" | "pace":
+                self._stream(clockwork, kind, message)
             case "list_topics" | "echo_topic" | "publish_topic" | "describe_type":
                 self._topics.obey(message)
             case _:
                 self._say_error("unknown_message", f"The world knows no message {kind!r}.")
+
+    def _stream(self, clockwork: Clockwork, kind: str, message: dict[str, Any]) -> None:
+        match kind:
+            case "unsubscribe":
+                clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
+            case "pace":
+                clockwork.streams.pace(message.get("client"), float(message["lost"]))
+            case _:
+                self._subscribe(clockwork, message)
 
     def _subscribe(self, clockwork: Clockwork, message: dict[str, Any]) -> None:
         pose = message.get("camera_pose")

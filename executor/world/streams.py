@@ -16,6 +16,7 @@ import simplejpeg
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.pose_codec import pack
 from executor.render.interface import look_at
+from executor.world.adaptation import LEVELS, Adaptation, Level
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 
 MAX_HZ: Final[dict[str, float]] = {"poses": 60.0, "scan": 30.0, "camera": 30.0, "view": 30.0}
 MOVED_M: Final = 1e-4
-JPEG_QUALITY: Final = 82
 VIEW_WIDTH: Final = 960
 WIDTHS: Final = (64, 1920)
 VIEW_FOV: Final = 1.05
@@ -61,6 +61,7 @@ class Streams:
         self._sensors = sensors
         self._send = send
         self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
+        self._adaptations: dict[str | None, Adaptation] = {}
 
     def __len__(self) -> int:
         return len(self._subscriptions)
@@ -88,6 +89,13 @@ class Streams:
     def unsubscribe(self, client: str | None, stream: str) -> None:
         """Ends a stream; one that is not there is ended already."""
         self._subscriptions.pop((client, stream), None)
+        if not any(one.client == client for one in self._subscriptions.values()):
+            self._adaptations.pop(client, None)
+
+    def pace(self, client: str | None, lost: float) -> None:
+        """Takes the share of its pictures that a client was too slow for, about twice a second."""
+        if any(one.client == client for one in self._subscriptions.values()):
+            self._adaptations.setdefault(client, Adaptation()).note(lost)
 
     def scene_changed(self) -> None:
         """Everybody who follows poses needs the scene anew."""
@@ -102,7 +110,7 @@ class Streams:
         """Sends what is due at a real time."""
         for subscription in list(self._subscriptions.values()):
             if now_s >= subscription.next_s and self._send_one(subscription):
-                period = 1.0 / subscription.max_hz
+                period = 1.0 / (subscription.max_hz * self._rate_share(subscription))
                 # In step with the rate unless far behind: else a 30 Hz stream of a 60 Hz world beats.
                 subscription.next_s = max(subscription.next_s + period, now_s - period)
 
@@ -148,18 +156,34 @@ class Streams:
                 ranges=reading.ranges.astype("<f4").tobytes(),
             )
         camera = robot.config.cameras[0]
-        picture = self._sensors.picture(robot, camera, subscription.width)
+        level = self._level(subscription.client)
+        wide = max(WIDTHS[0], round((subscription.width or camera.width) * level.width))
+        picture = self._sensors.picture(robot, camera, wide)
         height, width = picture.shape[:2]
         return Camera(
-            t=self._world.time_s, sensor=camera.name, width=width, height=height, jpeg=_jpeg(picture)
+            t=self._world.time_s,
+            sensor=camera.name,
+            width=width,
+            height=height,
+            jpeg=_jpeg(picture, level.quality),
         )
 
     def _view(self, subscription: Subscription) -> View:
-        width = subscription.width or VIEW_WIDTH
+        level = self._level(subscription.client)
+        # Sixteen pixels a step: JPEG's blocks, and few sizes to keep framebuffers of.
+        width = max(WIDTHS[0], round((subscription.width or VIEW_WIDTH) * level.width / 16) * 16)
         height = round(width * 9 / 16)
         pose = subscription.camera_pose
         picture = self._sensors.view(look_at(pose.eye, pose.target, VIEW_FOV), width, height)
-        return View(t=self._world.time_s, width=width, height=height, jpeg=_jpeg(picture))
+        return View(t=self._world.time_s, width=width, height=height, jpeg=_jpeg(picture, level.quality))
+
+    def _level(self, client: str | None) -> Level:
+        adaptation = self._adaptations.get(client)
+        return LEVELS[0] if adaptation is None else adaptation.level
+
+    def _rate_share(self, subscription: Subscription) -> float:
+        is_picture = subscription.stream in {"camera", "view"}
+        return self._level(subscription.client).rate if is_picture else 1.0
 
     def _send_poses(self, subscription: Subscription) -> bool:
         poses = self._world.poses()
@@ -197,8 +221,6 @@ class Streams:
         self._send(message | {"keep": True} if keep else message)
 
 
-def _jpeg(picture: NDArray[np.uint8]) -> bytes:
-    jpeg: bytes = simplejpeg.encode_jpeg(
-        picture, quality=JPEG_QUALITY, colorspace="RGB", colorsubsampling="420"
-    )
+def _jpeg(picture: NDArray[np.uint8], quality: int) -> bytes:
+    jpeg: bytes = simplejpeg.encode_jpeg(picture, quality=quality, colorspace="RGB", colorsubsampling="420")
     return jpeg

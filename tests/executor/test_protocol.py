@@ -18,6 +18,7 @@ from executor.events import (
     Spawn,
     StreamClosed,
     StreamOpened,
+    StreamPaced,
     Tell,
     Unpack,
     Unpacked,
@@ -458,6 +459,17 @@ def test_streams_flow_between_prepare_and_terminate_visualization():
     }
     play.command("terminate_visualization")
     assert play.told("world")[-1] == "unsubscribe"
+
+
+def test_the_world_hears_which_client_is_slow():
+    play = Play()
+    play.happens(StreamOpened("d"))
+    play.happens(StreamPaced("d", 0.5))
+    assert "pace" not in play.told("world")
+    play.climb(State.VISUALIZATION_READY)
+    play.happens(StreamPaced("d", 0.5))
+    (told,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "pace")
+    assert told.message == {"type": "pace", "client": "d", "lost": 0.5}
 
 
 def test_a_stream_socket_that_opens_again_is_served_whole():

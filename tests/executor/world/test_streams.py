@@ -198,3 +198,29 @@ def test_scans_carry_what_the_lidar_says(watched: Watched) -> None:
     expected = robot.scan(robot.config.lidars[0])
     np.testing.assert_array_equal(np.frombuffer(scan.ranges, "<f4"), expected.ranges)
     assert scan.pose == pytest.approx(expected.pose)
+
+
+def test_a_slow_client_gets_smaller_pictures_and_others_do_not(watched: Watched) -> None:
+    for client in ("slow", "fast"):
+        watched.streams.subscribe(client, "camera")
+    for _ in range(10):
+        watched.streams.pace("slow", 1.0)
+    first = len(watched.sent)
+    watched.run(2.0)
+    frames: dict[str, list[Camera]] = {"slow": [], "fast": []}
+    for message in watched.sent[first:]:
+        frames[message["client"]].append(decode(message["data"]))
+    assert {frame.width for frame in frames["fast"]} == {640}
+    assert {frame.width for frame in frames["slow"]} == {160}
+    assert len(frames["slow"]) < 0.4 * len(frames["fast"])
+    watched.streams.pace("nobody", 1.0)
+
+
+def test_who_comes_back_starts_with_the_best(watched: Watched) -> None:
+    watched.streams.subscribe("a", "camera")
+    for _ in range(10):
+        watched.streams.pace("a", 1.0)
+    watched.streams.unsubscribe("a", "camera")
+    watched.streams.subscribe("a", "camera")
+    [frame] = watched.stand(0.1)
+    assert frame.width == 640

@@ -1,0 +1,47 @@
+"""A client too slow for its pictures gets smaller ones, and better ones again as soon as it can."""
+
+from executor.world.adaptation import FIRST_PATIENCE, LEVELS, LONGEST_PATIENCE, Adaptation
+
+
+def after(adaptation: Adaptation, *losses: float) -> int:
+    for lost in losses:
+        adaptation.note(lost)
+    return LEVELS.index(adaptation.level)
+
+
+def test_it_goes_down_at_once_and_up_with_patience() -> None:
+    adaptation = Adaptation()
+    assert after(adaptation) == 0
+    assert after(adaptation, 0.9, 0.5) == 2
+    assert after(adaptation, *[0.0] * (FIRST_PATIENCE - 1)) == 2
+    assert after(adaptation, 0.0) == 1
+    assert after(adaptation, *[0.0] * FIRST_PATIENCE) == 0
+
+
+def test_a_single_frame_lost_changes_nothing() -> None:
+    assert after(Adaptation(), 0.1, 0.1, 0.2) == 0
+
+
+def test_the_last_level_is_the_last() -> None:
+    assert after(Adaptation(), *[1.0] * 20) == len(LEVELS) - 1
+
+
+def test_it_does_not_swing_where_the_better_level_is_too_much() -> None:
+    adaptation = Adaptation()
+    after(adaptation, 1.0)
+    waits = []
+    for _ in range(7):
+        quiet = 0
+        while LEVELS.index(adaptation.level) == 1:
+            adaptation.note(0.0)
+            quiet += 1
+        waits.append(quiet)
+        adaptation.note(1.0)
+    assert waits[:4] == [FIRST_PATIENCE * 2**i for i in range(4)]
+    assert waits[-1] == LONGEST_PATIENCE
+
+
+def test_each_level_is_less_than_the_one_before() -> None:
+    costs = [level.width**2 * level.rate * level.quality for level in LEVELS]
+    assert costs == sorted(costs, reverse=True)
+    assert len(set(costs)) == len(costs)

@@ -40,7 +40,8 @@ def rgba(color: str) -> list[float]:
 def make_ground(bullet: Bullet, friction: float) -> int:
     """Makes the endless floor and returns its body."""
     ground: int = bullet.createMultiBody(0, bullet.createCollisionShape(bullet.GEOM_PLANE))
-    bullet.changeDynamics(ground, -1, lateralFriction=friction, restitution=0.0)
+    # Bullet multiplies both sides' restitution: the ground leaves it to what falls.
+    bullet.changeDynamics(ground, -1, lateralFriction=friction, restitution=1.0)
     return ground
 
 
@@ -73,7 +74,7 @@ def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
     )
     bullet.changeDynamics(
         uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001,
-        restitution=model.restitution,
+        restitution=model.restitution, linearDamping=0.0, angularDamping=0.0,
     )  # fmt: skip
     return Body(uid, is_dynamic=model.mass > 0)
 

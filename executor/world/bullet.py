@@ -129,6 +129,9 @@ class BulletWorld:
                 collision = robot.observe_contact(now_s, self._obstacle_name)
                 if collision is not None:
                     self._collisions.append((robot.id, collision))
+            if self._steps % CONTROL_EVERY == 0:
+                for robot in robots:
+                    robot.measure(now_s, CONTROL_EVERY / STEP_HZ)
         self._poses = None
 
     def reset(self) -> None:

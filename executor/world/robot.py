@@ -148,13 +148,17 @@ class BulletRobot:
     # --- what the world calls ---
 
     def control(self, now_s: float, dt_s: float) -> None:
-        """Reads the wheels and sets their motors; once a control period."""
+        """Sets the wheels' motors; at the start of a control period."""
         self._clock_s = now_s
-        self._drive.observe(*self._wheel_angles(), dt_s)
         rates = self._drive.wheel_rates(now_s, dt_s) if self._senses.has_power else (0.0, 0.0)
-        self._feel(dt_s)
         if rates != self._applied:
             self._apply(rates)
+
+    def measure(self, now_s: float, dt_s: float) -> None:
+        """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
+        self._clock_s = now_s
+        self._drive.observe(*self._wheel_angles(), dt_s)
+        self._feel(dt_s)
         x, y, _ = self.pose
         moved = math.dist((x, y), self._at)
         if moved > 1e-5:  # the solver's own trembling is no travel

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 PERIOD_STEPS: Final = 4  # steps between looks at the world's topics: 60 Hz
 IDLE_CLOCK_S: Final = 0.05
+DRIVEN_S: Final = 0.6  # a paused world goes on this long after a command by hand: time to come to rest
 REPORT_S: Final = 1.0
 
 
@@ -44,6 +45,8 @@ class Clockwork:
         self._clock_s = 0.0
         self._report: _Report | None = None
         self._last_s: float | None = None
+        self._is_driven = False
+        self._driven_until_s = -1.0
         self.is_paused = True
         self.watchers: list[Callable[[float], None]] = []
         self.streams = Streams(world, sensors, send)
@@ -51,6 +54,7 @@ class Clockwork:
     def pause(self) -> None:
         """Lets simulated time stand still."""
         self.is_paused = True
+        self._is_driven, self._driven_until_s = False, -1.0
         self._pacer.pause()
 
     def resume(self) -> None:
@@ -75,9 +79,10 @@ class Clockwork:
         self._steps, self._report = 0, None
 
     def teleop(self, linear: float, angular: float) -> None:
-        """Drives the first robot by hand."""
+        """Drives the first robot by hand. Time goes on for it, also where the world is paused."""
         if self._world.robots:
             self._world.robots[0].command(linear, angular)
+            self._is_driven = True
 
     def stop_robots(self) -> None:
         """Wants no robot to move, whatever is still under way."""
@@ -92,7 +97,8 @@ class Clockwork:
 
     def run_due(self, now_s: float) -> None:
         """Does all that is due at a real time."""
-        if self.is_paused:
+        if self._stands_still(now_s):
+            self._pacer.pause()
             self._idle(now_s)
         else:
             self._advance(self._pacer.due(now_s))
@@ -103,12 +109,17 @@ class Clockwork:
 
     def next_due_s(self, now_s: float) -> float:
         """Returns the seconds until `run_due` has something to do."""
-        if not self.is_paused:
+        if not self.is_paused or self._is_driven or now_s < self._driven_until_s:
             return self._pacer.next_due_s(now_s, PERIOD_STEPS - self._steps % PERIOD_STEPS)
         idle = self._clock_s + IDLE_CLOCK_S - now_s
         return max(0.0, min(idle, self.streams.next_due_s(now_s) or IDLE_CLOCK_S))
 
     # --- inside ---
+
+    def _stands_still(self, now_s: float) -> bool:
+        if self._is_driven:
+            self._is_driven, self._driven_until_s = False, now_s + DRIVEN_S
+        return self.is_paused and now_s >= self._driven_until_s
 
     def _idle(self, now_s: float) -> None:
         """Who joins while time stands still must learn what time it is."""

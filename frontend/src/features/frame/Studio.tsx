@@ -9,12 +9,14 @@ import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { TakeAway } from '@/features/export/TakeAway';
 import { Banner } from '@/features/run/Banner';
+import { RestartOffer } from '@/features/run/RestartOffer';
 import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunActions } from '@/features/run/actions';
 import { useRunReactions } from '@/features/run/useRunReactions';
 import { registerTopicActions } from '@/features/topics/actions';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
+import { Worlds } from '@/features/universe/Worlds';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -104,6 +106,7 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunProgress />
       <Banner />
+      <RestartOffer />
       <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
       </main>
@@ -112,6 +115,7 @@ function Workbench({ projectId }: StudioProps) {
       <ConflictDialog />
       <FileDialog />
       <TakeAway />
+      <Worlds />
       <PublishDialog />
       <ConnectDialog />
       <RestoredNotice />

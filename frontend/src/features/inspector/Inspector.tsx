@@ -1,4 +1,5 @@
 import { useTranslation } from 'react-i18next';
+import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { useProjectStore } from '@/store/project';
 import { CommentField } from './CommentField';
 import { ConditionList } from './ConditionList';
@@ -37,6 +38,7 @@ export function Inspector() {
       <ConditionList {...target} />
       <CommentField {...target} />
       <LookFields {...target} />
+      <NodeStatistics tree={diagram.id} node={id} />
       <NodeDocs spec={spec} />
     </section>
   );

@@ -4,12 +4,13 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
 import { ActionButton } from '@/ui/ActionButton';
-import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
+import { RunMenu } from './RunMenu';
 import { SpeedSelect, TickRateSelect } from './RateSelects';
 import classes from './run.module.css';
+import { useHasChanged } from './useHasChanged';
 
 /** Run, and what can be done with what runs. */
 export function RunControls() {
@@ -49,6 +50,7 @@ export function RunControls() {
         <ActionButton action="run.pause" testId="pause" isDisabled={!isRunning || isViewer} />
       )}
       <ActionButton action="run.step" testId="step" isDisabled={!hasApplication || isViewer} />
+      <RunMenu isDisabled={isViewer} />
       <ActionButton action="run.stop" testId="stop" isDisabled={!hasApplication || isViewer} />
       <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isViewer} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
@@ -59,10 +61,4 @@ export function RunControls() {
       <ExecutorState />
     </Group>
   );
-}
-
-/** Whether the project was edited since what runs was started. */
-function useHasChanged(): boolean {
-  const ranAt = useRunStore((state) => state.ranAt);
-  return useProjectStore((state) => state.changeCounter !== ranAt);
 }

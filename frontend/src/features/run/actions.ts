@@ -1,8 +1,11 @@
 import {
+  IconDeviceGamepad2,
+  IconFocus2,
   IconPlayerPauseFilled,
   IconPlayerPlayFilled,
   IconPlayerSkipForwardFilled,
   IconPlayerStopFilled,
+  IconPlayerTrackNextFilled,
   IconPower,
   IconRefresh,
   IconRotateClockwise,
@@ -16,12 +19,14 @@ import {
   pause,
   end,
   resetWorld,
-  restartApplication,
   resume,
   step,
+  stepMany,
   stop,
 } from '@/store/run/commands';
-import { runProject } from '@/store/run/run';
+import { toggleFollowing } from './following';
+import { restartProject, runProject } from '@/store/run/run';
+import { setDriving, useTeleop } from '@/store/run/teleop';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
@@ -77,12 +82,38 @@ const rows: UserAction[] = [
     run: () => void stop(),
   },
   {
+    id: 'run.step10',
+    group: 'run',
+    labelKey: 'run:action.step10',
+    icon: IconPlayerTrackNextFilled,
+    shortcut: 'Shift+F10',
+    inTextFields: true,
+    enabled: hasApplication,
+    run: () => void stepMany(10),
+  },
+  {
+    id: 'run.followRunning',
+    group: 'run',
+    labelKey: 'run:action.followRunning',
+    icon: IconFocus2,
+    run: toggleFollowing,
+  },
+  {
+    id: 'run.teleop',
+    group: 'run',
+    labelKey: 'run:action.teleop',
+    icon: IconDeviceGamepad2,
+    run: () => setDriving(!useTeleop.getState().isOn),
+  },
+  {
     id: 'run.restart',
     group: 'run',
     labelKey: 'run:action.restart',
     icon: IconRotateClockwise,
-    enabled: hasApplication,
-    run: () => void restartApplication(),
+    shortcut: '$mod+Shift+F5',
+    inTextFields: true,
+    enabled: () => hasApplication() && useRunStore.getState().stage === null,
+    run: () => void restartProject(),
   },
   {
     id: 'run.resetWorld',

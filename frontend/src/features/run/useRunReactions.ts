@@ -3,6 +3,8 @@ import { useProjectStore } from '@/store/project';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
+import { followRunning } from './following';
+
 interface Frame {
   showPanel: (panel: 'problems' | 'console') => void;
   openFile: (path: string, line?: number) => void;
@@ -12,6 +14,8 @@ interface Frame {
 export function useRunReactions({ showPanel, openFile }: Frame): void {
   const failure = useRunStore((state) => state.failure);
   const fault = useSessionStore((state) => state.faults.at(-1));
+
+  useEffect(followRunning, []);
 
   useEffect(() => {
     if (!failure || failure.diagnostics.length === 0) return;

@@ -5,10 +5,14 @@ import * as THREE from 'three';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
+import { trail } from '@/store/session/trail';
+import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
 import { Lights } from './Lights';
+import { MeasureLine } from './MeasureLine';
 import { TrailView } from './TrailView';
 import type { ViewOptions } from './viewOptions';
+import { useTools } from './useTools';
 import { useThrottledInvalidate } from './useThrottledInvalidate';
 import { isSoftwareWebGl } from './webgl';
 import { World } from './World';
@@ -29,22 +33,28 @@ export function Stage({ scene, options, isDark }: StageProps) {
   const isSimple = isSoftwareWebGl();
   const world = useMemo(() => new World(scene, isSimple), [scene, isSimple]);
   const lidar = useMemo(() => new LidarView(), []);
-  const trail = useMemo(() => (scene ? new TrailView() : new TrailView()), [scene]);
+  const trailView = useMemo(() => new TrailView(trail), []);
+  const framesView = useMemo(() => new FramesView(scene, world), [scene, world]);
+  const frustum = useMemo(() => new FrustumView(scene, world), [scene, world]);
   const controls = useRef<ComponentRef<typeof OrbitControls>>(null);
   const requestFrame = useThrottledInvalidate();
   const look = isDark ? LOOKS.dark : LOOKS.light;
 
   useEffect(() => () => world.dispose(), [world]);
   useEffect(() => () => lidar.dispose(), [lidar]);
-  useEffect(() => () => trail.dispose(), [trail]);
+  useEffect(() => () => trailView.dispose(), [trailView]);
+  useEffect(() => () => framesView.dispose(), [framesView]);
+  useEffect(() => () => frustum.dispose(), [frustum]);
+  useEffect(() => {
+    framesView.show(options.frames);
+    frustum.show(options.frustum);
+    requestFrame();
+  }, [framesView, frustum, options.frames, options.frustum, requestFrame]);
 
   useEffect(() => {
     const stopPoses = frames.listen('poses', (frame) => {
       const changed: [number, Pose][] = [];
-      forEachPose(frame, (id, pose) => {
-        changed.push([id, pose]);
-        if (id === world.robotId) trail.add(new THREE.Vector3(pose[0], pose[1], 0), frame.t);
-      });
+      forEachPose(frame, (id, pose) => changed.push([id, pose]));
       world.receive(changed, performance.now());
       requestFrame();
     });
@@ -56,11 +66,12 @@ export function Stage({ scene, options, isDark }: StageProps) {
       stopPoses();
       stopScans();
     };
-  }, [world, lidar, trail, requestFrame]);
+  }, [world, lidar, requestFrame]);
 
   const lastRobot = useRef(new THREE.Vector3());
   useFrame(({ camera }) => {
     const isMoving = world.advance(performance.now());
+    if (options.trail) trailView.update();
     if (world.robot) {
       if (options.follow && controls.current) {
         const step = world.robot.position.clone().sub(lastRobot.current);
@@ -73,6 +84,7 @@ export function Stage({ scene, options, isDark }: StageProps) {
   });
 
   useViewpoint(world, controls, options.viewpoint);
+  useTools(world, controls);
 
   return (
     <>
@@ -95,7 +107,9 @@ export function Stage({ scene, options, isDark }: StageProps) {
       ) : null}
       <primitive object={world.group} />
       {options.rays ? <primitive object={lidar.group} /> : null}
-      {options.trail ? <primitive object={trail.line} /> : null}
+      {options.trail ? <primitive object={trailView.line} /> : null}
+      {options.frames ? <primitive object={framesView.origin} /> : null}
+      <MeasureLine />
       <OrbitControls
         ref={controls}
         makeDefault

@@ -1,51 +1,52 @@
-import * as THREE from 'three';
+import type * as THREE from 'three';
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
+import { MAX_POINTS, type Trail } from '@/store/session/trail';
 
-const MAX_POINTS = 6000;
-const STEP_M = 0.03;
 const LIFT_M = 0.012;
-const FASTEST_M_S = 5;
+const WIDTH_PX = 3;
+const COLOR = 0xf59f00;
 
-/** Where the robot has been. */
+/** Where the robot has been, as a line wide enough to be seen. */
 export class TrailView {
-  readonly line: THREE.Line;
-  private readonly points = new Float32Array(MAX_POINTS * 3);
-  private readonly attribute = new THREE.BufferAttribute(this.points, 3);
-  private count = 0;
-  private lastTime = 0;
-  private readonly last = new THREE.Vector3(Infinity, 0, 0);
+  readonly line: LineSegments2;
+  private readonly segments = new Float32Array(MAX_POINTS * 6);
+  private readonly geometry = new LineSegmentsGeometry();
+  private shown = -1;
 
-  constructor() {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', this.attribute);
-    geometry.setDrawRange(0, 0);
-    this.line = new THREE.Line(
-      geometry,
-      new THREE.LineBasicMaterial({ color: 0xf59f00, transparent: true, opacity: 0.95 }),
-    );
+  constructor(private readonly trail: Trail) {
+    this.geometry.setPositions(this.segments);
+    this.line = new LineSegments2(this.geometry, new LineMaterial({ color: COLOR, linewidth: WIDTH_PX }));
     this.line.frustumCulled = false;
+    this.update();
   }
 
-  /** Adds where the robot was at a simulated time. */
-  add(position: THREE.Vector3, t: number): void {
-    const step = this.last.distanceTo(position);
-    const passed = t - this.lastTime;
-    // Time went back or the robot was put somewhere else: the old way does not lead there.
-    if (passed < 0 || (this.count > 0 && step > Math.max(STEP_M, passed * FASTEST_M_S))) this.count = 0;
-    else if (step < STEP_M) return;
-    this.lastTime = t;
-    this.last.copy(position);
-    if (this.count === MAX_POINTS) {
-      this.points.copyWithin(0, MAX_POINTS * 1.5, MAX_POINTS * 3);
-      this.count = MAX_POINTS / 2;
+  /** Takes what the trail has become; tells whether that is something new. */
+  update(): boolean {
+    const { trail, segments } = this;
+    if (trail.version === this.shown) return false;
+    this.shown = trail.version;
+    const count = Math.max(trail.count - 1, 0);
+    for (let i = 0; i < count; i++) {
+      const at = i * 6;
+      segments[at] = trail.x(i);
+      segments[at + 1] = trail.y(i);
+      segments[at + 2] = LIFT_M;
+      segments[at + 3] = trail.x(i + 1);
+      segments[at + 4] = trail.y(i + 1);
+      segments[at + 5] = LIFT_M;
     }
-    this.points.set([position.x, position.y, LIFT_M], this.count * 3);
-    this.count += 1;
-    this.attribute.needsUpdate = true;
-    this.line.geometry.setDrawRange(0, this.count);
+    const start = this.geometry.getAttribute('instanceStart') as THREE.InterleavedBufferAttribute;
+    start.data.set(segments.subarray(0, count * 6));
+    start.data.needsUpdate = true;
+    this.geometry.instanceCount = count;
+    this.line.visible = count > 0;
+    return true;
   }
 
   dispose(): void {
-    this.line.geometry.dispose();
-    (this.line.material as THREE.Material).dispose();
+    this.geometry.dispose();
+    this.line.material.dispose();
   }
 }

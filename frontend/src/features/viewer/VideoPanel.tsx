@@ -2,6 +2,7 @@ import { useEffect, useRef, type KeyboardEvent, type PointerEvent } from 'react'
 import { useTranslation } from 'react-i18next';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
+import { TeleopPad } from './TeleopPad';
 import { useStream } from './useStream';
 import { useVisible } from '@/ui/useVisible';
 import classes from './viewer.module.css';
@@ -90,6 +91,7 @@ export function VideoPanel() {
         label={t('videoLabel')}
         emptyText={hasWebGl() ? t('videoNone') : `${t('noWebGl')} ${t('press')}`}
       />
+      {hasWebGl() ? null : <TeleopPad />}
     </div>
   );
 }

@@ -9,7 +9,9 @@ import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { useSessionStore } from '@/store/session/store';
 import { CameraInset } from './CameraInset';
+import { Notes } from './Notes';
 import { Stage } from './Stage';
+import { TeleopPad } from './TeleopPad';
 import { useStream } from './useStream';
 import { useUsesCamera } from './useUsesCamera';
 import { useVisible } from '@/ui/useVisible';
@@ -73,6 +75,8 @@ export function Viewer3d() {
             <Stage scene={scene} options={options} isDark={isDark} />
           </Canvas>
           <ViewerToolbar options={{ ...options, camera }} onChange={change} />
+          <Notes />
+          <TeleopPad />
           {camera ? <CameraInset isVisible={isVisible} /> : null}
         </>
       ) : null}

@@ -1,14 +1,16 @@
-import { ActionIcon, Tooltip } from '@mantine/core';
+import { ActionIcon, Menu, Tooltip } from '@mantine/core';
 import {
-  IconCamera,
+  IconCheck,
   IconCurrentLocation,
+  IconDeviceGamepad2,
+  IconEye,
   IconFocusCentered,
-  IconGrid4x4,
-  IconRadar2,
-  IconRoute,
+  IconRulerMeasure,
   IconView360Arrow,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { setDriving, useTeleop } from '@/store/run/teleop';
+import { setMeasuring, useMeasuring } from './measuring';
 import type { ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
 
@@ -17,43 +19,87 @@ interface ViewerToolbarProps {
   readonly onChange: (part: Partial<ViewOptions>) => void;
 }
 
-const TOGGLES = [
-  { key: 'rays', icon: IconRadar2 },
-  { key: 'trail', icon: IconRoute },
-  { key: 'grid', icon: IconGrid4x4 },
-  { key: 'follow', icon: IconCurrentLocation },
-  { key: 'camera', icon: IconCamera },
-] as const;
-
-const VIEWPOINTS = [
-  { key: 'top', kind: 'top', icon: IconFocusCentered },
-  { key: 'reset', kind: 'default', icon: IconView360Arrow },
-] as const;
+const SHOWN = ['rays', 'trail', 'grid', 'frames', 'frustum', 'camera'] as const;
 
 export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   const { t } = useTranslation('viewer');
+  const isDriving = useTeleop((state) => state.isOn);
+  const isMeasuring = useMeasuring((state) => state.isOn);
   return (
-    <div className={classes['toolbar']} role="toolbar" aria-label={t('label3d')}>
-      {TOGGLES.map(({ key, icon: Icon }) => (
-        <Tooltip key={key} label={t(key)} position="left">
-          <ActionIcon
-            variant={options[key] ? 'light' : 'subtle'}
-            color={options[key] ? 'indigo' : 'gray'}
-            aria-label={t(key)}
-            aria-pressed={options[key]}
-            onClick={() => onChange({ [key]: !options[key] })}
-          >
-            <Icon size={17} />
-          </ActionIcon>
+    <div className={classes['toolbar']} role="toolbar" aria-label={t('tools')}>
+      <Menu position="left-start" closeOnItemClick={false}>
+        <Tooltip label={t('show')} position="left">
+          <Menu.Target>
+            <ActionIcon aria-label={t('show')}>
+              <IconEye size={17} />
+            </ActionIcon>
+          </Menu.Target>
         </Tooltip>
-      ))}
-      {VIEWPOINTS.map(({ key, kind, icon: Icon }) => (
-        <Tooltip key={key} label={t(key)} position="left">
-          <ActionIcon aria-label={t(key)} onClick={() => onChange({ viewpoint: { kind } })}>
-            <Icon size={17} />
-          </ActionIcon>
-        </Tooltip>
-      ))}
+        <Menu.Dropdown>
+          {SHOWN.map((key) => (
+            <Menu.Item
+              key={key}
+              role="menuitemcheckbox"
+              aria-checked={options[key]}
+              leftSection={options[key] ? <IconCheck size={15} /> : <span className={classes['unchecked']} />}
+              onClick={() => onChange({ [key]: !options[key] })}
+            >
+              {t(key)}
+            </Menu.Item>
+          ))}
+        </Menu.Dropdown>
+      </Menu>
+      <Tool
+        label={t('follow')}
+        icon={IconCurrentLocation}
+        isPressed={options.follow}
+        onClick={() => onChange({ follow: !options.follow })}
+      />
+      <Tool
+        label={t('top')}
+        icon={IconFocusCentered}
+        onClick={() => onChange({ viewpoint: { kind: 'top' } })}
+      />
+      <Tool
+        label={t('reset')}
+        icon={IconView360Arrow}
+        onClick={() => onChange({ viewpoint: { kind: 'default' } })}
+      />
+      <Tool
+        label={t('measure')}
+        icon={IconRulerMeasure}
+        isPressed={isMeasuring}
+        onClick={() => setMeasuring(!isMeasuring)}
+      />
+      <Tool
+        label={t('drive')}
+        icon={IconDeviceGamepad2}
+        isPressed={isDriving}
+        onClick={() => setDriving(!isDriving)}
+      />
     </div>
+  );
+}
+
+interface ToolProps {
+  readonly label: string;
+  readonly icon: typeof IconEye;
+  readonly isPressed?: boolean;
+  readonly onClick: () => void;
+}
+
+function Tool({ label, icon: Icon, isPressed, onClick }: ToolProps) {
+  return (
+    <Tooltip label={label} position="left">
+      <ActionIcon
+        variant={isPressed ? 'light' : 'subtle'}
+        color={isPressed ? 'indigo' : 'gray'}
+        aria-label={label}
+        {...(isPressed === undefined ? {} : { 'aria-pressed': isPressed })}
+        onClick={onClick}
+      >
+        <Icon size={17} />
+      </ActionIcon>
+    </Tooltip>
   );
 }

@@ -4,6 +4,7 @@ import { currentPoses, type Pose } from '@/store/session/poses';
 import { GeometryCache } from './geometry';
 
 interface Moving {
+  body: string;
   object: THREE.Object3D;
   from: { position: THREE.Vector3; rotation: THREE.Quaternion };
   to: { position: THREE.Vector3; rotation: THREE.Quaternion };
@@ -30,8 +31,11 @@ export class World {
   private interval = 50;
   private lastFrameAt = 0;
 
+  private readonly ids = new Map<THREE.Object3D, number>();
+  private readonly held = new Set<string>();
+
   constructor(
-    scene: Scene,
+    readonly scene: Scene,
     private readonly isSimple: boolean,
   ) {
     this.geometries = new GeometryCache(scene.meshes);
@@ -54,7 +58,7 @@ export class World {
     this.lastFrameAt = now;
     for (const [id, pose] of changed) {
       const item = this.moving.get(id);
-      if (!item) continue;
+      if (!item || this.held.has(item.body)) continue;
       item.from.position.copy(item.object.position);
       item.from.rotation.copy(item.object.quaternion);
       setPose(item.to.position, item.to.rotation, pose);
@@ -80,6 +84,50 @@ export class World {
     return isMoving;
   }
 
+  object(id: number): THREE.Object3D | undefined {
+    return this.moving.get(id)?.object;
+  }
+
+  /** The id of the object that a mesh is a part of. */
+  idOf(part: THREE.Object3D): number | null {
+    for (let at: THREE.Object3D | null = part; at; at = at.parent) {
+      const id = this.ids.get(at);
+      if (id !== undefined) return id;
+    }
+    return null;
+  }
+
+  /** The pieces of a body, its base first. */
+  objectsOf(body: string): THREE.Object3D[] {
+    return [...this.moving.values()].filter((item) => item.body === body).map((item) => item.object);
+  }
+
+  boundsOf(body: string): THREE.Box3 {
+    const bounds = new THREE.Box3();
+    for (const object of this.objectsOf(body)) bounds.expandByObject(object);
+    return bounds;
+  }
+
+  /** While a body is held, poses that arrive do not move it. */
+  hold(body: string): void {
+    this.held.add(body);
+    for (const item of this.moving.values()) if (item.body === body) item.start = 0;
+  }
+
+  /** Puts a body where the session last said that it is. */
+  put(body: string): void {
+    for (const [id, item] of this.moving) {
+      const pose = currentPoses.get(id);
+      if (item.body !== body || !pose) continue;
+      setPose(item.to.position, item.to.rotation, pose);
+      this.settle(item);
+    }
+  }
+
+  letGo(body: string): void {
+    this.held.delete(body);
+  }
+
   dispose(): void {
     this.geometries.dispose();
     for (const material of this.materials.values()) material.dispose();
@@ -97,7 +145,9 @@ export class World {
     for (const shape of object.shapes) node.add(this.meshOf(shape, object.kind));
     const pose = currentPoses.get(object.id) ?? object.pose;
     setPose(node.position, node.quaternion, pose);
+    this.ids.set(node, object.id);
     this.moving.set(object.id, {
+      body: object.body,
       object: node,
       from: { position: node.position.clone(), rotation: node.quaternion.clone() },
       to: { position: node.position.clone(), rotation: node.quaternion.clone() },

@@ -2,6 +2,10 @@ export interface ViewOptions {
   rays: boolean;
   trail: boolean;
   grid: boolean;
+  /** Coordinate frames of world, links and sensors. */
+  frames: boolean;
+  /** What the robots' cameras see, as pyramids. */
+  frustum: boolean;
   follow: boolean;
   /** Whether the robot's camera is shown in a corner; null leaves it to whether the program uses pictures. */
   camera: boolean | null;
@@ -9,10 +13,18 @@ export interface ViewOptions {
   viewpoint: { kind: 'default' | 'top' };
 }
 
-type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'follow' | 'camera'>;
+type Kept = Pick<ViewOptions, 'rays' | 'trail' | 'grid' | 'frames' | 'frustum' | 'follow' | 'camera'>;
 
 const KEY = 'bts.viewer';
-const DEFAULTS: Kept = { rays: true, trail: true, grid: true, follow: false, camera: null };
+const DEFAULTS: Kept = {
+  rays: true,
+  trail: true,
+  grid: true,
+  frames: false,
+  frustum: true,
+  follow: false,
+  camera: null,
+};
 
 export function loadViewOptions(): ViewOptions {
   let kept: Partial<Kept> = {};
@@ -24,6 +36,6 @@ export function loadViewOptions(): ViewOptions {
   return { ...DEFAULTS, ...kept, viewpoint: { kind: 'default' } };
 }
 
-export function keepViewOptions({ rays, trail, grid, follow, camera }: ViewOptions): void {
-  localStorage.setItem(KEY, JSON.stringify({ rays, trail, grid, follow, camera }));
+export function keepViewOptions({ viewpoint: _, ...kept }: ViewOptions): void {
+  localStorage.setItem(KEY, JSON.stringify(kept satisfies Kept));
 }

@@ -1,9 +1,14 @@
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Scan, Scene, Shape } from '@/generated/messages';
 import { currentPoses } from '@/store/session/poses';
+import { Trail } from '@/store/session/trail';
+import { Carried, carriable } from './Carried';
+import { pyramidOf } from './HelperViews';
 import { LidarView } from './LidarView';
+import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring';
 import { panned, poseOf, START, turned, zoomed } from './orbit';
+import { directionOf } from './TeleopPad';
 import { TrailView } from './TrailView';
 import { World } from './World';
 
@@ -58,26 +63,73 @@ describe('World', () => {
 });
 
 describe('TrailView', () => {
-  const count = (trail: TrailView) => trail.line.geometry.drawRange.count;
+  it('shows what the trail has become, and nothing before there is a way', () => {
+    const trail = new Trail();
+    const view = new TrailView(trail);
+    expect(view.line.visible).toBe(false);
+    for (let step = 0; step < 10; step += 1) trail.add(step * 0.1, 0, step);
+    expect(view.update()).toBe(true);
+    expect(view.update()).toBe(false);
+    expect(view.line.geometry.instanceCount).toBe(9);
+  });
+});
 
-  it('grows as the robot goes, and not while it stands', () => {
-    const trail = new TrailView();
-    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
-    trail.add(new THREE.Vector3(0.9, 0, 0), 11);
-    expect(count(trail)).toBe(10);
+describe('Carried', () => {
+  const carried = () => {
+    const world = new World(scene, true);
+    return { world, body: new Carried(world, 'robot') };
+  };
+
+  it('takes a body along and turns it about itself; what it was stays known', () => {
+    const { world, body } = carried();
+    body.moveBy(1, 2);
+    body.turnBy(Math.PI / 2);
+    expect(body.pose().slice(0, 3)).toEqual([1, 2, 0]);
+    expect(body.pose()[5]).toBeCloseTo(Math.PI / 2);
+    expect(body.origin.slice(0, 2)).toEqual([0, 0]);
+    world.receive([[2, pose(9)]], 1000);
+    world.advance(5000);
+    expect(world.robot!.position.x).toBeCloseTo(1);
+    body.release(false);
+    expect(world.robot!.position.x).toBeCloseTo(0);
   });
 
-  it('begins anew where the robot was put somewhere else', () => {
-    const trail = new TrailView();
-    for (let step = 0; step < 10; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
-    trail.add(new THREE.Vector3(-4, 0, 0), 9.1);
-    expect(count(trail)).toBe(1);
+  it('cannot take the room', () => {
+    const wall: Shape = { ...box, size: [10, 0.2, 1] };
+    const room = { ...scene, objects: [{ ...scene.objects[0]!, shapes: [wall] }, scene.objects[1]!] };
+    const world = new World(room, true);
+    expect(carriable(world, 1)).toBeNull();
+    expect(carriable(world, 2)).toBe('robot');
+    expect(carriable(world, null)).toBeNull();
   });
+});
 
-  it('forgets the oldest half rather than grow without end', () => {
-    const trail = new TrailView();
-    for (let step = 0; step < 6010; step += 1) trail.add(new THREE.Vector3(step * 0.1, 0, 0), step);
-    expect(count(trail)).toBe(3010);
+describe('measuring', () => {
+  it('measures between two points, and begins anew with a third', () => {
+    setMeasuring(true);
+    addMeasured([0, 0, 0]);
+    addMeasured([3, 4, 12]);
+    const [a, b] = useMeasuring.getState().points;
+    expect(distances([a!, b!])).toEqual({ straight: 13, flat: 5, rise: 12 });
+    addMeasured([1, 1, 0]);
+    expect(useMeasuring.getState().points).toEqual([[1, 1, 0]]);
+  });
+});
+
+describe('driving by hand', () => {
+  it('adds up what is held', () => {
+    expect(directionOf(['KeyW', 'KeyA'])).toEqual({ linear: 1, angular: 1 });
+    expect(directionOf(['ArrowUp', 'KeyW'])).toEqual({ linear: 1, angular: 0 });
+    expect(directionOf(['KeyW', 'KeyS'])).toEqual({ linear: 0, angular: 0 });
+    expect(directionOf([])).toEqual({ linear: 0, angular: 0 });
+  });
+});
+
+describe('pyramidOf', () => {
+  it('is as wide as the camera sees', () => {
+    const corners = pyramidOf({ fov: Math.PI / 2, range: 2 }).getAttribute('position');
+    expect(corners.getX(1)).toBe(2);
+    expect(corners.getY(1)).toBeCloseTo(2);
   });
 });
 

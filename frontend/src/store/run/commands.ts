@@ -25,12 +25,20 @@ export const pause = () => reported(send('pause', {}));
 export const resume = () => reported(send('resume', {}));
 export const stop = () => reported(send('terminate_application', {}));
 export const resetWorld = () => reported(send('reset_world', {}));
-export const restartApplication = () => reported(send('restart_application', {}));
 export const end = () => reported(endSession());
 
 /** One tick; a run that is going on is paused first. */
 export async function step(): Promise<void> {
   await reported(isRunning() ? send('pause', {}).then(() => send('step', {})) : send('step', {}));
+}
+
+/** Several ticks, one after the other; ends at the first that is refused. */
+export async function stepMany(count: number): Promise<void> {
+  await step();
+  const others = async () => {
+    for (let i = 1; i < count; i++) await send('step', {});
+  };
+  if (isPaused()) await reported(others());
 }
 
 /** The rate belongs to the project, and takes effect at once in what runs. */

@@ -8,9 +8,15 @@ import { ensureConnected, send } from '@/store/session/connection';
 import { CommandError } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
+import { chosenWorld } from './world';
 
 /** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
-export async function runProject(): Promise<boolean> {
+export const runProject = () => launch((app) => send('run', runCommand(app)));
+
+/** Saves, checks, and starts the program as it is now; the world goes on as it stands. */
+export const restartProject = () => launch((app) => send('run_application', applicationOf(app)));
+
+async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
   useRunStore.setState({ stage: 'saving', failure: null });
@@ -29,7 +35,7 @@ export async function runProject(): Promise<boolean> {
     enter('starting');
     await ensureConnected(projectId);
     enter('launching');
-    await send('run', runCommand(app));
+    await begin(app);
     return true;
   } catch (error) {
     useRunStore.setState({ failure: failureOf(error) });
@@ -52,14 +58,21 @@ function runCommand(app: AppBundle): Commands['run'] {
   const { speed } = useSessionStore.getState();
   useSessionStore.setState({ tickHz: app.tick_hz });
   return {
-    universe: { universe: app.universe, robot: app.robot, speed },
-    application: {
-      app_zip_base64: app.app_zip_base64,
-      tick_hz: app.tick_hz,
-      on_finish: app.on_finish,
-      on_error: app.on_error,
-    },
+    universe: { ...chosenWorld(app, ownUniverse), speed },
+    application: applicationOf(app),
   };
+}
+
+/** The text of a universe that belongs to the project. */
+const ownUniverse = (id: string) => useProjectStore.getState().currentText(`universes/${id}.yaml`);
+
+function applicationOf({
+  app_zip_base64,
+  tick_hz,
+  on_finish,
+  on_error,
+}: AppBundle): Commands['run_application'] {
+  return { app_zip_base64, tick_hz, on_finish, on_error };
 }
 
 function failureOf(error: unknown): LaunchFailure {

@@ -30,10 +30,10 @@ export const useTeleop = create<TeleopData>(() => ({
 
 let repeating: ReturnType<typeof setInterval> | undefined;
 
-/** Driving by hand needs a world whose time goes on, or may: a paused one stands still. */
+/** Driving by hand needs a world; time goes on in it while one drives, also where it was paused. */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
-  return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';
+  return !['idle', 'connected'].includes(executor) && introspection?.role !== 'viewer';
 }
 
 /** Drives into a direction until another one, or none, is given. */

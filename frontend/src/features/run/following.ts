@@ -1,0 +1,65 @@
+import { create } from 'zustand';
+import { liveKey, useLiveStore } from '@/store/project/live';
+import { useProjectStore } from '@/store/project';
+import { openTree } from '@/store/project/navigation';
+import { useSessionStore } from '@/store/session/store';
+import type { TreeNode } from '@/generated/messages';
+
+const KEY = 'bts.followRunning';
+/** Often enough to keep up, seldom enough to be looked at. */
+const SHORTEST_MS = 700;
+
+export const useFollowing = create<{ isOn: boolean }>(() => ({ isOn: localStorage.getItem(KEY) === '1' }));
+
+export function toggleFollowing(): void {
+  const isOn = !useFollowing.getState().isOn;
+  localStorage.setItem(KEY, isOn ? '1' : '0');
+  useFollowing.setState({ isOn });
+}
+
+/** The running leaf that comes first in the tree: what the robot is doing now. */
+export function runningLeaf(
+  nodes: readonly TreeNode[],
+  isRunning: (node: TreeNode) => boolean,
+): TreeNode | undefined {
+  const parents = new Set(nodes.filter(isRunning).map((node) => node.parent));
+  return nodes.find((node) => node.node_id !== '' && isRunning(node) && !parents.has(node.uid));
+}
+
+/** While it is on, the canvas shows the block that runs; what is selected stays selected. */
+export function followRunning(): () => void {
+  let shown = '';
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  const show = () => {
+    timer = undefined;
+    if (!useFollowing.getState().isOn) return;
+    const { statuses } = useLiveStore.getState();
+    const isRunning = (node: TreeNode) => statuses.get(liveKey(node.tree_id, node.node_id)) === 'RUNNING';
+    const leaf = runningLeaf(useSessionStore.getState().tree, isRunning);
+    const key = leaf ? liveKey(leaf.tree_id, leaf.node_id) : '';
+    if (!leaf || key === shown) return;
+    shown = key;
+    openTree(leaf.tree_id);
+    useProjectStore.setState((state) => ({
+      revealed: { tree: leaf.tree_id, node: leaf.node_id, count: (state.revealed?.count ?? 0) + 1 },
+    }));
+  };
+  const later = () => {
+    timer ??= setTimeout(show, SHORTEST_MS);
+  };
+
+  const stops = [
+    useLiveStore.subscribe((state, before) => {
+      if (state.statuses !== before.statuses && useFollowing.getState().isOn) later();
+    }),
+    useFollowing.subscribe(() => {
+      shown = '';
+      later();
+    }),
+  ];
+  return () => {
+    clearTimeout(timer);
+    for (const stop of stops) stop();
+  };
+}

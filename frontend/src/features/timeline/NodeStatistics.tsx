@@ -1,0 +1,74 @@
+import { useEffect, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { NodeStatus } from '@/generated/messages';
+import { history } from '@/store/session/history';
+import { BIT } from '@/store/session/lane';
+import { useSessionStore } from '@/store/session/store';
+import classes from './timeline.module.css';
+
+const EVERY_MS = 500;
+
+interface NodeStatisticsProps {
+  readonly tree: string;
+  readonly node: string;
+}
+
+interface Statistics {
+  status: NodeStatus;
+  runs: number;
+  seconds: number;
+  successes: number;
+  failures: number;
+}
+
+/** What a block did in this run, all its instances together, as far back as the timeline goes. */
+export function NodeStatistics({ tree, node }: NodeStatisticsProps) {
+  const { t } = useTranslation(['timeline', 'run']);
+  const nodes = useSessionStore((state) => state.tree);
+  const [shown, setShown] = useState<Statistics | null>(null);
+  useEffect(() => {
+    const uids = nodes.filter((n) => n.tree_id === tree && n.node_id === node).map((n) => n.uid);
+    const update = () => setShown(uids.length > 0 ? statisticsOf(uids) : null);
+    update();
+    const timer = setInterval(update, EVERY_MS);
+    return () => clearInterval(timer);
+  }, [nodes, tree, node]);
+  if (!shown) return null;
+  const rows = [
+    ['status', t(`run:status.${shown.status}`)],
+    ['runs', String(shown.runs)],
+    ['mean', shown.runs > 0 ? `${(shown.seconds / shown.runs).toFixed(2)} s` : '—'],
+    ['successes', String(shown.successes)],
+    ['failures', String(shown.failures)],
+  ] as const;
+  return (
+    <section className={classes['statistics']} aria-label={t('node.title')} data-testid="node-statistics">
+      <h3 className={classes['statisticsTitle']}>{t('node.title')}</h3>
+      <dl className={classes['statisticsList']}>
+        {rows.map(([key, value]) => (
+          <div key={key} data-key={key}>
+            <dt>{t(`node.${key}`)}</dt>
+            <dd>{value}</dd>
+          </div>
+        ))}
+      </dl>
+    </section>
+  );
+}
+
+function statisticsOf(uids: readonly number[]): Statistics {
+  const sum: Statistics = { status: 'IDLE', runs: 0, seconds: 0, successes: 0, failures: 0 };
+  for (const uid of uids) {
+    const status = history.status(uid);
+    if (status !== 'IDLE') sum.status = status;
+    for (const { start, end, mask } of history.stretches(uid, history.begin, history.now)) {
+      if (mask & BIT.RUNNING) {
+        sum.runs += 1;
+        sum.seconds += end - start;
+      }
+      if (mask & BIT.SUCCESS) sum.successes += 1;
+      if (mask & BIT.FAILURE) sum.failures += 1;
+    }
+  }
+  return sum;
+}

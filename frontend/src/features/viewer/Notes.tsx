@@ -1,0 +1,65 @@
+import { Button, CloseButton } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import { useSessionStore } from '@/store/session/store';
+import { perform } from '@/actions/registry';
+import { distances, setMeasuring, useMeasuring } from './measuring';
+import { moveBack, useMoves } from './moves';
+import classes from './viewer.module.css';
+
+/** What a tool of the 3D view has to say, over the picture. */
+export function Notes() {
+  return (
+    <div className={classes['notes']}>
+      <Measured />
+      <Moved />
+    </div>
+  );
+}
+
+function Measured() {
+  const { t } = useTranslation('viewer');
+  const { isOn, points } = useMeasuring();
+  if (!isOn) return null;
+  const [a, b] = points;
+  const measured = a && b ? distances([a, b]) : null;
+  return (
+    <div
+      className={classes['note']}
+      role="status"
+      data-testid="measured"
+      data-m={measured?.straight.toFixed(3)}
+    >
+      {measured
+        ? t('measured', { straight: measured.straight.toFixed(2), flat: measured.flat.toFixed(2) })
+        : t(a ? 'measureSecond' : 'measureFirst')}
+      <CloseButton size="xs" aria-label={t('measureEnd')} onClick={() => setMeasuring(false)} />
+    </div>
+  );
+}
+
+function Moved() {
+  const { t } = useTranslation('viewer');
+  const last = useMoves((state) => state.last);
+  const canMove = useSessionStore(({ executor }) =>
+    ['universe_ready', 'visualization_ready', 'paused'].includes(executor),
+  );
+  if (!last || !canMove) return null;
+  return (
+    <div className={classes['note']} role="status" data-testid="moved">
+      {t('moved', { body: last.body })}
+      <Button size="compact-xs" variant="light" onClick={() => void moveBack().catch(() => undefined)}>
+        {t('moveBack')}
+      </Button>
+      <Button
+        size="compact-xs"
+        variant="subtle"
+        onClick={() => {
+          perform('run.resetWorld');
+          useMoves.setState({ last: null });
+        }}
+      >
+        {t('resetWorld')}
+      </Button>
+    </div>
+  );
+}

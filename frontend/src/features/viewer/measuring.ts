@@ -1,0 +1,25 @@
+import { create } from 'zustand';
+
+export type Point = readonly [x: number, y: number, z: number];
+
+interface MeasuringData {
+  isOn: boolean;
+  /** None, one or two points in the world, m. */
+  points: readonly Point[];
+}
+
+export const useMeasuring = create<MeasuringData>(() => ({ isOn: false, points: [] }));
+
+export const setMeasuring = (isOn: boolean) => useMeasuring.setState({ isOn, points: [] });
+
+/** A third point begins a new measurement. */
+export function addMeasured(point: Point): void {
+  useMeasuring.setState(({ points }) => ({ points: points.length === 2 ? [point] : [...points, point] }));
+}
+
+/** Distance in space, and over the ground, m. */
+export function distances([a, b]: readonly [Point, Point]): { straight: number; flat: number; rise: number } {
+  const flat = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  const rise = b[2] - a[2];
+  return { straight: Math.hypot(flat, rise), flat, rise };
+}

@@ -1,0 +1,43 @@
+import * as THREE from 'three';
+import type { World } from './World';
+
+const ray = new THREE.Raycaster();
+const GROUND = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
+
+interface Pointed {
+  point: THREE.Vector3;
+  /** Id of the object that is pointed at; null on the ground. */
+  objectId: number | null;
+}
+
+function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): void {
+  const box = canvas.getBoundingClientRect();
+  const x = ((event.clientX - box.left) / box.width) * 2 - 1;
+  const y = 1 - ((event.clientY - box.top) / box.height) * 2;
+  ray.setFromCamera(new THREE.Vector2(x, y), camera);
+}
+
+/** What the pointer is on: a body of the world, or the ground. */
+export function pointedAt(
+  event: PointerEvent,
+  canvas: HTMLElement,
+  camera: THREE.Camera,
+  world: World,
+): Pointed | null {
+  aim(event, canvas, camera);
+  const hit = ray.intersectObject(world.group).find(({ object }) => object instanceof THREE.Mesh);
+  if (hit) return { point: hit.point, objectId: world.idOf(hit.object) };
+  const point = ray.ray.intersectPlane(GROUND, new THREE.Vector3());
+  return point ? { point, objectId: null } : null;
+}
+
+/** Where the pointer is at a height over the ground. */
+export function pointedAtHeight(
+  event: PointerEvent,
+  canvas: HTMLElement,
+  camera: THREE.Camera,
+  height: number,
+): THREE.Vector3 | null {
+  aim(event, canvas, camera);
+  return ray.ray.intersectPlane(new THREE.Plane(new THREE.Vector3(0, 0, 1), -height), new THREE.Vector3());
+}

@@ -1,0 +1,111 @@
+import { notifications } from '@mantine/notifications';
+import { useThree } from '@react-three/fiber';
+import { useEffect } from 'react';
+import type { OrbitControls } from '@react-three/drei/core/OrbitControls';
+import type { ComponentRef } from 'react';
+import { send } from '@/store/session/connection';
+import { Carried, carriable } from './Carried';
+import { canMove, useMoves } from './moves';
+import { pointedAt, pointedAtHeight } from './pointing';
+import { addMeasured, useMeasuring } from './measuring';
+import type { World } from './World';
+
+type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
+
+const CLICK_PX = 4;
+const TURN_RAD = Math.PI / 12;
+
+/** What the pointer does besides turning the view: carries bodies while time stands still, and measures. */
+export function useTools(world: World, controls: Controls): void {
+  const camera = useThree((state) => state.camera);
+  const canvas = useThree((state) => state.gl.domElement);
+  const invalidate = useThree((state) => state.invalidate);
+
+  useEffect(() => {
+    let carried: Carried | null = null;
+    let from = { x: 0, y: 0, height: 0 };
+    let pressed = { x: 0, y: 0 };
+
+    const freeView = (isFree: boolean) => {
+      if (controls.current) controls.current.enabled = isFree;
+    };
+    const end = (isKept: boolean) => {
+      if (!carried) return;
+      const done = carried;
+      carried = null;
+      freeView(true);
+      canvas.style.cursor = '';
+      const pose = done.pose();
+      const isMoved = isKept && done.hasMoved;
+      done.release(isMoved);
+      invalidate();
+      if (!isMoved) return;
+      send('move_body', { id: done.body, pose }).then(
+        () => useMoves.setState({ last: { body: done.body, from: done.origin } }),
+        (error: Error) => {
+          world.put(done.body);
+          invalidate();
+          notifications.show({ color: 'red', message: error.message });
+        },
+      );
+    };
+    const onDown = (event: PointerEvent) => {
+      pressed = { x: event.clientX, y: event.clientY };
+      if (event.button !== 0 || useMeasuring.getState().isOn || !canMove()) return;
+      const hit = pointedAt(event, canvas, camera, world);
+      const body = hit && carriable(world, hit.objectId);
+      if (!hit || !body) return;
+      carried = new Carried(world, body);
+      from = { x: hit.point.x, y: hit.point.y, height: hit.point.z };
+      freeView(false);
+      canvas.setPointerCapture(event.pointerId);
+      canvas.style.cursor = 'grabbing';
+      event.stopImmediatePropagation();
+      invalidate();
+    };
+    const onMove = (event: PointerEvent) => {
+      if (!carried) return showCursor(event);
+      const at = pointedAtHeight(event, canvas, camera, from.height);
+      if (at) carried.moveBy(at.x - from.x, at.y - from.y);
+      invalidate();
+    };
+    const showCursor = (event: PointerEvent) => {
+      if (event.buttons !== 0) return;
+      const isMeasuring = useMeasuring.getState().isOn;
+      const hit = !isMeasuring && canMove() ? pointedAt(event, canvas, camera, world) : null;
+      canvas.style.cursor = isMeasuring ? 'crosshair' : hit && carriable(world, hit.objectId) ? 'grab' : '';
+    };
+    const onUp = (event: PointerEvent) => {
+      if (carried) return end(true);
+      const isClick = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < CLICK_PX;
+      if (!isClick || event.button !== 0 || !useMeasuring.getState().isOn) return;
+      const hit = pointedAt(event, canvas, camera, world);
+      if (hit) addMeasured([hit.point.x, hit.point.y, hit.point.z]);
+      invalidate();
+    };
+    const onKey = (event: KeyboardEvent) => {
+      if (!carried) return;
+      if (event.key === 'Escape') end(false);
+      else if (event.key === 'q' || event.key === 'e')
+        carried.turnBy(event.key === 'q' ? TURN_RAD : -TURN_RAD);
+      else return;
+      event.preventDefault();
+      invalidate();
+    };
+    const onCancel = () => end(false);
+
+    canvas.addEventListener('pointerdown', onDown, { capture: true });
+    canvas.addEventListener('pointermove', onMove);
+    canvas.addEventListener('pointerup', onUp);
+    canvas.addEventListener('pointercancel', onCancel);
+    window.addEventListener('keydown', onKey);
+    return () => {
+      end(false);
+      canvas.removeEventListener('pointerdown', onDown, { capture: true });
+      canvas.removeEventListener('pointermove', onMove);
+      canvas.removeEventListener('pointerup', onUp);
+      canvas.removeEventListener('pointercancel', onCancel);
+      window.removeEventListener('keydown', onKey);
+    };
+  }, [world, controls, camera, canvas, invalidate]);
+}

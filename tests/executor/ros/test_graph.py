@@ -1,0 +1,96 @@
+"""ROS truth: another process with plain rclpy sees each topic with its declared type, QoS, frame and rate."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from executor.channel import Channel, socket_pair
+from executor.ros.environment import has_tf, ros_environment
+from tests.executor.ros.test_delivery import wait_for
+
+ROOT = Path(__file__).parents[3]
+DOMAIN_ID = 33
+HEARD_S = 3.0  # of simulated time
+
+# topic: type, reliable, frame, rate; without the pictures, which test_delivery counts.
+TOPICS: dict[str, tuple[str, bool, str | None, float]] = {
+    "/clock": ("rosgraph_msgs/msg/Clock", False, None, 60),
+    "/odom": ("nav_msgs/msg/Odometry", True, "odom", 30),
+    "/joint_states": ("sensor_msgs/msg/JointState", True, "", 30),
+    "/scan": ("sensor_msgs/msg/LaserScan", False, "laser_link", 10),
+    "/imu": ("sensor_msgs/msg/Imu", False, "imu_link", 30),
+    "/bumper": ("std_msgs/msg/Bool", True, None, 20),
+    "/bumper/left": ("std_msgs/msg/Bool", True, None, 20),
+    "/battery_state": ("sensor_msgs/msg/BatteryState", True, "", 1),
+    "/camera/camera_info": ("sensor_msgs/msg/CameraInfo", False, "camera_optical_frame", 15),
+    "/depth_camera/depth/camera_info": ("sensor_msgs/msg/CameraInfo", False, "camera_optical_frame", 15),
+    "/depth_camera/depth/image_raw": ("sensor_msgs/msg/Image", False, "camera_optical_frame", 15),
+    "/helper/odom": ("nav_msgs/msg/Odometry", True, "helper/odom", 30),
+    "/helper/scan": ("sensor_msgs/msg/LaserScan", False, "helper/laser_link", 5),
+    **({"/tf": ("tf2_msgs/msg/TFMessage", True, "odom", 30)} if has_tf() else {}),
+}
+UNIVERSE = """\
+format: bt-studio/universe
+version: 1
+name: two robots
+models: [{id: wall, shape: box, size: [0.2, 4, 1], pose: [2, 0, 0.5, 0, 0, 0]}]
+robots:
+  - {id: robot, model: turtle2}
+  - {id: helper, model: burger, pose: [0, 1, 0, 0, 0, 0]}
+"""
+
+
+@pytest.fixture(scope="module")
+def heard() -> Iterator[dict[str, Any]]:
+    """What a listener in a process of its own heard of a world in another."""
+    environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
+    ours, theirs = socket_pair()
+    world = subprocess.Popen(
+        [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())],
+        pass_fds=[theirs.fileno()],
+        env=environment,
+    )
+    theirs.close()
+    channel = Channel(ours.detach())
+    script = str(Path(__file__).with_name("graph_listener.py"))
+    listener = subprocess.Popen(
+        [sys.executable, script, str(HEARD_S), ",".join(TOPICS)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert listener.stdout is not None
+        start = {"type": "start", "universe": UNIVERSE, "seed": 1, "speed": 0.4, "domain_id": DOMAIN_ID}
+        channel.send(start)
+        wait_for(channel, "ready")
+        assert json.loads(listener.stdout.readline()) == {"ready": True}
+        channel.send({"type": "resume"})
+        yield json.loads(listener.stdout.readline())
+    finally:
+        channel.send({"type": "stop"})
+        listener.communicate(timeout=30)
+        world.wait(30)
+        channel.close()
+
+
+@pytest.mark.simulation
+@pytest.mark.parametrize("topic", TOPICS)
+def test_a_topic_is_as_declared(heard: dict[str, Any], topic: str) -> None:
+    kind, is_reliable, frame, rate = TOPICS[topic]
+    assert heard["seen"][topic] == {"type": kind, "reliable": is_reliable}
+    if frame is not None:
+        assert heard["frames"][topic] == frame
+    stamps = heard["stamps"][topic]
+    if topic == "/clock":
+        stamps = [stamp for stamp in stamps if stamp > 0]  # it goes on telling 0 while the world is paused
+    missing = 0 if is_reliable else 1  # best effort may lose one on a busy machine
+    assert len(stamps) >= rate * HEARD_S - 1 - missing
+    assert len(stamps) <= rate * HEARD_S + 2
+    assert stamps == sorted(stamps)

@@ -57,6 +57,7 @@ _log = logging.getLogger(__name__)
 VERSION: Final = "0.1.0"
 KEPT_FOLDERS: Final = 3
 LAST_DOMAIN_ID: Final = 100
+LARGEST_DOMAIN_ID: Final = 232
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,12 @@ def free_domain_id() -> int:
                 continue
             return domain_id
     raise OSError("every ROS domain of this host is in use")
+
+
+def outside_domain_id() -> int:
+    """Returns the ROS domain that the user's own programs are in, by the environment."""
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    return int(text) if text.isdecimal() and int(text) <= LARGEST_DOMAIN_ID else 0
 
 
 def _environment_bytes(name: str, default_mb: int) -> int:
@@ -154,6 +161,7 @@ class Manager:
             version=VERSION,
             ros_domain_id=self.domain_id,
             ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
+            outside_domain_id=outside_domain_id(),
             grace_s=settings.grace_s,
         )
         self.session = Session(about, now_s=loop.time())

@@ -63,6 +63,7 @@ TickRate = Annotated[float, Meta(gt=0, le=1000)]
 Speed = Annotated[float, Meta(ge=0, le=10)]
 StreamRate = Annotated[float, Meta(gt=0, le=120)]
 StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
+DomainId = Annotated[int, Meta(ge=0, le=232)]
 Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
 
@@ -81,12 +82,17 @@ class UniverseDocument(Struct, forbid_unknown_fields=True):
 
 
 class LaunchUniverse(Struct, forbid_unknown_fields=True):
-    """Starts world and robots, paused. `universe` is a built-in id or a document."""
+    """Starts world and robots, paused. `universe` is a built-in id or a document.
+
+    `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
+    `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+    """
 
     universe: str | UniverseDocument
     robot: str | None = None
     seed: int = 0
     speed: Speed = 1.0
+    domain_id: DomainId | None = None
 
 
 class RunApplication(Struct, forbid_unknown_fields=True):

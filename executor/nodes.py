@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from executor import messages
@@ -132,7 +132,9 @@ class Nodes:
 
     def _spawn(self, session: Session, node: _Node) -> None:
         node.number, node.state, node.end = session.next_number(), "running", ""
-        session.effect(Spawn("node", node.number, node.spec, self._folder))
+        domain = ("ROS_DOMAIN_ID", str(session.run.domain_id))
+        spec = replace(node.spec, environment=(domain, *node.spec.environment))
+        session.effect(Spawn("node", node.number, spec, self._folder))
 
     def _retire(self, session: Session, node: _Node) -> None:
         session.leaving.add(("node", node.number))

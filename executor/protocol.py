@@ -70,6 +70,7 @@ class About:
     ros_distro: str = "jazzy"
     ros_domain_id: int = 0
     ros_environment: Mapping[str, str] = field(default_factory=dict)
+    outside_domain_id: int = 0
     grace_s: float = 300.0
     promote_s: float = 5.0
 

@@ -61,6 +61,8 @@ class LastRun:
     application: messages.RunApplication | None = None
     folder: str = ""
     plan: LaunchPlan = field(default_factory=LaunchPlan)
+    domain_id: int = 0
+    is_outside: bool = False
 
 
 Step = Generator[Wait, Any, None]
@@ -114,6 +116,7 @@ def _launch_universe(session: Session, data: Struct) -> Step:
     data = cast("messages.LaunchUniverse", data)
     _progress(session, "launch_universe", 0.0, "Starting the simulated world")
     session.run.universe = data
+    _aim(session, data)
     universe, assets = data.universe, ""
     if isinstance(universe, messages.UniverseDocument):
         if universe.assets_zip_base64:
@@ -130,7 +133,7 @@ def _launch_universe(session: Session, data: Struct) -> Step:
         robot=data.robot,
         seed=data.seed,
         speed=data.speed,
-        domain_id=session.about.ros_domain_id,
+        domain_id=_domain_of(session, data),
     )
     try:
         reply = yield Wait(
@@ -211,7 +214,8 @@ def _start_application(session: Session) -> Child:
         tick_hz=data.tick_hz,
         on_finish=data.on_finish,
         on_error=data.on_error,
-        domain_id=session.about.ros_domain_id,
+        domain_id=session.run.domain_id,
+        outside=session.run.is_outside,
     )
     session.nodes.start(session, session.run.plan)
     return application
@@ -247,13 +251,15 @@ def _run(session: Session, data: Struct) -> Step:
     if session.state.reaches(State.UNIVERSE_READY):
         if _is_same_world(session.run.universe, data.universe):
             session.tell("world", "reset")
-            session.tell("world", "set_speed", speed=data.universe.speed)
+            if not session.run.is_outside:
+                session.tell("world", "set_speed", speed=data.universe.speed)
         else:
             yield from _end_world(session)
     unpacking = _unpacking(session, data.application.app_zip_base64)
     unpacked = yield unpacking
     _take_folder(session, unpacked)
     session.run.application = data.application
+    _aim(session, data.universe)
     application = _start_application(session)
     try:
         if not session.state.reaches(State.UNIVERSE_READY):
@@ -267,8 +273,24 @@ def _run(session: Session, data: Struct) -> Step:
     yield from _await_application(session, application)
 
 
+def _aim(session: Session, data: messages.LaunchUniverse) -> None:
+    """Notes into which ROS graph the application and its extra nodes go."""
+    session.run.is_outside = data.universe == "none"
+    session.run.domain_id = _domain_of(session, data)
+
+
+def _domain_of(session: Session, data: messages.LaunchUniverse) -> int:
+    if data.universe != "none":
+        return session.about.ros_domain_id
+    return session.about.outside_domain_id if data.domain_id is None else data.domain_id
+
+
 def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniverse) -> bool:
-    return old is not None and (old.universe, old.robot, old.seed) == (new.universe, new.robot, new.seed)
+
+    def key(launch: messages.LaunchUniverse) -> tuple[object, ...]:
+        return launch.universe, launch.robot, launch.seed, launch.domain_id
+
+    return old is not None and key(old) == key(new)
 
 
 # --- running --------------------------------------------------------------------------------------

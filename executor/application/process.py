@@ -49,7 +49,7 @@ class Application:
         self._channel = channel
         self._commands: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self._graph: Graph = Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
-        self._reporter = Reporter(channel.send, self._graph.now)
+        self._reporter = Reporter(channel.send, self._now)
         self._locator = Locator()
         self._watchdog = Watchdog(self._locator, self._reporter.hangs, channel.send)
         self._runner: Runner | None = None
@@ -63,6 +63,7 @@ class Application:
         if start is None:
             return
         self._redirect_output()
+        self._join(start)
         if not self._load(start):
             return
         self._channel.send({"type": "ready"})
@@ -157,6 +158,16 @@ class Application:
         sys.stdout = Console("info", self._channel.send, self._locator, sys.__stdout__)
         sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__)
 
+    def _join(self, start: dict[str, Any]) -> None:
+        """Leaves the graph that was joined ahead, where the application is for another."""
+        domain_id, outside = int(start.get("domain_id", self._graph.domain_id)), bool(start.get("outside"))
+        if not outside and domain_id == self._graph.domain_id:
+            return
+        from executor.application.ros import Graph  # noqa: PLC0415 - after the environment is set
+
+        old, self._graph = self._graph, Graph(domain_id, self._on_clock, outside=outside)
+        old.close()
+
     def _load(self, start: dict[str, Any]) -> bool:
         from executor.application.locate import Place  # noqa: PLC0415
 
@@ -198,6 +209,9 @@ class Application:
         self._runner.pause()
 
     # --- running ----------------------------------------------------------------------------------
+
+    def _now(self) -> float:
+        return self._graph.now()  # of the graph of the moment: it may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:
         if self._runner is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any, Final
 
 import rclpy
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 __all__ = ["Graph"]
 
 NODE_NAME: Final = "bt_application"
+WALL_PERIOD_S: Final = 0.002
+CLOCK_PROBE_S: Final = 1.5
 _CLOCK_QOS: Final = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE
 )
@@ -27,18 +30,24 @@ _OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
 class Graph:
     """Context, node and executor. It is also the clock of the tree: the time of the last `/clock`."""
 
-    def __init__(self, domain_id: int, on_clock: Callable[[float], None]) -> None:
+    def __init__(self, domain_id: int, on_clock: Callable[[float], None], *, outside: bool = False) -> None:
         self._context = Context()
         rclpy.init(context=self._context, domain_id=domain_id)
+        self.domain_id = domain_id
+        simulated = not outside or self._has_clock()
         self.node = Node(
             NODE_NAME,
             context=self._context,
-            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, True)],  # noqa: FBT003
+            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, simulated)],
         )
         self._time_s = 0.0
+        self._start_s = time.monotonic()
         self.has_time = False
         self._on_clock = on_clock
-        self.node.create_subscription(Clock, "/clock", self._take_clock, _CLOCK_QOS)
+        if simulated:
+            self.node.create_subscription(Clock, "/clock", self._take_clock, _CLOCK_QOS)
+        else:
+            self.node.create_timer(WALL_PERIOD_S, self._take_wall_time)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
 
@@ -76,6 +85,22 @@ class Graph:
         self._executor.shutdown(timeout_sec=0.2)
         self.node.destroy_node()
         self._context.try_shutdown()
+
+    def _has_clock(self) -> bool:
+        """Whether an outside graph has simulated time; only then somebody publishes it."""
+        probe = Node(f"{NODE_NAME}_probe", context=self._context)
+        end_s = time.monotonic() + CLOCK_PROBE_S
+        try:
+            while not probe.count_publishers("/clock") and time.monotonic() < end_s:
+                time.sleep(0.05)
+            return bool(probe.count_publishers("/clock"))
+        finally:
+            probe.destroy_node()
+
+    def _take_wall_time(self) -> None:
+        self._time_s = time.monotonic() - self._start_s
+        self.has_time = True
+        self._on_clock(self._time_s)
 
     def _take_clock(self, message: Any) -> None:
         self._time_s = message.clock.sec + message.clock.nanosec * 1e-9

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     from executor.render.interface import Renderer
     from executor.world.clockwork import Clockwork
+    from executor.world.outside import Outside
 
 _log = logging.getLogger(__name__)
 
@@ -45,7 +46,7 @@ class WorldProcess:
 
     def __init__(self, channel: Channel) -> None:
         self._channel = channel
-        self._clockwork: Clockwork | None = None
+        self._clockwork: Clockwork | Outside | None = None
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
@@ -121,7 +122,7 @@ class WorldProcess:
             return
         self._command(self._clockwork, kind, message)
 
-    def _command(self, clockwork: Clockwork, kind: str, message: dict[str, Any]) -> None:
+    def _command(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
         match kind:
             case "pause":
                 clockwork.pause()
@@ -146,7 +147,7 @@ class WorldProcess:
             case _:
                 self._say_error("unknown_message", f"The world knows no message {kind!r}.")
 
-    def _stream(self, clockwork: Clockwork, kind: str, message: dict[str, Any]) -> None:
+    def _stream(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
         match kind:
             case "unsubscribe":
                 clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
@@ -155,7 +156,7 @@ class WorldProcess:
             case _:
                 self._subscribe(clockwork, message)
 
-    def _subscribe(self, clockwork: Clockwork, message: dict[str, Any]) -> None:
+    def _subscribe(self, clockwork: Clockwork | Outside, message: dict[str, Any]) -> None:
         pose = message.get("camera_pose")
         clockwork.streams.subscribe(
             message.get("client"),
@@ -168,6 +169,9 @@ class WorldProcess:
     def _start(self, message: dict[str, Any]) -> None:
         if self._clockwork is not None:
             self._say_error("already_started", "The world is running already.")
+            return
+        if message["universe"] == "none":
+            self._start_outside(message)
             return
         from executor.ros.node import WorldNode  # noqa: PLC0415 - ROS reads the environment when loaded
         from executor.ros.topics import Topics  # noqa: PLC0415
@@ -192,13 +196,26 @@ class WorldProcess:
         node = WorldNode(world, context, topics=renamed)
         self._close.append(node.close)
         self._topics = Topics(node.node, self._say)
-        self._clockwork = Clockwork(
+        clockwork = Clockwork(
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )
-        self._clockwork.watchers.append(self._topics.poll)
+        clockwork.watchers.append(self._topics.poll)
+        self._clockwork = clockwork
         self._channel.send(
             {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
         )
+
+    def _start_outside(self, message: dict[str, Any]) -> None:
+        from executor.ros.topics import Topics  # noqa: PLC0415 - ROS reads the environment when loaded
+        from executor.world.outside import Outside  # noqa: PLC0415
+
+        self._progress(0.6, "Joining the outside ROS graph")
+        outside = Outside(self._join(int(message.get("domain_id") or 0)), self._channel.send)
+        self._close.append(outside.close)
+        self._topics = Topics(outside.node, self._say)
+        outside.watchers.append(self._topics.poll)
+        self._clockwork = outside
+        self._channel.send({"type": "ready", "renderer": "", "tf": has_tf(), "universe": "none"})
 
     def _progress(self, fraction: float, text: str) -> None:
         self._channel.send({"type": "progress", "fraction": fraction, "message": text})

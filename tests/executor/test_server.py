@@ -180,6 +180,29 @@ async def test_health_is_told_without_a_token_and_other_paths_are_not_there():
         assert (await asyncio.to_thread(get, "/elsewhere", TOKEN))[0] == 404
 
 
+async def test_metrics_are_told_in_the_text_format():
+    async with session() as client:
+        await client.ask("run", RUN)
+        await client.ask("subscribe", {"stream": "poses"})
+        await client.control.send("no json")
+        await client.event("error")
+
+        def get():
+            with urllib.request.urlopen(f"http://127.0.0.1:{client.port}/metrics") as reply:
+                return reply.headers["Content-Type"], reply.read().decode()
+
+        kind, text = await asyncio.to_thread(get)
+        assert kind.startswith("text/plain; version=0.0.4")
+        lines = [line for line in text.splitlines() if not line.startswith("#")]
+        values = {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines)}
+        assert values['bt_studio_session_state{state="application_running"}'] == 1
+        assert values['bt_studio_session_state{state="idle"}'] == 0
+        assert (values["bt_studio_clients"], values["bt_studio_streams"]) == (1, 1)
+        assert (values["bt_studio_commands_total"], values["bt_studio_commands_refused_total"]) == (3, 1)
+        assert values["bt_studio_memory_bytes"] > 1e6
+        assert len(values) == len(lines)
+
+
 async def test_a_stream_needs_a_control_socket():
     async with manager() as it:
         client = SessionClient(it.port)

@@ -141,12 +141,18 @@ export interface UniverseDocument {
   assets_zip_base64?: string;
 }
 
-/** Starts world and robots, paused. `universe` is a built-in id or a document. */
+/**
+ * Starts world and robots, paused. `universe` is a built-in id or a document.
+ *
+ * `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
+ * `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+ */
 export interface LaunchUniverse {
   universe: string | UniverseDocument;
   robot?: string | null;
   seed?: number;
   speed?: number;
+  domain_id?: number | null;
 }
 
 /** (Re)starts the application from an app zip and un-pauses the world. */

@@ -1,0 +1,84 @@
+"""The universe `none`: the application drives a robot of an outside ROS graph."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import sys
+
+import pytest
+
+from executor.manager import outside_domain_id
+from tests.executor.play import DATA, Play
+from tests.executor.session_client import ROOT, SessionClient, manager_process, run_data
+
+DOMAIN_ID = 143
+
+
+@contextlib.asynccontextmanager
+async def outside_robot():
+    """A plain program, with nothing in its environment but its domain."""
+    environment = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "FAST"))}
+    process = await asyncio.create_subprocess_exec(
+        sys.executable,
+        str(ROOT / "tests" / "fakes" / "outside_robot.py"),
+        stdout=asyncio.subprocess.PIPE,
+        env=environment | {"ROS_DOMAIN_ID": str(DOMAIN_ID)},
+    )
+    try:
+        yield process.stdout
+    finally:
+        process.kill()
+        await process.wait()
+
+
+@pytest.mark.simulation
+async def test_the_application_drives_a_robot_that_is_not_ours_and_a_pause_has_it_stand():
+    async def told(robot, condition):
+        async with asyncio.timeout(40):
+            while not condition(float((await robot.readline()).split()[1])):
+                pass
+
+    async with (
+        outside_robot() as robot,
+        manager_process(env={"ROS_DOMAIN_ID": str(DOMAIN_ID)}) as manager,
+    ):
+        client = await SessionClient(manager.ready["port"]).open(stream=False)
+        assert await client.ask("run", run_data(universe="none")) == "ack"
+        await told(robot, lambda speed: speed > 0)
+        assert await client.ask("list_topics") == "ack"
+        rows = {t["name"]: t for t in client.named("topics")[-1]["topics"]}
+        assert rows["/scan"]["publishers"] == ["/outside_robot"]
+        assert "/outside_robot" in rows["/cmd_vel"]["subscribers"]
+
+        assert await client.ask("pause") == "ack"
+        await told(robot, lambda speed: speed == 0)
+        refused = await client.ask("move_body", {"id": "x", "pose": [0] * 6})
+        assert "no simulated world" in refused["message"]
+        assert await client.ask("resume") == "ack"
+        await told(robot, lambda speed: speed > 0)
+        assert await client.ask("terminate_application") == "ack"
+        await told(robot, lambda speed: speed == 0)
+        await client.close()
+
+
+# --- the machine alone ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("asked", "domain"), [({}, 7), ({"domain_id": 12}, 12)])
+def test_both_processes_go_into_the_outside_domain(asked, domain):
+    play = Play()
+    object.__setattr__(play.session.about, "outside_domain_id", 7)
+    play.command("run", **DATA["run"] | {"universe": {"universe": "none", **asked}})
+    starts = [e.message for e in play.effects if getattr(e, "message", {}).get("type") == "start"]
+    assert [start["domain_id"] for start in starts] == [domain, domain]
+    assert [start.get("outside") for start in starts] == [True, None]
+    assert play.reply(play.command("run")) == "ack"
+    assert play.session.run.domain_id == play.session.about.ros_domain_id
+
+
+def test_the_outside_domain_is_that_of_the_environment(monkeypatch):
+    for text, expected in [("", 0), ("42", 42), ("-1", 0), ("x", 0), ("9999", 0)]:
+        monkeypatch.setenv("ROS_DOMAIN_ID", text)
+        assert outside_domain_id() == expected

@@ -34,7 +34,28 @@ def editor(studio: Studio) -> Locator:
 
 
 def line(studio: Studio, text: str) -> Locator:
-    return studio.at("code-editor").locator(".cm-line", has_text=text).first
+    return studio.page.locator('[data-testid="code-editor"]:visible .cm-line', has_text=text).first
+
+
+def spot(studio: Studio, text: str, word: str) -> tuple[float, float]:
+    """The middle of the last `word` in the line that holds `text`."""
+    box = line(studio, text).evaluate(
+        """(element, word) => {
+            const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+            let box = null;
+            for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+                const at = node.data.lastIndexOf(word);
+                if (at < 0) continue;
+                const range = document.createRange();
+                range.setStart(node, at);
+                range.setEnd(node, at + word.length);
+                box = range.getBoundingClientRect();
+            }
+            return [box.x + box.width / 2, box.y + box.height / 2];
+        }""",
+        word,
+    )
+    return box[0], box[1]
 
 
 def expect_help(studio: Studio) -> None:
@@ -76,7 +97,7 @@ def test_completion_findings_and_types(studio: Studio) -> None:
     expect(page.locator(".cm-lintRange-error")).to_be_visible(timeout=30_000)
     page.keyboard.press("Control+z")
     expect(page.locator(".cm-lintRange-error")).to_have_count(0, timeout=30_000)
-    line(studio, "import Twist").get_by_text("Twist").last.hover()
+    page.mouse.move(*spot(studio, "import Twist", "Twist"))
     expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear", timeout=30_000)
     studio.picture("code-hover-light")
 
@@ -86,7 +107,7 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     page = studio.page
 
     # An import that is not used can be taken away by its finding; undo brings it back.
-    line(studio, "import os").get_by_text("os").hover()
+    page.mouse.move(*spot(studio, "import os", "os"))
     page.get_by_role("button", name="Remove unused import: `os`").click()
     expect(line(studio, "import os")).to_have_count(0)
     page.keyboard.press("Control+z")
@@ -107,11 +128,9 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     page.keyboard.press("Control+z")
 
     # F12 leads to another file of the project; F2 renames the action there: its file and its blocks, too.
-    line(studio, "from Turn import Turn").get_by_text("Turn").last.click()
+    page.mouse.click(*spot(studio, "from Turn import Turn", "Turn"))
     page.keyboard.press("F12")
     expect(page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"]')).to_be_visible()
-    turn = page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"] .cm-line')
-    turn.filter(has_text="class Turn").get_by_text("Turn").click()
     page.keyboard.press("F2")
     page.locator(".cm-lsp-rename-panel input").fill("Rotate")
     page.keyboard.press("Enter")
@@ -127,8 +146,7 @@ def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio)
     studio.open_file("actions/Forward.py")
     other = Studio(studio.page.context.new_page(), studio.server)
     other.page.goto(studio.page.url)
-    expect(other.at("canvas")).to_be_visible()
-    other.open_file("actions/Forward.py")
+    expect(other.at("code-editor")).to_be_visible()
 
     studio.replace_code("# said in the first tab\n")
     expect(line(other, "# said in the first tab")).to_be_visible()

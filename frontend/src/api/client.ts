@@ -3,6 +3,7 @@ import type { PythonFinding } from './python';
 import type {
   ActionModel,
   AppBundle,
+  BehaviourInfo,
   ChangesResult,
   CheckResult,
   FileChange,
@@ -94,7 +95,9 @@ export const api = {
   endSession: (sessionId: string) => requestJson<undefined>(`/sessions/${sessionId}`, { method: 'DELETE' }),
 
   templates: () => requestItems<TemplateInfo>('/catalog/templates', 'templates'),
+  behaviours: () => requestItems<BehaviourInfo>('/catalog/behaviours', 'behaviours'),
   universes: () => requestItems<UniverseInfo>('/catalog/universes', 'universes'),
+  robots: () => requestItems<UniverseInfo>('/catalog/robots', 'robots'),
 };
 
 /** The catalogue answers a list, or a list under `items` or its own name. */

@@ -1,8 +1,10 @@
 import { IconAlertTriangle, IconInfoCircle } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
+import { fixesFor } from '@/model/fixes';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { QuickFixes } from '@/ui/QuickFixes';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './Inspector.module.css';
 
@@ -31,6 +33,7 @@ export function NodeProblems({ diagram, id }: NodeProblemsProps) {
             <Mark size={16} aria-hidden="true" />
             <span>
               <strong>{message}</strong> {hint}
+              <QuickFixes tree={diagram.id} fixes={fixesFor(problem, diagram, vocabulary)} />
             </span>
           </li>
         );

@@ -5,7 +5,9 @@ import { useTranslation } from 'react-i18next';
 import type { Diagnostic, Severity } from '@/api/types';
 import { displayName } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
+import { fixesOfDiagnostic } from '@/store/project/fixes';
 import { openFile, openTree } from '@/store/project/navigation';
+import { QuickFixes } from '@/ui/QuickFixes';
 import classes from './problems.module.css';
 
 const ORDER: Severity[] = ['error', 'warning', 'note'];
@@ -60,20 +62,28 @@ function Row({ item }: { readonly item: Diagnostic }) {
   const where = [node ? displayName(node) : '', item.port ? t('port', { port: item.port }) : '', place]
     .filter(Boolean)
     .join(' · ');
+  const fixes = node ? fixesOfDiagnostic(item) : [];
   return (
-    <button
-      type="button"
-      className={classes['row']}
-      data-severity={item.severity}
-      data-code={item.code}
-      onClick={() => go(item)}
-    >
-      <Icon size={16} role="img" aria-label={t(`severity.${item.severity}`)} />
-      <span className={classes['text']}>
-        {item.message} {item.hint ? <span className={classes['hint']}>{item.hint}</span> : null}
-      </span>
-      <span className={classes['where']}>{where}</span>
-      <span className={classes['code']}>{item.code}</span>
-    </button>
+    <>
+      <button
+        type="button"
+        className={classes['row']}
+        data-severity={item.severity}
+        data-code={item.code}
+        onClick={() => go(item)}
+      >
+        <Icon size={16} role="img" aria-label={t(`severity.${item.severity}`)} />
+        <span className={classes['text']}>
+          {item.message} {item.hint ? <span className={classes['hint']}>{item.hint}</span> : null}
+        </span>
+        <span className={classes['where']}>{where}</span>
+        <span className={classes['code']}>{item.code}</span>
+      </button>
+      {fixes.length > 0 ? (
+        <div className={classes['fixes']}>
+          <QuickFixes tree={item.tree ?? ''} fixes={fixes} />
+        </div>
+      ) : null}
+    </>
   );
 }

@@ -1,0 +1,82 @@
+import { describe, expect, it } from 'vitest';
+import { emptyDiagram, type Diagram, type DiagramNode } from './diagram';
+import { edit } from './edits';
+import { fixesFor } from './fixes';
+import { findProblems } from './problems';
+import { similarNames } from './similar';
+import { vocabulary } from './testing';
+
+const tree = (nodes: Record<string, DiagramNode>): Diagram => ({
+  ...emptyDiagram('MainTree'),
+  root: 'r',
+  nodes,
+});
+const under = (node: DiagramNode) => tree({ r: { type: 'Sequence', children: ['x'] }, x: node });
+
+/** The fixes of the only problem. */
+function fixesOf(diagram: Diagram) {
+  const [problem] = findProblems(diagram, vocabulary);
+  return problem ? fixesFor(problem, diagram, vocabulary) : [];
+}
+
+describe('fixes', () => {
+  it.each<[string, Diagram]>([
+    ['rename-type', under({ type: 'Trun' })],
+    ['rename-port', under({ type: 'Turn', ports: { ang_sped: '1' } })],
+    ['remove-port', under({ type: 'Turn', ports: { nonsense: '1' } })],
+    ['use-key', tree({ r: { type: 'Repeat', children: ['x'] }, x: { type: 'Turn' } })],
+    ['set-port', under({ type: 'Turn', ports: { ang_speed: '{speed' } })],
+    ['set-port', under({ type: 'Turn', ports: { ang_speed: '{}' } })],
+    ['set-port', under({ type: 'Turn', ports: { ang_speed: '0,5' } })],
+    [
+      'use-key',
+      tree({
+        r: { type: 'LoopInt', ports: { queue: '1;2', value: 'v' }, children: ['x'] },
+        x: { type: 'Turn' },
+      }),
+    ],
+    [
+      'wrap-children',
+      tree({ r: { type: 'Inverter', children: ['x', 'y'] }, x: { type: 'Turn' }, y: { type: 'Turn' } }),
+    ],
+  ])('%s mends what it is offered for, and undo brings the fault back', (key, diagram) => {
+    const [offered] = fixesOf(diagram);
+    expect(offered?.key).toBe(key);
+    if (typeof offered?.does !== 'function') throw new Error('no recipe');
+    const { diagram: mended } = edit(diagram, offered.does);
+    expect(findProblems(mended, vocabulary)).toEqual([]);
+    expect(findProblems(diagram, vocabulary)).not.toEqual([]);
+  });
+
+  it('offers to write an action that is missing, with the ports that it is given', () => {
+    const made = fixesOf(under({ type: 'FollowWall', ports: { side: 'left' } })).at(-1);
+    expect(made).toMatchObject({
+      key: 'make-action',
+      does: { makes: 'action', name: 'FollowWall', ports: ['side'] },
+    });
+  });
+  it('offers to make a tree that is missing, and no tree that would call itself', () => {
+    const fixes = fixesOf(under({ type: 'SubTree', tree: 'Patrol' }));
+    expect(fixes).toMatchObject([{ key: 'make-tree', does: { makes: 'tree', name: 'Patrol' } }]);
+  });
+  it('knows findings of the server, too', () => {
+    const diagram = under({ type: 'Turn', conditions: { _skipIf: '' } });
+    const [offered] = fixesFor({ code: 'BT0301', node: 'x', port: '_skipIf' }, diagram, vocabulary);
+    expect(offered?.key).toBe('remove-condition');
+  });
+  it('offers nothing where it knows nothing', () => {
+    expect(fixesFor({ code: 'BT0999', node: 'x' }, under({ type: 'Turn' }), vocabulary)).toEqual([]);
+    expect(fixesFor({ code: 'BT0105', node: 'gone' }, under({ type: 'Turn' }), vocabulary)).toEqual([]);
+  });
+});
+
+describe('similarNames', () => {
+  it.each([
+    ['Sequnece', ['Sequence', 'Fallback', 'ReactiveSequence'], ['Sequence']],
+    ['sequence', ['Sequence'], ['Sequence']],
+    ['Go', ['Turn', 'Do'], ['Do']],
+    ['Walk', ['Turn'], []],
+  ])('%s', (name, names, expected) => {
+    expect(similarNames(name, names)).toEqual(expected);
+  });
+});

@@ -1,0 +1,180 @@
+import { freshId, type Diagram, type DiagramNode, type NodeId } from './diagram';
+import { removeSubtrees, setCondition, setDisabled, setPort, wrap, type Recipe } from './edits';
+import { assign, nodeOf } from './edits/core';
+import { literalProblem, type PortSpec } from './ports';
+import type { Problem } from './problems';
+import { wouldRecurse, type Vocabulary } from './vocabulary';
+import { similarNames } from './similar';
+
+/** What a fix does besides changing the tree: makes a file. */
+export type Making =
+  | { readonly makes: 'action'; readonly name: string; readonly ports: readonly string[] }
+  | { readonly makes: 'tree'; readonly name: string };
+
+/** Something that mends a finding; its words are `editor:fix.<key>` with `values`. */
+export interface Fix {
+  readonly key: string;
+  readonly values: Readonly<Record<string, string>>;
+  readonly does: Recipe | Making;
+}
+
+/** The part of a finding that fixes are made from: the editor's kind, or the server's code. */
+export type Fixable =
+  | Pick<Problem, 'kind' | 'node' | 'port'>
+  | { readonly code: string; readonly node: NodeId | null; readonly port?: string };
+
+const fix = (key: string, does: Fix['does'], values: Fix['values'] = {}): Fix => ({ key, values, does });
+
+const setType =
+  (id: NodeId, type: string, tree?: string): Recipe =>
+  (draft) => {
+    const node = nodeOf(draft, id);
+    node.type = type;
+    assign(node, 'tree', tree);
+  };
+
+function typeFixes(id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Fix[] {
+  if (vocabulary.trees.has(node.type)) {
+    return [fix('call-tree', setType(id, 'SubTree', node.type), { name: node.type })];
+  }
+  const fits = [...vocabulary.specs.values()].filter(
+    (spec) => (node.children?.length ?? 0) <= spec.maxChildren,
+  );
+  const known = similarNames(
+    node.type,
+    fits.map((spec) => spec.type),
+  ).map((name) => fix('rename-type', setType(id, name), { name }));
+  const trees = similarNames(node.type, vocabulary.trees.keys(), 1).map((name) =>
+    fix('call-tree', setType(id, 'SubTree', name), { name }),
+  );
+  const isLeaf = (node.children?.length ?? 0) === 0;
+  const made =
+    isLeaf && /^[A-Za-z_]\w*$/.test(node.type)
+      ? [
+          fix(
+            'make-action',
+            { makes: 'action', name: node.type, ports: Object.keys(node.ports ?? {}) },
+            { name: node.type },
+          ),
+        ]
+      : [];
+  return [...known, ...trees, ...made];
+}
+
+function treeFixes(diagram: Diagram, id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Fix[] {
+  const possible = [...vocabulary.trees.keys()].filter(
+    (tree) => tree !== diagram.id && !wouldRecurse(vocabulary, diagram.id, tree),
+  );
+  const name = node.tree ?? '';
+  const near = name === '' ? possible.slice(0, 3) : similarNames(name, possible);
+  const calls = near.map((tree) => fix('call-tree', setType(id, 'SubTree', tree), { name: tree }));
+  return /^[\w.-]+$/.test(name) && !vocabulary.trees.has(name)
+    ? [...calls, fix('make-tree', { makes: 'tree', name }, { name })]
+    : calls;
+}
+
+const keyOf = (text: string, port: string): string =>
+  `{${/^@?[A-Za-z_]\w*$/.test(text.trim()) ? text.trim() : port}}`;
+
+const keyFix = (id: NodeId, port: string, text: string): Fix =>
+  fix('use-key', setPort(id, port, keyOf(text, port)), { text: keyOf(text, port) });
+
+function unknownPortFixes(id: NodeId, node: DiagramNode, port: string, ports: readonly PortSpec[]): Fix[] {
+  const free = ports.map((each) => each.name).filter((name) => node.ports?.[name] === undefined);
+  const renames = similarNames(port, free).map((name) =>
+    fix('rename-port', renameOwn(id, port, name), { port, name }),
+  );
+  return [...renames, fix('remove-port', setPort(id, port, null), { port })];
+}
+
+const renameOwn =
+  (id: NodeId, from: string, to: string): Recipe =>
+  (draft) => {
+    const node = nodeOf(draft, id);
+    node.ports = Object.fromEntries(
+      Object.entries(node.ports ?? {}).map(([name, text]) => [name === from ? to : name, text]),
+    );
+  };
+
+function valueFixes(id: NodeId, port: PortSpec, text: string): Fix[] {
+  const fixes: Fix[] = [];
+  const point = text.trim().replace(',', '.');
+  if (point !== text && literalProblem(port.type, point) === null) {
+    fixes.push(fix('set-port', setPort(id, port.name, point), { text: point }));
+  }
+  if (port.default !== null)
+    fixes.push(fix('reset-port', setPort(id, port.name, null), { text: port.default }));
+  return [...fixes, keyFix(id, port.name, text)];
+}
+
+function portFixes(
+  problem: { kind: string; port: string },
+  id: NodeId,
+  node: DiagramNode,
+  vocabulary: Vocabulary,
+): Fix[] {
+  const { port } = problem;
+  const text = node.ports?.[port] ?? '';
+  const ports = vocabulary.specs.get(node.type)?.ports ?? [];
+  const declared = ports.find((each) => each.name === port);
+  switch (problem.kind) {
+    case 'missing-port':
+      return [keyFix(id, port, '')];
+    case 'unknown-port':
+      return unknownPortFixes(id, node, port, ports);
+    case 'unclosed-brace':
+      return [fix('set-port', setPort(id, port, `${text.trim()}}`), { text: `${text.trim()}}` })];
+    case 'empty-key':
+      return [fix('set-port', setPort(id, port, '{=}'), { text: '{=}' })];
+    case 'output-literal':
+      return [keyFix(id, port, text)];
+    case 'wrong-type':
+      return declared ? valueFixes(id, declared, text) : [];
+    default:
+      return [];
+  }
+}
+
+function kindFixes(
+  problem: Pick<Problem, 'kind' | 'port'>,
+  diagram: Diagram,
+  id: NodeId,
+  vocabulary: Vocabulary,
+): Fix[] {
+  const node = diagram.nodes[id];
+  if (!node) return [];
+  switch (problem.kind) {
+    case 'unknown-type':
+      return typeFixes(id, node, vocabulary);
+    case 'missing-tree':
+    case 'unknown-tree':
+    case 'recursion':
+      return treeFixes(diagram, id, node, vocabulary);
+    case 'too-many-children': {
+      const spec = vocabulary.specs.get(node.type);
+      if (spec?.maxChildren !== 1) return [];
+      return [fix('wrap-children', wrap(node.children ?? [], freshId(diagram.nodes), { type: 'Sequence' }))];
+    }
+    case 'draft':
+      return [fix('delete', removeSubtrees([id]))];
+    case 'empty-tree':
+    case 'too-few-children':
+      return [];
+    default:
+      return problem.port === undefined
+        ? []
+        : portFixes({ kind: problem.kind, port: problem.port }, id, node, vocabulary);
+  }
+}
+
+/** What can be done about a finding at a press, the likeliest first. */
+export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabulary): Fix[] {
+  const id = problem.node;
+  if (id === null || !(id in diagram.nodes)) return [];
+  if ('kind' in problem) return kindFixes(problem, diagram, id, vocabulary);
+  if (problem.code === 'BT0105') return [fix('enable', setDisabled([id], false))];
+  if (problem.code === 'BT0301' && problem.port !== undefined) {
+    return [fix('remove-condition', setCondition(id, problem.port, null), { port: problem.port })];
+  }
+  return [];
+}

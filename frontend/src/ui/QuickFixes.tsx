@@ -1,0 +1,59 @@
+import { Button, Group } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import { IconBulb } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import type { Fix } from '@/model/fixes';
+import { applyFix } from '@/store/project/fixes';
+
+interface QuickFixesProps {
+  readonly tree: string;
+  readonly fixes: readonly Fix[];
+}
+
+/** What mends a finding, each at a press; undo takes it back. */
+export function QuickFixes({ tree, fixes }: QuickFixesProps) {
+  const { t } = useTranslation('editor');
+  if (fixes.length === 0) return null;
+  const act = (fix: Fix) => {
+    const undo = applyFix(tree, fix);
+    if (!undo) return;
+    const id = ['fix', fix.key, ...Object.values(fix.values)].join(' ');
+    notifications.show({
+      id,
+      autoClose: 10_000,
+      message: (
+        <Group justify="space-between" wrap="nowrap">
+          {t(`fixed.${fix.key}`, fix.values)}
+          <Button
+            size="compact-xs"
+            variant="light"
+            onClick={() => {
+              undo();
+              notifications.hide(id);
+            }}
+          >
+            {t('fixed.undo')}
+          </Button>
+        </Group>
+      ),
+    });
+  };
+  return (
+    <Group gap={6} mt={4}>
+      {fixes.map((fix) => (
+        <Button
+          key={fix.key + Object.values(fix.values).join(' ')}
+          size="compact-xs"
+          variant="light"
+          data-testid={`fix-${fix.key}`}
+          leftSection={<IconBulb size={13} aria-hidden="true" />}
+          onClick={() => {
+            act(fix);
+          }}
+        >
+          {t(`fix.${fix.key}`, fix.values)}
+        </Button>
+      ))}
+    </Group>
+  );
+}

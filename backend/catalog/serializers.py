@@ -48,3 +48,24 @@ class TemplateListSerializer(serializers.Serializer[Any]):
     """Templates, the empty project first."""
 
     items = TemplateSerializer(many=True)
+
+
+class BehaviourSerializer(serializers.Serializer[Any]):
+    """A behaviour to reuse: a subtree with ports; `summary` and `doc` are by language."""
+
+    id = serializers.CharField(help_text="Also the name of its tree.")
+    version = serializers.CharField()
+    group = serializers.CharField(help_text="motion, navigation, vision, manipulation or ros.")
+    universe = serializers.CharField(help_text="A built-in universe to try it in.")
+    summary = serializers.DictField(child=serializers.CharField())
+    doc = serializers.DictField(child=serializers.CharField())
+    diagram = ObjectField(help_text="Its tree, with its ports.")
+    files = serializers.DictField(
+        child=serializers.CharField(), help_text="Every file that it needs, by its path in a project."
+    )
+
+
+class BehaviourListSerializer(serializers.Serializer[Any]):
+    """The built-in library."""
+
+    items = BehaviourSerializer(many=True)

@@ -10,5 +10,6 @@ urlpatterns = [
     path("catalog/universes/<str:universe_id>/preview", views.UniversePreview.as_view()),
     path("catalog/robots", views.Robots.as_view()),
     path("catalog/robots/<str:robot_id>/preview", views.RobotPreview.as_view()),
+    path("catalog/behaviours", views.Behaviours.as_view()),
     path("catalog/templates", views.Templates.as_view()),
 ]

@@ -11,7 +11,7 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.catalog import queries
+from backend.catalog import library, queries
 from backend.catalog import serializers as s
 from backend.config.problems import NotFoundError
 from backend.projects.templates import templates
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 class Nodes(APIView):
     """Built-in nodes."""
 
+    open_to_guests = True
+
     @extend_schema(operation_id="list_nodes", responses=s.NodesSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
         """Every built-in node with its ports."""
@@ -34,6 +36,8 @@ class Nodes(APIView):
 class Universes(APIView):
     """Built-in worlds."""
 
+    open_to_guests = True
+
     @extend_schema(operation_id="list_universes", responses=s.EntryListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
         """Every built-in universe."""
@@ -42,6 +46,8 @@ class Universes(APIView):
 
 class UniversePreview(APIView):
     """What a built-in world looks like."""
+
+    open_to_guests = True
 
     @extend_schema(
         operation_id="get_universe_preview",
@@ -56,6 +62,8 @@ class UniversePreview(APIView):
 class Robots(APIView):
     """Built-in robots."""
 
+    open_to_guests = True
+
     @extend_schema(operation_id="list_robots", responses=s.EntryListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
         """Every built-in robot."""
@@ -64,6 +72,8 @@ class Robots(APIView):
 
 class RobotPreview(APIView):
     """What a built-in robot looks like."""
+
+    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_preview",
@@ -78,10 +88,23 @@ class RobotPreview(APIView):
 class Templates(APIView):
     """Projects that new ones start from."""
 
+    open_to_guests = True
+
     @extend_schema(operation_id="list_templates", responses=s.TemplateListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
         """The empty project and the examples."""
         return Response({"items": [asdict(template) for template in templates()]})
+
+
+class Behaviours(APIView):
+    """Behaviours to reuse."""
+
+    open_to_guests = True
+
+    @extend_schema(operation_id="list_behaviours", responses=s.BehaviourListSerializer, tags=["catalog"])
+    def get(self, request: Request) -> Response:
+        """The built-in library, with every file that a behaviour brings."""
+        return Response({"items": [asdict(behaviour) for behaviour in library.behaviours()]})
 
 
 def _picture(path: Path | None, what: str) -> HttpResponse:

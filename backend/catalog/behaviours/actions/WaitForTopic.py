@@ -1,0 +1,54 @@
+import importlib
+
+import py_trees
+from rclpy.qos import qos_profile_sensor_data
+
+from tree_gardener.ports import Port, get_input
+
+
+class WaitForTopic(py_trees.behaviour.Behaviour):
+    """Waits until a message arrives on a topic, of whatever type; it fails when none comes in time."""
+
+    INPUT_PORTS = {
+        "topic": Port(str, default="/scan", description="Name of the topic."),
+        "timeout": Port(float, default=10.0, description="After how long it gives up, in s."),
+    }
+
+    def setup(self, **kwargs):
+        self.node = kwargs["node"]
+        self.subscription = None
+        self.arrived = False
+        self.began_s = 0.0
+
+    def now_s(self):
+        return self.node.get_clock().now().nanoseconds / 1e9
+
+    def initialise(self):
+        self.arrived = False
+        self.began_s = self.now_s()
+
+    def on_message(self, _message):
+        self.arrived = True
+
+    def subscribe(self, topic):
+        """Subscribes as soon as somebody publishes: before that the type is not known."""
+        for name, types in self.node.get_topic_names_and_types():
+            if name == topic:
+                package, kind, message = types[0].split("/")
+                message_class = getattr(importlib.import_module(f"{package}.{kind}"), message)
+                self.subscription = self.node.create_subscription(
+                    message_class, topic, self.on_message, qos_profile_sensor_data
+                )
+
+    def update(self):
+        if self.subscription is None:
+            self.subscribe(get_input(self, "topic"))
+        if self.arrived:
+            return py_trees.common.Status.SUCCESS
+        is_late = self.now_s() - self.began_s > get_input(self, "timeout")
+        return py_trees.common.Status.FAILURE if is_late else py_trees.common.Status.RUNNING
+
+    def terminate(self, new_status):
+        if self.subscription is not None:
+            self.node.destroy_subscription(self.subscription)
+            self.subscription = None

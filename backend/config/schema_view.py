@@ -5,11 +5,14 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
+from django.shortcuts import render
+from django.views.decorators.http import require_safe
 from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 if TYPE_CHECKING:
+    from django.http import HttpRequest, HttpResponse
     from rest_framework.request import Request
 
 
@@ -25,6 +28,12 @@ def document() -> dict[str, Any]:
         request=None, public=True
     )
     return generated
+
+
+@require_safe
+def docs(request: HttpRequest) -> HttpResponse:
+    """The document as a page to browse and try, without the internet."""
+    return render(request, "config/api_docs.html")
 
 
 class OpenApi(APIView):

@@ -93,7 +93,7 @@ USE_I18N = True
 LANGUAGES = [("en", "English"), ("es", "Español")]
 LANGUAGE_COOKIE_NAME = "bt_studio_language"
 STATIC_URL = "/static/"
-STATICFILES_DIRS = [Path(__file__).parents[1] / "accounts" / "static"]
+STATICFILES_DIRS = [Path(__file__).parents[1] / part / "static" for part in ("accounts", "config")]
 WHITENOISE_USE_FINDERS = True
 WHITENOISE_ROOT = str(ENVIRONMENT.frontend_dir)
 WHITENOISE_AUTOREFRESH = True  # a new build of the front end needs no restart
@@ -102,7 +102,14 @@ DATA_UPLOAD_MAX_MEMORY_SIZE = ENVIRONMENT.max_request_bytes
 FILE_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
 SECURE_CONTENT_TYPE_NOSNIFF = True
 # Small notices only, such as that a project has a new revision; never frames, logs or files.
-CHANNEL_LAYERS: dict[str, dict[str, Any]] = {"default": {"BACKEND": "channels.layers.InMemoryChannelLayer"}}
+CHANNEL_LAYERS: dict[str, dict[str, Any]] = {
+    "default": {
+        "BACKEND": "channels_redis.pubsub.RedisPubSubChannelLayer",
+        "CONFIG": {"hosts": [ENVIRONMENT.redis_url.get_secret_value()]},
+    }
+    if ENVIRONMENT.redis_url.get_secret_value()
+    else {"BACKEND": "channels.layers.InMemoryChannelLayer"}
+}
 LOGGING_CONFIG = None
 SILENCED_SYSTEM_CHECKS = [
     "admin.E408",  # the admin's pages exist in team mode only, and so do sessions and messages

@@ -5,7 +5,7 @@ from __future__ import annotations
 from django.urls import URLPattern, URLResolver, include, path, re_path
 
 from backend.config import static
-from backend.config.schema_view import OpenApi
+from backend.config.schema_view import OpenApi, docs
 from backend.projects.views_legacy import urlpatterns as legacy
 
 api: list[URLPattern | URLResolver] = [
@@ -15,6 +15,7 @@ api: list[URLPattern | URLResolver] = [
     path("", include("backend.language.urls")),
     path("", include("backend.accounts.urls")),
     path("openapi.json", OpenApi.as_view()),
+    path("docs", docs),
 ]
 urlpatterns = [
     path("api/v1/", include(api)),

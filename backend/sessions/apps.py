@@ -8,6 +8,7 @@ class SessionsConfig(AppConfig):
 
     name = "backend.sessions"
     label = "executor_sessions"
+    verbose_name = "Sessions"
 
     def ready(self) -> None:
         """A deleted project needs no robot, nor does an account that leaves."""

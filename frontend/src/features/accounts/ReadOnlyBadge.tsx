@@ -10,7 +10,6 @@ const NOTE = 'read-only';
 /** Says that the project may only be read, and again when someone tries to change it. */
 export function ReadOnlyBadge() {
   const { t } = useTranslation('accounts');
-  const role = useProjectStore((state) => state.role);
   const refused = useProjectStore((state) => state.refusedEdits);
   useEffect(() => {
     if (refused > 0)
@@ -21,10 +20,9 @@ export function ReadOnlyBadge() {
         color: 'indigo',
       });
   }, [refused, t]);
-  if (role !== 'viewer') return null;
   return (
     <Tooltip label={t('readOnly.note')}>
-      <Badge variant="light" leftSection={<IconEye size={13} />} tt="none" data-testid="read-only">
+      <Badge variant="light" leftSection={<IconEye size={13} />} tt="none" style={{ flexShrink: 0 }} data-testid="read-only">
         {t('readOnly.badge')}
       </Badge>
     </Tooltip>

@@ -18,6 +18,7 @@ import { SaveIndicator } from './SaveIndicator';
 export function TopBar() {
   const { t } = useTranslation('frame');
   const name = useProjectStore((state) => state.name);
+  const role = useProjectStore((state) => state.role);
   const activeTree = useProjectStore((state) => state.activeTree);
   const history = useProjectStore((state) =>
     state.activeTree ? state.histories[state.activeTree] : undefined,
@@ -44,8 +45,7 @@ export function TopBar() {
             </Text>
           </Group>
         ) : null}
-        <SaveIndicator />
-        <ReadOnlyBadge />
+        {role === 'viewer' ? <ReadOnlyBadge /> : <SaveIndicator />}
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
         <ActionButton action="edit.undo" testId="undo" isDisabled={!history?.past.length} />

@@ -31,6 +31,7 @@ VERBS: Final[dict[str, Verb]] = {
     "check": Verb("check", "check"),
     "translate": Verb("translate", "translate"),
     "import": Verb("import_", "import_"),
+    "import-universe": Verb("import_universe", "import_universe"),
     "package": Verb("package", "package"),
     "conformance": Verb("conformance", "conformance"),
     "manager": Verb("manager", "manager"),

@@ -94,6 +94,14 @@ def rotation(q: Sequence[float]) -> NDArray[np.float64]:
     )
 
 
+def to_xyz_rpy(pose: Pose) -> tuple[float, float, float, float, float, float]:
+    """Returns [x, y, z, roll, pitch, yaw] of a pose."""
+    qx, qy, qz, qw = pose[3:]
+    roll = math.atan2(2 * (qw * qx + qy * qz), 1 - 2 * (qx * qx + qy * qy))
+    pitch = math.asin(max(-1.0, min(1.0, 2 * (qw * qy - qz * qx))))
+    return (*pose[:3], roll, pitch, yaw_of(pose[3:]))
+
+
 def yaw_of(q: Sequence[float]) -> float:
     """Returns the heading of a rotation, in rad."""
     qx, qy, qz, qw = q

@@ -26,6 +26,7 @@ class TinyRenderer:
 
     def __init__(self) -> None:
         self._bullet = Bullet()
+        self.has_shadows = False  # they double its time, and are hard-edged
         self._bodies: list[list[int]] = []
         self._ground = 0
         self._sun = [-0.3, -0.4, 0.8]
@@ -88,7 +89,7 @@ class TinyRenderer:
             viewMatrix=view.view_matrix().T.ravel().tolist(),
             projectionMatrix=view.projection_matrix(width, height).T.ravel().tolist(),
             lightDirection=self._sun,
-            shadow=0,
+            shadow=int(self.has_shadows),
             renderer=self._bullet.ER_TINY_RENDERER,
         )
 

@@ -6,6 +6,8 @@ nothing but what a new or changed subscription has not yet seen.
 
 from __future__ import annotations
 
+import math
+import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
@@ -30,6 +32,9 @@ if TYPE_CHECKING:
     Send = Callable[[dict[str, Any]], None]
 
 MAX_HZ: Final[dict[str, float]] = {"poses": 60.0, "scan": 30.0, "camera": 30.0, "view": 30.0}
+PICTURES: Final = ("camera", "view")
+REST_SHARE: Final = 0.25
+"""Of the time that a picture took, for which no other is drawn."""
 MOVED_M: Final = 1e-4
 VIEW_WIDTH: Final = 960
 WIDTHS: Final = (64, 1920)
@@ -56,10 +61,14 @@ class Subscription:
 class Streams:
     """All subscriptions of a world. `send` takes messages of type ``frame``."""
 
-    def __init__(self, world: World, sensors: Sensors, send: Send) -> None:
+    def __init__(
+        self, world: World, sensors: Sensors, send: Send, *, clock: Callable[[], float] = time.monotonic
+    ) -> None:
         self._world = world
         self._sensors = sensors
         self._send = send
+        self._clock = clock
+        self._rests_until_s = -math.inf
         self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
         self._adaptations: dict[str | None, Adaptation] = {}
 
@@ -107,12 +116,20 @@ class Streams:
         return max(0.0, min((s.next_s - now_s for s in self._subscriptions.values()), default=1.0))
 
     def send_due(self, now_s: float) -> None:
-        """Sends what is due at a real time."""
+        """Sends what is due at a real time. Pictures leave the world time to go on, if the machine is slow."""
+        may_draw, drawing_s = now_s >= self._rests_until_s, 0.0
         for subscription in list(self._subscriptions.values()):
-            if now_s >= subscription.next_s and self._send_one(subscription):
+            is_picture = subscription.stream in PICTURES
+            if now_s < subscription.next_s or (is_picture and not may_draw):
+                continue
+            began_s = self._clock()
+            if self._send_one(subscription):
                 period = 1.0 / (subscription.max_hz * self._rate_share(subscription))
                 # In step with the rate unless far behind: else a 30 Hz stream of a 60 Hz world beats.
                 subscription.next_s = max(subscription.next_s + period, now_s - period)
+            drawing_s += is_picture * (self._clock() - began_s)
+        if drawing_s:
+            self._rests_until_s = now_s + drawing_s * (1 + REST_SHARE)
 
     # --- inside ---
 
@@ -182,8 +199,7 @@ class Streams:
         return LEVELS[0] if adaptation is None else adaptation.level
 
     def _rate_share(self, subscription: Subscription) -> float:
-        is_picture = subscription.stream in {"camera", "view"}
-        return self._level(subscription.client).rate if is_picture else 1.0
+        return self._level(subscription.client).rate if subscription.stream in PICTURES else 1.0
 
     def _send_poses(self, subscription: Subscription) -> bool:
         poses = self._world.poses()

@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 
-BENCHMARKS = ("engine", "translator", "world", "session")
+BENCHMARKS = ("engine", "translator", "world", "stream", "session")
 
 
 def main(names: list[str]) -> None:

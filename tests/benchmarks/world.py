@@ -25,6 +25,7 @@ ROOT = Path(__file__).parents[2]
 DOMAIN_ID = 34
 SIZES = ((320, 240), (640, 480), (1280, 720))
 PICTURES = 45
+TURNS = 24
 
 
 def main() -> None:
@@ -48,37 +49,48 @@ def median_ms(act: Callable[[], object], count: int) -> float:
 
 def pictures() -> None:
     """Draws the robot's camera with both renderers, turn by turn, the world moving in between."""
-    world = BulletWorld(load_builtin("person_in_green"))
-    camera = world.robots[0].config.cameras[0]
-    gl, tiny = GlRenderer(), TinyRenderer()
-    for renderer in (gl, tiny):
-        renderer.load(world.scene)
-    print(f"pictures of person_in_green with shadows, by {gl.name}:")
-    for width, height in SIZES:
-        times: dict[str, list[float]] = {"plain": [], "antialiased": [], "TinyRenderer": []}
-        for turn in range(20):
-            world.step(16)
-            poses, pose = world.poses(), world.robots[0].camera_pose(camera)
-            view = Viewpoint.of_pose(pose, camera.fov, camera.near, camera.far)
-            for name, renderer, smooth in (
-                ("plain", gl, False),
-                ("antialiased", gl, True),
-                ("TinyRenderer", tiny, False),
-            ):
-                if name == "TinyRenderer" and turn % 4:
-                    continue
-                began_s = time.perf_counter()
-                renderer.draw(poses, view, width, height, smooth=smooth)
-                times[name].append((time.perf_counter() - began_s) * 1000)
-        middle = {name: statistics.median(values) for name, values in times.items()}
-        print(
-            f"  {width:4}×{height:3}: {middle['plain']:6.1f} ms, "
-            f"antialiased {middle['antialiased']:6.1f} ms, TinyRenderer {middle['TinyRenderer']:7.1f} ms: "
-            f"{middle['TinyRenderer'] / middle['plain']:.0f} times"
-        )
-    gl.close()
-    tiny.close()
-    world.close()
+    for universe in ("person_in_green", "warehouse"):
+        world = BulletWorld(load_builtin(universe))
+        shapes = sum(len(thing.shapes) for thing in world.scene.objects)
+        gl, tiny = GlRenderer(), TinyRenderer()
+        for renderer in (gl, tiny):
+            renderer.load(world.scene)
+        print(f"{universe}, {shapes} shapes, by {gl.name}; ours with shadows and, if smooth, antialiasing:")
+        for width, height in SIZES:
+            times = _compare(world, gl, tiny, (width, height))
+            middle = {name: statistics.median(values) for name, values in times.items()}
+            rival = middle["Tiny, shadows"]
+            print(
+                f"  {width:4}×{height:3}: "
+                f"plain {middle['plain']:5.1f} ms, smooth {middle['smooth']:5.1f} ms; "
+                f"TinyRenderer {middle['Tiny']:6.1f} ms, with shadows {rival:6.1f} ms: "
+                f"{middle['Tiny'] / middle['smooth']:.0f} and {rival / middle['smooth']:.0f} times as long"
+            )
+        gl.close()
+        tiny.close()
+        world.close()
+
+
+def _compare(
+    world: BulletWorld, gl: GlRenderer, tiny: TinyRenderer, size: tuple[int, int]
+) -> dict[str, list[float]]:
+    camera, robot = world.robots[0].config.cameras[0], world.robots[0]
+    times: dict[str, list[float]] = {"plain": [], "smooth": [], "Tiny": [], "Tiny, shadows": []}
+    for turn in range(TURNS):
+        robot.command(0.2, 0.5)
+        world.step(16)
+        poses = world.poses()
+        view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
+        for name, values in times.items():
+            is_ours = not name.startswith("Tiny")
+            if not is_ours and turn % 6:
+                continue
+            tiny.has_shadows = name.endswith("shadows")
+            renderer = gl if is_ours else tiny
+            began_s = time.perf_counter()
+            renderer.draw(poses, view, *size, smooth=name == "smooth")
+            values.append((time.perf_counter() - began_s) * 1000)
+    return times
 
 
 def physics() -> None:

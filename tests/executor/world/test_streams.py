@@ -224,3 +224,20 @@ def test_who_comes_back_starts_with_the_best(watched: Watched) -> None:
     watched.streams.subscribe("a", "camera")
     [frame] = watched.stand(0.1)
     assert frame.width == 640
+
+
+def test_slow_pictures_leave_time_for_the_world(watched: Watched) -> None:
+    clock = [0.0]
+
+    def draw(*_: object, **__: object) -> NDArray[np.uint8]:
+        clock[0] += 0.2
+        return np.zeros((9, 16, 3), np.uint8)
+
+    watched.renderer.draw = draw  # type: ignore[method-assign]
+    watched.streams = Streams(watched.world, watched.sensors, watched.sent.append, clock=lambda: clock[0])
+    watched.streams.subscribe("a", "view")
+    watched.streams.subscribe("a", "poses")
+    frames = watched.run(2.0)
+    # A fifth of a second for the picture, a quarter of that for all else.
+    assert 7 <= sum(isinstance(frame, View) for frame in frames) <= 9
+    assert sum(isinstance(frame, Poses) for frame in frames) > 50

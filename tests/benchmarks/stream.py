@@ -1,0 +1,157 @@
+"""Streams of whole sessions, in `warehouse`: bytes, latency, memory, and many sessions side by side.
+
+Each session is a manager in a process of its own with its world and its application; the clients are sockets
+in this process that decode every message.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import statistics
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import psutil
+
+from executor.messages import Camera, Poses, View
+from tests.executor.session_client import SessionClient, app_zip, manager_process, run_data
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
+UNIVERSE = "warehouse"
+WATCHED_S = 10.0
+SESSIONS = 6
+TURNS = 12
+IDLE = """
+import py_trees
+
+
+class {name}(py_trees.behaviour.Behaviour):
+    def update(self):
+        return py_trees.common.Status.RUNNING
+"""
+Session = tuple[Any, SessionClient]
+
+
+def main() -> None:
+    """Prints every figure."""
+    asyncio.run(_main())
+
+
+async def _main() -> None:
+    await sizes()
+    await latency()
+    await side_by_side(SESSIONS)
+
+
+@contextlib.asynccontextmanager
+async def session(app: str, *streams: dict[str, Any], universe: str = UNIVERSE) -> AsyncIterator[Session]:
+    """A session that runs, with one client that follows some streams."""
+    async with manager_process() as process:
+        client = await SessionClient(process.ready["port"]).open()
+        for stream in streams:
+            await client.ask("subscribe", stream)
+        answer = await client.ask("run", run_data(app, universe=universe))
+        if answer != "ack":
+            raise RuntimeError(f"the session does not run: {answer}")
+        yield process, client
+        await client.ask("disconnect")
+        await client.close()
+
+
+async def sizes() -> None:
+    """Bytes a second of the 3D stream, and of the same view as pictures."""
+    view = {"stream": "view", "max_hz": 30.0, "width": 1280}
+    async with session(app_zip(), {"stream": "poses", "max_hz": 30.0}, view) as (_, client):
+        await asyncio.sleep(3)
+        first = len(client.frames)
+        await asyncio.sleep(WATCHED_S)
+        frames = [frame for _, frame in client.frames[first:]]
+        poses = [len(frame.ids) + len(frame.poses) + 24 for frame in frames if isinstance(frame, Poses)]
+        pictures = [len(frame.jpeg) + 40 for frame in frames if isinstance(frame, View)]
+        in_3d, in_2d = sum(poses) / WATCHED_S, sum(pictures) / WATCHED_S
+        print(
+            f"3D stream {in_3d / 1000:.1f} kB/s at {len(poses) / WATCHED_S:.0f} Hz, "
+            f"the same view of 1280x720 as JPEG {in_2d / 1000:.0f} kB/s "
+            f"at {len(pictures) / WATCHED_S:.1f} Hz: "
+            f"{statistics.mean(pictures) / statistics.mean(poses):.0f} times as many a frame"
+        )
+
+
+async def latency() -> None:
+    """From a command of the client's hand to the first picture at the client that shows its effect."""
+    app = app_zip(**{name: IDLE.format(name=name) for name in ("Forward", "Turn")})
+    for stream, kind in (("view", View), ("camera", Camera)):
+        wanted = {"stream": stream, "max_hz": 30.0}
+        async with session(app, wanted, universe="walled_room") as (_, client):
+            await asyncio.sleep(2)
+            delays = [await _delay_s(client, kind, turn) for turn in range(TURNS)]
+        delays.sort()
+        worst = delays[round(0.95 * (len(delays) - 1))]
+        print(
+            f"command to pixel by {stream}: median {statistics.median(delays) * 1000:.0f} ms, "
+            f"p95 {worst * 1000:.0f} ms"
+        )
+
+
+async def _delay_s(client: SessionClient, kind: type[View] | type[Camera], turn: int) -> float:
+    await client.send("teleop", {"linear": 0.0, "angular": 0.0})
+    await asyncio.sleep(1.2 + 0.013 * turn)  # at any phase of the camera
+    client.frames.clear()
+    await client.until(lambda: sum(isinstance(f, kind) for _, f in client.frames) >= 2)
+    still = next(f.jpeg for _, f in reversed(client.frames) if isinstance(f, kind))
+    client.frames.clear()
+    began_s = time.monotonic()
+    await client.send("teleop", {"linear": 0.3, "angular": 2.0 if turn % 2 else -2.0})
+
+    def first() -> float | None:
+        seen = ((at, f.jpeg) for at, f in client.frames if isinstance(f, kind))
+        return next((at - began_s for at, jpeg in seen if jpeg != still), None)
+
+    delay_s: float = await client.until(first)
+    return delay_s
+
+
+async def side_by_side(count: int) -> None:
+    """Real-time factor and memory of sessions with their camera in use and one 3D viewer each."""
+    app = app_zip("visual_follow_person")
+    for number in dict.fromkeys((1, count)):
+        async with contextlib.AsyncExitStack() as stack:
+            sessions = []
+            for _ in range(number):
+                made = session(app, {"stream": "poses", "max_hz": 30.0})
+                sessions.append(await stack.enter_async_context(made))
+            await asyncio.sleep(5)
+            before = [client.events[-1]["t"] for _, client in sessions]
+            began_s = time.monotonic()
+            await asyncio.sleep(WATCHED_S)
+            passed_s = time.monotonic() - began_s
+            factors = [
+                (client.events[-1]["t"] - t) / passed_s
+                for (_, client), t in zip(sessions, before, strict=True)
+            ]
+            memory = [pss_mb(process.pid) for process, _ in sessions]
+            load = psutil.cpu_percent(0.5) * psutil.cpu_count() / 100
+            print(
+                f"{number} session{'s' if number > 1 else ''} with camera and one 3D viewer: "
+                f"real-time factor {min(factors):.3f} to {max(factors):.3f}, "
+                f"{max(memory):.0f} MB (PSS) the largest, "
+                f"{load:.1f} cores busy"
+            )
+
+
+def pss_mb(pid: int) -> float:
+    """The proportional memory of a process and all below it, in MB."""
+    family = [psutil.Process(pid), *psutil.Process(pid).children(recursive=True)]
+    total = 0
+    for process in family:
+        text = Path(f"/proc/{process.pid}/smaps_rollup").read_text()
+        total += int(next(line.split()[1] for line in text.splitlines() if line.startswith("Pss:")))
+    return total / 1000
+
+
+if __name__ == "__main__":
+    main()

@@ -20,11 +20,13 @@ from websockets.exceptions import ConnectionClosed
 from executor import messages
 from executor.manager import Manager, ManagerSettings
 from executor.pose_codec import POSE_BYTES, unpack
+from executor.recording import Recording
 from executor.report import NodeCount, Report, quantiles
 from executor.universes import BUILTIN_IDS, builtin_path
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from pathlib import Path
 
     from translator import Project
 
@@ -48,6 +50,7 @@ class HeadlessOptions:
     seed: int = 0
     duration_s: float | None = None
     robot: str | None = None
+    recording: Path | None = None
 
 
 @dataclass
@@ -172,22 +175,42 @@ async def _run(
             introspection = msgspec.json.decode(await control.recv())["data"]
             stream_url = f"{url}/stream?client={introspection['client_id']}"
             async with connect(stream_url, additional_headers=headers, **more) as stream:
-                runner = _Runner(control, stream, project.settings.tick_hz, say)
-                data = _run_data(project, app_zip, options)
-                return await runner.run(data, options.duration_s, progress)
+                with _recording(project, options) as recording:
+                    runner = _Runner(control, stream, project.settings.tick_hz, say, recording)
+                    data = _run_data(project, app_zip, options)
+                    return await runner.run(data, options.duration_s, progress)
     finally:
         await manager.close()
+
+
+def _recording(
+    project: Project, options: HeadlessOptions
+) -> contextlib.AbstractContextManager[Recording | None]:
+    if options.recording is None:
+        return contextlib.nullcontext()
+    universe = options.universe or project.settings.universe
+    about = {"project": project.settings.name, "universe": universe, "seed": options.seed}
+    try:
+        return Recording(options.recording, about)
+    except OSError as error:
+        raise HeadlessError(f"{options.recording}: cannot be written: {error.strerror}") from error
 
 
 class _Runner:
     """The client's side of the session."""
 
     def __init__(
-        self, control: ClientConnection, stream: ClientConnection, tick_hz: float, say: Callable[[str], None]
+        self,
+        control: ClientConnection,
+        stream: ClientConnection,
+        tick_hz: float,
+        say: Callable[[str], None],
+        recording: Recording | None,
     ) -> None:
         self._control = control
         self._stream = stream
         self._say = say
+        self._recording = recording
         self._measured = _Measured(period_ms=1000.0 / tick_hz)
         self._replies: dict[str, asyncio.Future[dict[str, Any]]] = {}
         self._changed = asyncio.Event()
@@ -231,6 +254,8 @@ class _Runner:
         with contextlib.suppress(ConnectionClosed):
             async for text in self._control:
                 message = msgspec.json.decode(text)
+                if self._recording is not None:
+                    self._recording.event(message)
                 name, data = message["command"], message["data"]
                 reply = self._replies.pop(message["id"], None)
                 if reply is not None:
@@ -247,7 +272,10 @@ class _Runner:
         with contextlib.suppress(ConnectionClosed):
             async for data in self._stream:
                 if isinstance(data, bytes):
-                    self._measured.take_frame(_decode_frame(data))
+                    frame = _decode_frame(data)
+                    self._measured.take_frame(frame)
+                    if self._recording is not None:
+                        self._recording.frame(frame)
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:

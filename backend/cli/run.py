@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from executor.headless import HeadlessOptions
     from executor.report import Report
     from translator import Project
 
@@ -28,6 +29,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     ] = False,
     seed: Annotated[int, typer.Option(help="Of everything random in the universe.")] = 0,
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="File for all that the run says, line by line; .gz compresses. Not in lock-step."),
+    ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Runs a project; exit status 1 if it cannot be run or an action raised."""
@@ -35,13 +40,19 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.errors import CliError
     from translator import TranslatorError
 
+    if lockstep and record is not None:
+        raise typer.BadParameter("a run in lock-step has no stream to record", param_hint="--record")
+    if lockstep and universe == "none":
+        text = "lock-step needs a simulated world; run against an outside graph in real time"
+        raise typer.BadParameter(text, param_hint="--universe")
     try:
         opened = cli.open_project(project)
-        done = (
-            _in_lockstep(opened, universe, robot, seed, duration)
-            if lockstep
-            else _in_real_time(opened, universe, robot, seed, duration)
-        )
+        if lockstep:
+            done = _in_lockstep(opened, universe, robot, seed, duration)
+        else:
+            from executor.headless import HeadlessOptions
+
+            done = _in_real_time(opened, HeadlessOptions(universe, seed, duration, robot, record))
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from error
     document = json.dumps(done.to_json(), ensure_ascii=False, indent=2) + "\n"
@@ -77,11 +88,9 @@ def _in_lockstep(
         _progress("")
 
 
-def _in_real_time(
-    project: Project, universe: str | None, robot: str | None, seed: int, duration: float | None
-) -> Report:
+def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
     from backend.cli.errors import CliError
-    from executor.headless import HeadlessError, HeadlessOptions, run_headless
+    from executor.headless import HeadlessError, run_headless
     from translator import to_app_zip
 
     def progress(so_far: Report) -> None:
@@ -91,7 +100,6 @@ def _in_real_time(
         _progress("")
         print(line, flush=True)
 
-    options = HeadlessOptions(universe, seed, duration, robot)
     try:
         return run_headless(project, to_app_zip(project), options, progress=progress, say=say)
     except HeadlessError as error:

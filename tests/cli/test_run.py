@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import os
 import subprocess
@@ -77,3 +78,32 @@ def test_a_port_in_use_is_told_in_one_line():
     assert done.returncode == 1
     assert "cannot listen" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.simulation
+def test_a_run_is_recorded_line_by_line(tmp_path):
+    path = tmp_path / "run.jsonl.gz"
+    done = studio("run", EXAMPLE, "--duration", "2", "--record", path)
+    assert (done.returncode, done.stderr) == (0, "")
+    with gzip.open(path) as file:
+        head, *lines = [json.loads(line) for line in file]
+    assert (head["format"], head["version"]) == ("bt-studio/recording", 1)
+    assert {line["type"] for line in lines} >= {"event", "scene", "poses", "scan"}
+    commands = [line["command"] for line in lines if line["type"] == "event"]
+    assert {"tree", "tick", "log", "state-changed"} <= set(commands)
+    assert "ack" not in commands
+    times = [line["t"] for line in lines if line["type"] == "poses"]
+    assert times == sorted(times)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["--lockstep", "--record", "r.jsonl"], "no stream to record"),
+        (["--lockstep", "--universe", "none"], "needs a simulated world"),
+    ],
+)
+def test_what_lockstep_cannot_do_is_said_at_once(arguments, text):
+    done = studio("run", EXAMPLE, *arguments)
+    assert done.returncode == 2
+    assert text in " ".join(done.stderr.replace("│", " ").split())

@@ -39,12 +39,18 @@ class Storm:
         self.client = await SessionClient(self.manager.port).open()
 
     async def kill(self):
-        children = list(self.session.children.values())
-        supervised = fakes()
-        if children and supervised:
-            victim = self.chance.choice(supervised)
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(victim.pid, signal.SIGKILL)
+        living = list(self.manager._supervisor._children.items())
+        if not living:
+            return
+        (kind, number), victim = self.chance.choice(living)
+        child = self.session.children.get(kind)
+        is_used = child is not None and child.number == number and child.is_started
+        at = len(self.client.events)
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(victim.pid, signal.SIGKILL)
+        if is_used and self.session.state.reaches(State.UNIVERSE_READY):
+            # Whoever looks on is told what died, and of what.
+            await self.client.event("fault", lambda d: "SIGKILL" in d["message"], after=at)
 
     async def stall(self):
         supervised = fakes()

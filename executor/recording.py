@@ -1,0 +1,56 @@
+"""Writes what a run said to a file, line by line: the events of the session and the frames of its streams.
+
+The first line is `{"format": "bt-studio/recording", "version": 1, …}`. An event is `{"type": "event", "t",
+"tick", "command", "data"}`, a frame as in the stream protocol with its `type` and `t`; bytes are base64. A
+name that ends with `.gz` is compressed. What was written stays readable when the run is cut off.
+"""
+
+from __future__ import annotations
+
+import gzip
+from typing import TYPE_CHECKING, Any, BinaryIO, Final, Self, cast
+
+import msgspec
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["FORMAT", "VERSION", "Recording"]
+
+FORMAT: Final = "bt-studio/recording"
+VERSION: Final = 1
+_LEFT_OUT: Final = frozenset({"ack", "error", "introspection", "snapshot", "progress"})
+_KEPT: Final = ("t", "tick", "command", "data")
+_encode = msgspec.json.Encoder().encode
+
+
+class Recording:
+    """An open file; use it as a context.
+
+    Raises:
+        OSError: the file cannot be written.
+    """
+
+    def __init__(self, path: Path, about: dict[str, Any]) -> None:
+        opened = gzip.open if path.suffix == ".gz" else open
+        self._file = cast("BinaryIO", opened(path, "wb"))  # closed by __exit__
+        self._write({"format": FORMAT, "version": VERSION, **about})
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def event(self, message: dict[str, Any]) -> None:
+        """Writes an event of the control socket; replies are none."""
+        if message["command"] not in _LEFT_OUT:
+            kept = {name: message[name] for name in _KEPT if name in message}
+            self._write({"type": "event"} | kept)
+
+    def frame(self, frame: object) -> None:
+        """Writes a frame of the stream socket."""
+        self._write(frame)
+
+    def _write(self, line: object) -> None:
+        self._file.write(_encode(line) + b"\n")

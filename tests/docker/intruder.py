@@ -72,15 +72,15 @@ def look():
         "root_write": attempt(lambda: Path("/opt/bt-studio/mine").write_text("x")),
         "mount": mount(b"none", b"/tmp", b"tmpfs", 0, None),
         "studio_files": [path for path in STUDIO if Path(path).exists()],
-        "managers": sum(b"executor.manager" in read(folder) for folder in Path("/proc").glob("[0-9]*")),
+        "managers": sum(is_manager(folder) for folder in Path("/proc").glob("[0-9]*")),
     }
 
 
-def read(folder):
+def is_manager(folder):
     try:
-        return (folder / "cmdline").read_bytes()
+        return (folder / "cmdline").read_bytes().startswith(b"python\0-m\0executor.manager")
     except OSError:
-        return b""
+        return False
 
 
 class Forward(py_trees.behaviour.Behaviour):

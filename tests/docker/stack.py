@@ -15,6 +15,7 @@ import urllib.request
 from typing import TYPE_CHECKING
 
 from websockets.asyncio.client import connect
+from websockets.protocol import State
 
 from tests.docker.engine import REPOSITORY, _run
 from tests.executor.session_client import SessionClient
@@ -171,7 +172,10 @@ class User:
         return "; ".join(f"{cookie.name}={cookie.value}" for cookie in self._jar)
 
     async def open_session(self, session: dict[str, str], *, stream: bool = True) -> RelayedClient:
-        return await RelayedClient(self._base, session["id"], self.cookies).open(stream=stream)
+        return await self.client_of(session).open(stream=stream)
+
+    def client_of(self, session: dict[str, str]) -> RelayedClient:
+        return RelayedClient(self._base, session["id"], self.cookies)
 
 
 class RelayedClient(SessionClient):
@@ -182,6 +186,11 @@ class RelayedClient(SessionClient):
         self._origin = base
         self._session_id = session_id
         self._headers = {"Cookie": cookies}
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the server has ended the socket."""
+        return self.control.state is not State.OPEN
 
     def _connect(self, path: str):
         return connect(

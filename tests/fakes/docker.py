@@ -30,6 +30,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         self.containers = {}
         self.listeners = {}
         self.requests = []
+        self.processes = {}
         self._gate = gate_folder / "gate.sock"
         super().__init__(str(path), _Handler)
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -120,6 +121,10 @@ class _Handler(BaseHTTPRequestHandler):
         if verb == "logs":
             line = b"the fake executor starts\n"
             return 200, b"\x01\0\0\0" + len(line).to_bytes(4, "big") + line
+        if verb == "stats":
+            return 200, {"pids_stats": {"current": docker.processes.get(name, 5)}}
+        if verb == "kill":
+            docker.end(name, 137)
         if verb == "start":
             docker.start(name)
         if verb == "stop":

@@ -24,7 +24,7 @@ log = logging.getLogger("keeper")
 
 KEEPER_FOLDER: Final = "/run/bt-studio-keeper"
 DOCKER_SOCKET: Final = "/var/run/docker.sock"
-TIDY_EVERY_S: Final = 30
+TIDY_EVERY_S: Final = 5
 
 
 def main() -> int:
@@ -60,6 +60,7 @@ def _serve(folder: Path) -> None:
     log.info("the keeper of %s starts %s, at most %d", stack, plan.image, max_sessions)
     while not ended.wait(TIDY_EVERY_S):
         try:
+            keeper.end_crowded()
             keeper.tidy(time.time())
         except KeeperError as error:
             log.warning("%s", error.detail)

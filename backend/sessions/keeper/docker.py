@@ -12,6 +12,7 @@ from backend.sessions.keeper.unix_http import ask, read_json
 
 API: Final = "/v1.41"
 NOT_FOUND: Final = 404
+NOT_RUNNING: Final = 409
 LOG_HEADER_BYTES: Final = 8
 
 
@@ -39,6 +40,18 @@ class Docker:
         filters = json.dumps({"label": [f"{key}={value}" for key, value in labels.items()]})
         found = self._call("GET", "/containers/json?" + urlencode({"all": "1", "filters": filters}))
         return list(found)
+
+    def processes(self, container: str) -> int:
+        """How many processes and threads a container has."""
+        path = f"/containers/{quote(container)}/stats?stream=0&one-shot=1"
+        stats = self._call("GET", path, missing=True) or {}
+        return int(stats.get("pids_stats", {}).get("current") or 0)
+
+    def kill(self, container: str) -> None:
+        """Kills everything in a container at once; one that has ended is no error."""
+        status, data = self._ask("POST", f"/containers/{quote(container)}/kill")
+        if status >= 400 and status not in {NOT_FOUND, NOT_RUNNING}:
+            raise KeeperError(502, "docker_failed", f"Docker refused: {data.decode(errors='replace')}.")
 
     def stop(self, container: str, timeout_s: float) -> None:
         """Asks the container to end, and kills it after the time is up."""

@@ -38,6 +38,8 @@ class Keeper:
         self._plan = plan
         self._max_sessions = max_sessions
         self._starting: set[str] = set()
+        self._crowded: set[str] = set()
+        self._reasons: dict[str, str] = {}
         self._lock = threading.Lock()
 
     def start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> dict[str, Any]:
@@ -87,7 +89,7 @@ class Keeper:
         state = found["State"]
         if state["Running"]:
             return {"running": True, "status": None, "reason": ""}
-        reason = ""
+        reason = self._reasons.get(session_id, "")
         if state.get("OOMKilled"):
             reason = f"It used more than its {self._plan.limits.memory_mb:g} MB of memory."
         return {"running": False, "status": int(state["ExitCode"]), "reason": reason}
@@ -113,6 +115,30 @@ class Keeper:
         with contextlib.suppress(KeeperError):
             self._docker.remove(self._plan.container_name(session_id))
         self._gate.remove(session_id)
+        self._reasons.pop(session_id, None)
+
+    def end_crowded(self) -> None:
+        """Kills what has had as many processes as it may at this look and the last.
+
+        Inside, a storm of processes leaves its manager no time to end it.
+        """
+        crowded = set()
+        for one in self.list():
+            session_id = str(one["session"])
+            name = self._plan.container_name(session_id)
+            try:
+                if not one["running"] or self._docker.processes(name) < int(self._plan.limits.pids):
+                    continue
+                crowded.add(session_id)
+                if session_id in self._crowded:
+                    log.warning("session %s has too many processes and is ended", session_id)
+                    self._reasons[session_id] = (
+                        f"It had {self._plan.limits.pids:g} processes, all it may have."
+                    )
+                    self._docker.kill(name)
+            except KeeperError as error:
+                log.warning("session %s: %s", session_id, error.detail)
+        self._crowded = crowded
 
     def tidy(self, now_s: float) -> None:
         """Ends what has run for too long, and removes what ended long ago and nobody asked for."""

@@ -168,6 +168,22 @@ def test_what_ran_too_long_is_ended_and_what_ended_long_ago_removed(host_of):
     assert host.docker.containers == {}
 
 
+def test_a_storm_of_processes_is_ended_from_outside(host_of):
+    host = host_of()
+    started = host.launcher.start(session_spec())
+    name = next(iter(host.docker.containers))
+    host.docker.processes[name] = 256
+    host.keeper.end_crowded()
+    host.docker.processes[name] = 200
+    host.keeper.end_crowded()
+    assert host.launcher.poll(started.state) is None
+    host.docker.processes[name] = 256
+    host.keeper.end_crowded()
+    host.keeper.end_crowded()
+    assert host.launcher.poll(started.state) == 137
+    assert "256 processes" in host.launcher.explain(started.state)
+
+
 def test_a_container_may_do_little():
     plan = Plan("executor:1", "gate", "stack", limits=Limits(cpus=1.5, memory_mb=1024, pids=100, disk_mb=64))
     config = plan.container("id", TOKEN, 7)

@@ -53,6 +53,13 @@ def _unsubscribe(session: Session, event: CommandCame) -> None:
     session.tell("world", "unsubscribe", client=event.client, stream=data.stream)
 
 
+def _teleop(session: Session, event: CommandCame) -> None:
+    data = cast("messages.Teleop", event.data)
+    # A pause freezes tree and world; a world that merely waits for a program goes on for who drives in it.
+    goes_on = session.state in (State.UNIVERSE_READY, State.VISUALIZATION_READY)
+    session.tell("world", "teleop", linear=data.linear, angular=data.angular, goes_on=goes_on)
+
+
 def _move_body(session: Session, event: CommandCame) -> None:
     data = cast("messages.MoveBody", event.data)
     session.ask("world", event, id=data.id, pose=data.pose)
@@ -98,7 +105,7 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "list_topics": _list_topics,
     "describe_type": _describe_type,
     "restart_node": _restart_node,
-    **_forward("world", "teleop"),
+    "teleop": _teleop,
 }
 
 ANSWER_LATER: Final = frozenset(

@@ -78,11 +78,11 @@ class Clockwork:
         self._pacer.pause()
         self._steps, self._report = 0, None
 
-    def teleop(self, linear: float, angular: float) -> None:
-        """Drives the first robot by hand. Time goes on for it, also where the world is paused."""
+    def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
+        """Drives the first robot by hand; a paused world goes on for it for a while if it is told to."""
         if self._world.robots:
             self._world.robots[0].command(linear, angular)
-            self._is_driven = True
+            self._is_driven = goes_on
 
     def stop_robots(self) -> None:
         """Wants no robot to move, whatever is still under way."""

@@ -137,7 +137,8 @@ class WorldProcess:
             case "stop_robot":
                 clockwork.stop_robots()
             case "teleop":
-                clockwork.teleop(float(message["linear"]), float(message["angular"]))
+                goes_on = bool(message.get("goes_on"))
+                clockwork.teleop(float(message["linear"]), float(message["angular"]), goes_on=goes_on)
             case "move_body":
                 clockwork.move_body(str(message["id"]), message["pose"])
             case "subscribe" | "unsubscribe" | "pace":

@@ -111,6 +111,13 @@ def test_a_paused_world_steps_as_told(remote: Remote) -> None:
     remote.tell("unsubscribe", client="b", stream="poses")
 
 
+def test_a_paused_world_goes_on_for_who_drives_in_it(remote: Remote) -> None:
+    remote.tell("subscribe", client="c", stream="poses", max_hz=60.0, width=None, camera_pose=None)
+    remote.tell("teleop", linear=0.5, angular=0.0, goes_on=True)
+    assert poses_until(remote, "c", 0.02) > 0
+    remote.tell("unsubscribe", client="c", stream="poses")
+
+
 def test_reports_are_valid_sim_messages(remote: Remote) -> None:
     report = msgspec.convert(remote.hear("sim"), Sim)
     assert report.paused

@@ -48,6 +48,7 @@ export function TeleopPad() {
 function Pad() {
   const { t } = useTranslation('viewer');
   const { linear, angular, direction } = useTeleop();
+  const isPaused = useSessionStore(({ executor }) => executor === 'paused');
   useHeldKeys();
   const isHeld = (code: string) => {
     const key = KEYS[code];
@@ -70,7 +71,7 @@ function Pad() {
             title={`${t(`driveTo.${key}`)} (${code.replace('Key', '')})`}
             onPointerDown={(event) => {
               event.currentTarget.setPointerCapture(event.pointerId);
-              drive(directionOf([code]));
+              if (canDrive()) drive(directionOf([code]));
             }}
             onPointerUp={halt}
             onPointerCancel={halt}
@@ -108,7 +109,7 @@ function Pad() {
         </label>
       </div>
       <CloseButton size="sm" aria-label={t('driveEnd')} onClick={() => setDriving(false)} />
-      <span className={classes['padHelp']}>{t('driveHelp')}</span>
+      <span className={classes['padHelp']}>{t(isPaused ? 'drivePaused' : 'driveHelp')}</span>
     </div>
   );
 }

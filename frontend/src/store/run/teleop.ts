@@ -30,10 +30,10 @@ export const useTeleop = create<TeleopData>(() => ({
 
 let repeating: ReturnType<typeof setInterval> | undefined;
 
-/** Driving by hand needs a world; time goes on in it while one drives, also where it was paused. */
+/** Driving by hand needs a world whose time may go on: a pause freezes it, until one resumes or stops. */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
-  return !['idle', 'connected'].includes(executor) && introspection?.role !== 'viewer';
+  return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';
 }
 
 /** Drives into a direction until another one, or none, is given. */

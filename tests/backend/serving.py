@@ -22,7 +22,9 @@ class Served:
         self.process = process
         self.port = ready["port"]
         self.token = ready["url"].partition("token=")[2]
-        self.base = ready["url"].partition("/?")[0]
+        self.base = (
+            f"http://127.0.0.1:{self.port}" if "/?" not in ready["url"] else ready["url"].partition("/?")[0]
+        )
         self.headers = {"Authorization": f"Bearer {self.token}"}
 
     def end(self, how=signal.SIGTERM):

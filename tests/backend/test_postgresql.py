@@ -7,10 +7,12 @@ import subprocess
 import sys
 
 import pytest
+import requests
 
 from tests.backend.services import postgresql, redis
-from tests.backend.serving import REPOSITORY
+from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving
 
+PASSWORD = "Correct-horse-9"
 # Storage, permissions, concurrency, accounts. The kill storm starts servers of its own, on SQLite.
 SUITE = (
     "tests/backend/projects",
@@ -30,3 +32,50 @@ def test_the_suite_passes_on_postgresql_and_redis():
             command, cwd=REPOSITORY, env=os.environ | services, capture_output=True, text=True, check=False
         )
     assert run.returncode == 0, run.stdout[-8000:] + run.stderr[-2000:]
+
+
+@pytest.mark.timeout(300)
+def test_two_web_servers_share_one_database_and_a_killed_one_loses_nothing(tmp_path):
+    # The web server is killed, not the database: what is committed is safe without a sync.
+    with postgresql(fsync="off") as database_url, redis() as redis_url:
+        team = {
+            "BT_STUDIO_MODE": "team",
+            "BT_STUDIO_PUBLIC_URL": "http://127.0.0.1:8000",
+            "BT_STUDIO_DATABASE_URL": database_url,
+            "BT_STUDIO_REDIS_URL": redis_url,
+            "BT_STUDIO_SECRET_KEY": "k" * 40,
+        }
+        folders = [tmp_path / name for name in ("first", "second")]
+        for folder in folders:
+            folder.mkdir()
+        make = [sys.executable, "-m", "backend.cli.main", "admin", "create", "ada", "--password-stdin"]
+        environment = os.environ | team | {"BT_STUDIO_DATA_DIR": str(tmp_path / "third")}
+        # Both find an empty database and migrate it.
+        making = subprocess.Popen(make, cwd=REPOSITORY, env=environment, stdin=subprocess.PIPE, text=True)
+        with serving(folders[0], **team) as first, serving(folders[1], **team) as second:
+            making.communicate(f"{PASSWORD}\n", timeout=TIMEOUT_S)
+            assert making.returncode == 0
+            browser = signed_in(first)
+            made = browser.post(f"{first.base}/api/v1/projects", json={"name": "Kept"})
+            assert made.status_code == 201
+            project = made.json()["id"]
+            change = {"files": [{"path": "a.txt", "base_revision": 0, "content": "kept"}]}
+            saved = browser.post(f"{first.base}/api/v1/projects/{project}/changes", json=change)
+            assert saved.status_code == 200
+            first.process.kill()
+            # Signed in there is signed in here, and what was acknowledged is here.
+            browser.headers["Origin"] = second.base
+            found = browser.get(f"{second.base}/api/v1/projects/{project}/files/a.txt")
+            assert found.text == "kept"
+
+
+def signed_in(server):
+    """A session of `requests` that went through the sign-in page."""
+    browser = requests.Session()
+    browser.headers["Origin"] = server.base
+    page = browser.get(f"{server.base}/accounts/login/")
+    token = page.text.partition('name="csrfmiddlewaretoken" value="')[2].partition('"')[0]
+    fields = {"login": "ada", "password": PASSWORD, "csrfmiddlewaretoken": token}
+    answer = browser.post(f"{server.base}/accounts/login/", data=fields, allow_redirects=False)
+    assert answer.status_code == 302, answer.text
+    return browser

@@ -75,7 +75,7 @@ class Outside:
         """Has the robot stand; it stays where it is."""
         self.stop_robots()
 
-    def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:  # noqa: ARG002
+    def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
         """Drives the robot by hand; the outside's time goes on anyway."""
         twist = Twist()
         twist.linear.x, twist.angular.z = linear, angular

@@ -7,6 +7,9 @@ import base64
 import contextlib
 import io
 import json
+import os
+import random
+import sys
 import zipfile
 
 import pytest
@@ -18,6 +21,7 @@ from executor.manager import Manager, ManagerSettings
 from executor.ram.monitor import update_text
 from executor.ram.server import REFUSED, is_loopback
 from executor.ram.translate import RamError, to_native
+from tests.budget import count
 from tests.executor.test_server import empty_zip, manager
 
 CODE = f"data:application/zip;base64,{empty_zip()}"
@@ -217,3 +221,31 @@ def test_the_monitor_nests_nodes_by_name():
         },
         "blackboard": {"speed": "0.3"},
     }
+
+
+async def test_random_frames_are_all_answered_and_the_client_is_served_still():
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
+    sys.stdout.write(f"seed {seed}\n")
+    chance = random.Random(seed)  # noqa: S311
+    names = [
+        "connect",
+        "launch_world",
+        "prepare_tools",
+        "run_application",
+        "pause",
+        "terminate_world",
+        "x",
+        "",
+    ]
+    values = [None, 1, "x", [], {}, {"name": "empty"}, {"tools": []}, {"code": CODE}, {"scene": {"zip": 1}}]
+    async with ram() as (_, raw):
+        for n in range(count("manager_fuzz_frames") // 10):
+            text = json.dumps({"id": f"f{n}", "command": chance.choice(names), "data": chance.choice(values)})
+            if chance.random() < 0.2:
+                cut = chance.randrange(len(text))
+                text = text[:cut] + chance.choice(["", "\x00", "}", '"']) + text[cut + 1 :]
+            await raw.socket.send(text)
+            command = ""
+            while command not in {"ack", "error"}:
+                command = json.loads(await asyncio.wait_for(raw.socket.recv(), 30))["command"]
+        assert (await raw.ask("disconnect"))[-1] == ("ack", None)

@@ -1,0 +1,57 @@
+"""What can be said of the files of `docker/` without an engine."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+
+import kubernetes_validate
+import pytest
+import yaml
+
+from tests.docker.engine import REPOSITORY
+
+DOCKER = REPOSITORY / "docker"
+MANIFESTS = sorted((DOCKER / "kubernetes").glob("*.yaml"))
+COMPOSE = sorted(DOCKER.glob("compose*.yaml"))
+KUBERNETES = "1.31.0"
+
+
+@pytest.mark.parametrize("path", MANIFESTS, ids=lambda path: path.name)
+def test_manifests_are_what_kubernetes_takes(path):
+    for document in yaml.safe_load_all(path.read_text()):
+        kubernetes_validate.validate(document, KUBERNETES, strict=True)
+
+
+@pytest.mark.parametrize("path", COMPOSE, ids=lambda path: path.name)
+def test_compose_files_start_with_old_and_new_compose(path):
+    document = yaml.safe_load(path.read_text())
+    assert set(document) <= {"version", "services", "networks", "volumes", "x-logging"}
+    sockets = [name for name, service in document["services"].items() if "docker.sock" in str(service)]
+    assert sockets == ["keeper"]
+    assert document["services"]["keeper"]["network_mode"] == "none"
+    for name in ("web", "keeper"):
+        service = document["services"][name]
+        assert (service["read_only"], service["cap_drop"]) == (True, ["ALL"])
+        assert "privileged" not in service
+
+
+def test_each_variable_of_the_compose_file_is_explained_in_the_example():
+    asked = set(re.findall(r"\$\{(BT_STUDIO_\w+)", (DOCKER / "compose.yaml").read_text()))
+    explained = set(re.findall(r"(?m)^#? ?(BT_STUDIO_\w+)=", (DOCKER / ".env.example").read_text()))
+    assert asked - explained == set()
+
+
+@pytest.mark.parametrize("name", ["web", "executor"])
+def test_the_images_leave_out_packages_that_are_in_the_lock(name):
+    spec = importlib.util.spec_from_file_location("without", DOCKER / "without.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    lock = (REPOSITORY / "requirements.lock").read_text()
+    patterns = module.read_patterns((DOCKER / f"{name}.without").read_text())
+    left = module.without(lock, patterns)
+    assert ("pybullet==" in left) == (name == "executor")
+    assert ("\nros-rclpy==" in left) == (name == "executor")
+    assert ("\ndjango==" in left) == (name == "web")
+    assert ("\nuvicorn==" in left) == (name == "web")
+    assert left.count("--hash=sha256:") > 100

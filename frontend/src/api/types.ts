@@ -48,7 +48,8 @@ export interface ProjectSettings {
   main_tree: string;
   tick_hz?: number;
   universe?: string;
-  robot?: string;
+  /** Absent: the universe's own. */
+  robot?: string | undefined;
   on_finish?: OnFinish;
   on_error?: OnError;
   [key: string]: unknown;

@@ -10,6 +10,7 @@ const ROWS = [
   null,
   'project.newAction',
   'project.newTree',
+  'project.worlds',
   'project.takeAway',
   null,
   'run.resetWorld',

@@ -4,9 +4,12 @@ import {
   IconCircleCheck,
   IconPlugConnected,
   IconPlugConnectedX,
+  IconWorld,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { openWorlds } from '@/features/universe/worlds';
 import { useProjectStore } from '@/store/project';
+import { useWorldChoice } from '@/store/run/world';
 import { useMotion } from '@/store/session/motion';
 import { useSessionStore } from '@/store/session/store';
 import classes from './frame.module.css';
@@ -17,6 +20,7 @@ export function StatusBar() {
   return (
     <footer className={classes['statusBar']} aria-label={t('status.label')}>
       <ConnectionStatus />
+      <WorldButton />
       <ProblemCount />
       <span className={classes['spacer']} />
       <SimStatus />
@@ -35,6 +39,25 @@ function ConnectionStatus() {
       {t(`connection.${connection}`)}
       {connection === 'open' && universe ? ` · ${universe}` : null}
     </span>
+  );
+}
+
+/** Where the robot will be; a click chooses another place. */
+function WorldButton() {
+  const { t } = useTranslation('frame');
+  const own = useProjectStore((state) => state.settings?.universe ?? '');
+  const once = useWorldChoice((state) => state.universe);
+  return (
+    <button
+      type="button"
+      className={classes['statusButton']}
+      data-testid="open-worlds"
+      title={t('action.worlds')}
+      onClick={openWorlds}
+    >
+      <IconWorld size={14} aria-hidden="true" />
+      {once ?? own}
+    </button>
   );
 }
 

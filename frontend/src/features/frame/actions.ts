@@ -9,6 +9,7 @@ import {
   IconLayout,
   IconPlus,
   IconTerminal2,
+  IconWorld,
   IconAlertTriangle,
 } from '@tabler/icons-react';
 import { registerActions, type UserAction } from '@/actions/registry';
@@ -17,6 +18,7 @@ import { navigate } from '@/store/route';
 import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/features/code/newFile';
 import { openTakeAway } from '@/features/export/takeAway';
+import { openWorlds } from '@/features/universe/worlds';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
 import { openTab, showPanel } from './tabs';
@@ -83,6 +85,15 @@ const rows: UserAction[] = [
     shortcut: '$mod+Shift+KeyS',
     inTextFields: true,
     run: openTakeAway,
+  },
+  {
+    id: 'project.worlds',
+    group: 'project',
+    labelKey: 'frame:action.worlds',
+    icon: IconWorld,
+    shortcut: '$mod+Shift+KeyU',
+    inTextFields: true,
+    run: openWorlds,
   },
   {
     id: 'project.home',

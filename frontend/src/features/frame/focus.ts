@@ -1,7 +1,7 @@
 import type { DocumentTab } from './tabs';
 
-/** A document may still be loading its editor: so long it is waited for. */
-const PATIENCE_MS = 4000;
+/** The editor of a document may still be on its way over a slow line: so long it is waited for. */
+const PATIENCE_MS = 30_000;
 /** A closing menu or palette gives the focus back to where it was: so long it may. */
 const SETTLED_MS = 250;
 const RETRY_MS = 20;

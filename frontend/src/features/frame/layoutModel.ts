@@ -12,6 +12,7 @@ export type PanelId =
   | 'explorer'
   | 'outline'
   | 'palette'
+  | 'library'
   | 'inspector'
   | 'blackboard'
   | 'viewer3d'
@@ -76,6 +77,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'camera',
               'inspector',
               'palette',
+              'library',
               'console',
               'problems',
               'timeline',
@@ -98,7 +100,10 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
         {
           type: 'row',
           weight: 17,
-          children: [tabset('files', 42, ['explorer', 'outline']), tabset('nodes', 58, ['palette'])],
+          children: [
+            tabset('files', 42, ['explorer', 'outline']),
+            tabset('nodes', 58, ['palette', 'library']),
+          ],
         },
         {
           type: 'row',

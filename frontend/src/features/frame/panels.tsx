@@ -4,6 +4,7 @@ import { BlackboardPanel } from '@/features/blackboard/BlackboardPanel';
 import { Canvas } from '@/features/canvas/Canvas';
 import { ConsolePanel } from '@/features/console/ConsolePanel';
 import { Inspector } from '@/features/inspector/Inspector';
+import { Library } from '@/features/library/Library';
 import { Outline } from '@/features/outline/Outline';
 import { Palette } from '@/features/palette/Palette';
 import { ProblemsPanel } from '@/features/problems/ProblemsPanel';
@@ -24,6 +25,7 @@ const panels: Record<PanelId, () => ReactNode> = {
   explorer: () => <Explorer />,
   outline: () => <Outline />,
   palette: () => <Palette />,
+  library: () => <Library />,
   inspector: () => <Inspector />,
   blackboard: () => <BlackboardPanel />,
   viewer3d: () => (

@@ -1,0 +1,103 @@
+import { Badge, Button, Group, Text } from '@mantine/core';
+import { notifications } from '@mantine/notifications';
+import { IconChevronRight, IconPlus, IconRefresh } from '@tabler/icons-react';
+import { lazy, Suspense, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { insertBehaviour } from '@/store/project/library';
+import { TreePicture } from '@/features/projects/TreePicture';
+import classes from './library.module.css';
+import type { Offer } from './useReusables';
+
+const UpdateDialog = lazy(async () => ({ default: (await import('./UpdateDialog')).UpdateDialog }));
+
+interface BehaviourRowProps {
+  readonly offer: Offer;
+  /** Which version the project has; null when it has none. */
+  readonly takenVersion: string | null;
+}
+
+/** One behaviour: what it does, what it looks like, and the ways to have it. */
+export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
+  const { t } = useTranslation('library');
+  const [isOpen, setOpen] = useState(false);
+  const [isUpdating, setUpdating] = useState(false);
+  const isOld = takenVersion !== null && takenVersion !== offer.version;
+  const files = Object.keys(offer.files);
+
+  const insert = () => {
+    const name = insertBehaviour(offer);
+    const message = name === offer.id ? t('inserted', { name }) : t('renamed', { id: offer.id, name });
+    notifications.show({ message });
+  };
+
+  return (
+    <li className={classes['row']} data-testid={`behaviour-${offer.id}`}>
+      <div className={classes['title']}>
+        <button
+          type="button"
+          className={classes['name']}
+          aria-expanded={isOpen}
+          onClick={() => setOpen(!isOpen)}
+        >
+          <IconChevronRight size={13} aria-hidden="true" />
+          <span>{offer.id}</span>
+        </button>
+        {isOld ? (
+          <Button
+            size="compact-xs"
+            variant="light"
+            data-testid={`update-${offer.id}`}
+            leftSection={<IconRefresh size={13} aria-hidden="true" />}
+            onClick={() => setUpdating(true)}
+          >
+            {t('update')}
+          </Button>
+        ) : null}
+        <Button
+          size="compact-xs"
+          variant="default"
+          data-testid={`insert-${offer.id}`}
+          aria-label={t('insertNamed', { name: offer.id })}
+          leftSection={<IconPlus size={13} aria-hidden="true" />}
+          onClick={insert}
+        >
+          {t('insert')}
+        </Button>
+      </div>
+      <Text size="xs" className={classes['summary'] ?? ''}>
+        {offer.summary}
+      </Text>
+      {isOpen ? (
+        <div className={classes['details']}>
+          <div className={classes['picture']}>
+            <TreePicture diagram={offer.diagram} />
+          </div>
+          {offer.doc ? <Text size="xs">{offer.doc}</Text> : null}
+          <Group gap={6}>
+            <Badge size="sm" variant="light" color="gray" tt="none">
+              {t('version', { version: offer.version })}
+            </Badge>
+            {takenVersion !== null ? (
+              <Badge size="sm" variant="light" tt="none">
+                {t('taken', { version: takenVersion })}
+              </Badge>
+            ) : null}
+          </Group>
+          <Text size="xs" fw={600}>
+            {t('brings', { count: files.length })}
+          </Text>
+          <ul className={classes['files']}>
+            {files.map((path) => (
+              <li key={path}>{path}</li>
+            ))}
+          </ul>
+        </div>
+      ) : null}
+      {isUpdating ? (
+        <Suspense fallback={null}>
+          <UpdateDialog offer={offer} onClose={() => setUpdating(false)} />
+        </Suspense>
+      ) : null}
+    </li>
+  );
+}

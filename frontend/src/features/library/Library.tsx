@@ -1,0 +1,77 @@
+import { Loader, Select, Text, TextInput } from '@mantine/core';
+import { IconSearch } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useProjectStore } from '@/store/project';
+import { takenIn } from '@/store/project/library';
+import { BehaviourRow } from './BehaviourRow';
+import classes from './library.module.css';
+import { useLibrary, useOtherProjects, useTreesOf } from './useReusables';
+
+const BUILT_IN = 'library';
+
+/** Behaviours to reuse: the built-in library, and the trees of the user's other projects. */
+export function Library() {
+  const { t, i18n } = useTranslation('library');
+  const projectId = useProjectStore((state) => state.projectId);
+  const record = useProjectStore((state) => state.currentText('assets/library.json'));
+  const [source, setSource] = useState(BUILT_IN);
+  const [search, setSearch] = useState('');
+  const library = useLibrary(i18n.language);
+  const projects = useOtherProjects(projectId);
+  const trees = useTreesOf(source === BUILT_IN ? null : source);
+  const taken = useMemo(() => takenIn(record), [record]);
+  const { data, error, isPending } = source === BUILT_IN ? library : trees;
+  const words = search.toLowerCase().split(/\s+/).filter(Boolean);
+  const shown = (data ?? []).filter(({ id, summary, doc }) => {
+    const text = `${id} ${summary} ${doc}`.toLowerCase();
+    return words.every((word) => text.includes(word));
+  });
+
+  return (
+    <section className={classes['library']} aria-label={t('label')} data-testid="library">
+      <div className={classes['head']}>
+        <TextInput
+          size="xs"
+          leftSection={<IconSearch size={14} aria-hidden="true" />}
+          placeholder={t('search')}
+          aria-label={t('search')}
+          value={search}
+          onChange={(event) => setSearch(event.currentTarget.value)}
+        />
+        <Select
+          size="xs"
+          aria-label={t('source')}
+          data-testid="library-source"
+          allowDeselect={false}
+          value={source}
+          onChange={(value) => setSource(value ?? BUILT_IN)}
+          data={[
+            { value: BUILT_IN, label: t('builtIn') },
+            ...(projects.data ?? []).map(({ id, name }) => ({ value: id, label: name })),
+          ]}
+        />
+      </div>
+      {isPending ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
+      {error ? (
+        <Text size="sm" p="sm" c="red">
+          {error.message}
+        </Text>
+      ) : null}
+      <ul className={classes['list']}>
+        {shown.map((offer) => (
+          <BehaviourRow
+            key={`${offer.source}/${offer.id}`}
+            offer={offer}
+            takenVersion={taken[`${offer.source}/${offer.id}`]?.version ?? null}
+          />
+        ))}
+      </ul>
+      {data && shown.length === 0 ? (
+        <Text size="sm" p="sm" c="dimmed">
+          {t('nothing')}
+        </Text>
+      ) : null}
+    </section>
+  );
+}

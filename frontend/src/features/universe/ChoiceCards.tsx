@@ -1,0 +1,45 @@
+import { IconCheck, IconRobot, IconWorld } from '@tabler/icons-react';
+import { useId } from 'react';
+import type { UniverseInfo } from '@/api/types';
+import classes from './universe.module.css';
+
+interface ChoiceCardsProps {
+  readonly label: string;
+  readonly items: readonly UniverseInfo[];
+  readonly chosen: string;
+  readonly onChoose: (id: string) => void;
+}
+
+/** Pictures to choose one of; to the keyboard and to screen readers they are radio buttons. */
+export function ChoiceCards({ label, items, chosen, onChoose }: ChoiceCardsProps) {
+  const name = useId();
+  return (
+    <div className={classes['cards']} role="radiogroup" aria-label={label}>
+      {items.map(({ id, name: title, description, preview }) => {
+        const Icon = id === '' ? IconRobot : IconWorld;
+        return (
+          <label key={id} className={classes['card']} data-testid={`choice-${id || 'default'}`}>
+            <input
+              type="radio"
+              name={name}
+              value={id}
+              checked={id === chosen}
+              onChange={() => onChoose(id)}
+              className={classes['radio']}
+            />
+            <span className={classes['picture']}>
+              {preview ? (
+                <img src={preview} alt="" loading="lazy" width={480} height={270} />
+              ) : (
+                <Icon size={32} stroke={1.4} aria-hidden="true" />
+              )}
+              <IconCheck size={18} className={classes['check']} aria-hidden="true" />
+            </span>
+            <span className={classes['title']}>{title}</span>
+            <span className={classes['description']}>{description}</span>
+          </label>
+        );
+      })}
+    </div>
+  );
+}

@@ -1,0 +1,96 @@
+import { Button, Group, Loader, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { api } from '@/api/client';
+import type { UniverseInfo } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { useWorldChoice } from '@/store/run/world';
+import { ChoiceCards } from './ChoiceCards';
+import { closeWorlds } from './worlds';
+
+const OWN = /^universes\/([^/]+)\.yaml$/;
+/** The robot that the universe itself names. */
+const OF_UNIVERSE = '';
+
+type Scope = 'project' | 'once';
+
+/** Universe, robot and seed: for the project, or only as long as this page is open. */
+export function WorldChooser() {
+  const { t } = useTranslation('universe');
+  const settings = useProjectStore((state) => state.settings);
+  const paths = useProjectStore((state) => state.files);
+  const once = useWorldChoice();
+  const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
+  const robots = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
+  const [scope, setScope] = useState<Scope>(once.universe === null ? 'project' : 'once');
+  const [universe, setUniverse] = useState(once.universe ?? settings?.universe ?? '');
+  const [robot, setRobot] = useState(once.robot ?? settings?.robot ?? OF_UNIVERSE);
+  const [seed, setSeed] = useState(once.seed);
+
+  const own = Object.keys(paths)
+    .map((path) => OWN.exec(path)?.[1])
+    .filter((id): id is string => id !== undefined);
+  const names = new Set(own);
+  const places: UniverseInfo[] = [
+    ...own.map((id) => ({ id, name: id, description: t('own') })),
+    ...(universes.data ?? []).filter(({ id }) => !names.has(id)),
+  ];
+  const machines: UniverseInfo[] = [
+    { id: OF_UNIVERSE, name: t('robotOfUniverse'), description: t('robotOfUniverseHint') },
+    ...(robots.data ?? []),
+  ];
+
+  const confirm = () => {
+    const wanted = robot === OF_UNIVERSE ? null : robot;
+    if (scope === 'once') useWorldChoice.setState({ universe, robot: wanted, seed });
+    else {
+      useWorldChoice.setState({ universe: null, robot: null, seed });
+      const { setSettings } = useProjectStore.getState();
+      setSettings({ universe, robot: wanted ?? undefined });
+    }
+    closeWorlds();
+  };
+
+  if (universes.isPending || robots.isPending) return <Loader size="sm" aria-label={t('loading')} />;
+  return (
+    <Stack gap="md" data-testid="worlds">
+      <Text size="sm" fw={600}>
+        {t('universe')}
+      </Text>
+      <ChoiceCards label={t('universe')} items={places} chosen={universe} onChoose={setUniverse} />
+      <Text size="sm" fw={600}>
+        {t('robot')}
+      </Text>
+      <ChoiceCards label={t('robot')} items={machines} chosen={robot} onChoose={setRobot} />
+      <Group justify="space-between" align="flex-end">
+        <Group align="flex-end">
+          <NumberInput
+            w={140}
+            label={t('seed')}
+            description={t('seedHint')}
+            inputWrapperOrder={['label', 'input', 'description']}
+            data-testid="seed"
+            min={0}
+            max={2 ** 31 - 1}
+            allowDecimal={false}
+            value={seed}
+            onChange={(value) => setSeed(Number(value) || 0)}
+          />
+          <SegmentedControl
+            aria-label={t('scope')}
+            value={scope}
+            onChange={(value) => setScope(value as Scope)}
+            data={[
+              { value: 'project', label: t('forProject') },
+              { value: 'once', label: t('forOnce') },
+            ]}
+          />
+        </Group>
+        <Button data-testid="choose-world" disabled={universe === ''} onClick={confirm}>
+          {t('choose')}
+        </Button>
+      </Group>
+    </Stack>
+  );
+}

@@ -1,0 +1,27 @@
+import { Modal } from '@mantine/core';
+import { lazy, Suspense } from 'react';
+import { useTranslation } from 'react-i18next';
+import { closeWorlds, useWorlds } from './worlds';
+
+const Chooser = lazy(async () => ({ default: (await import('./WorldChooser')).WorldChooser }));
+
+/** Where the robot will be, and which robot. */
+export function Worlds() {
+  const { t } = useTranslation('universe');
+  const isOpen = useWorlds((state) => state.isOpen);
+  return (
+    <Modal
+      opened={isOpen}
+      onClose={closeWorlds}
+      title={t('title')}
+      size={960}
+      closeButtonProps={{ 'aria-label': t('close') }}
+    >
+      {isOpen ? (
+        <Suspense fallback={null}>
+          <Chooser />
+        </Suspense>
+      ) : null}
+    </Modal>
+  );
+}

@@ -1,0 +1,276 @@
+"""*Bump and go* from an empty project: by keyboard alone, and by mouse alone but for names and code."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.e2e.accessibility import expect_accessible
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(400)]
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "laser_bump_and_go" / "actions"
+ACTIONS = ("CheckObstacle", "Turn", "Forward")
+
+
+def source(action: str) -> str:
+    return (EXAMPLE / f"{action}.py").read_text(encoding="utf-8")
+
+
+def block(studio: Studio, type_: str) -> Locator:
+    return studio.at("canvas").locator(f"[data-type={type_}]")
+
+
+def children(studio: Studio) -> list[str]:
+    """The types of the tree's blocks from left to right, row by row, as the eye reads them."""
+    shown = studio.at("canvas").locator("[data-type]").all()
+    boxes = [
+        (box["y"], box["x"], each.get_attribute("data-type"))
+        for each in shown
+        if (box := each.bounding_box())
+    ]
+    return [str(type_) for _, _, type_ in sorted(boxes)]
+
+
+def focused(studio: Studio, test_id: str) -> None:
+    expect(studio.at(test_id)).to_be_focused()
+
+
+def quick(studio: Studio, key: str, name: str) -> None:
+    """Opens the quick-add box and chooses the first that is found."""
+    studio.page.keyboard.press(key)
+    expect(studio.at("quick-add")).to_be_visible()
+    studio.page.keyboard.type(name)
+    studio.page.keyboard.press("Enter")
+    expect(studio.at("quick-add")).to_have_count(0)
+    focused(studio, "canvas")
+
+
+def write_code(studio: Studio, action: str) -> None:
+    """From a block to its code and back, by keys."""
+    studio.page.keyboard.press("Enter")
+    editor = studio.page.locator(f'[data-path="actions/{action}.py"] .cm-content')
+    expect(editor).to_be_focused()
+    studio.page.keyboard.press("Control+a")
+    studio.page.keyboard.insert_text(source(action))
+    studio.page.keyboard.press("Alt+t")
+    focused(studio, "canvas")
+
+
+def test_by_keyboard_alone(shared_studio: Studio) -> None:
+    studio, keys = shared_studio, shared_studio.page.keyboard
+    template = studio.at("new-from-empty")
+    for _ in range(40):
+        if template.evaluate("element => element === document.activeElement"):
+            break
+        keys.press("Tab")
+    keys.press("Enter")
+    focused(studio, "canvas")
+
+    keys.press("Home")
+    quick(studio, "Control+m", "ReactiveSequence")
+    quick(studio, "Tab", "ReactiveFallback")
+    quick(studio, "Tab", "Inverter")
+    quick(studio, "Tab", "CheckObstacle")
+    write_code(studio, "CheckObstacle")
+    keys.press("ArrowUp")
+    quick(studio, "Control+Enter", "Turn")
+    write_code(studio, "Turn")
+    keys.press("ArrowUp")
+    quick(studio, "Control+Enter", "Forward")
+    write_code(studio, "Forward")
+    assert children(studio) == [
+        "ReactiveSequence",
+        "ReactiveFallback",
+        "Forward",
+        "Inverter",
+        "Turn",
+        "CheckObstacle",
+    ]
+    studio.saved()
+    ports_names_and_order_by_keys(studio)
+
+    keys.press("F5")
+    studio.expect_state("application_running")
+    observer = studio.observe()
+    wait_until(lambda: observer.distance_travelled("robot") > 0.5, "the robot drives")
+    observer.close()
+    studio.end_session()
+
+
+def ports_names_and_order_by_keys(studio: Studio) -> None:
+    """A port, a name, another place and back, without leaving the keyboard."""
+    keys = studio.page.keyboard
+    keys.press("F4")
+    focused(studio, "port-lin_speed")
+    keys.type("0.4")
+    keys.press("Escape")
+    focused(studio, "canvas")
+    keys.press("F2")
+    keys.type("go on")
+    keys.press("Enter")
+    expect(block(studio, "Forward")).to_contain_text("go on")
+    focused(studio, "canvas")
+    keys.press("Control+ArrowLeft")
+    wait_until(lambda: children(studio)[1] == "Forward", "the block goes before its sibling")
+    keys.press("Control+z")
+    wait_until(lambda: children(studio)[1] == "ReactiveFallback", "undo brings it back")
+    studio.saved()
+
+
+def test_by_mouse(shared_studio: Studio) -> None:
+    studio = shared_studio
+    studio.at("new-from-empty").click()
+    expect(block(studio, "Sequence")).to_be_visible()
+    for action in ACTIONS:
+        new_action(studio, action)
+    studio.at("file-trees/MainTree.json").click()
+    expect(studio.at("canvas")).to_be_visible()
+
+    block(studio, "Sequence").click()
+    studio.page.get_by_role("button", name="Change type").click()
+    studio.at("quick-add").get_by_text("ReactiveSequence", exact=True).click()
+    for block_type, onto in (
+        ("ReactiveFallback", "ReactiveSequence"),
+        ("Inverter", "ReactiveFallback"),
+        ("CheckObstacle", "Inverter"),
+        ("Turn", "ReactiveFallback"),
+        ("Forward", "ReactiveSequence"),
+    ):
+        studio.at(f"palette-{block_type}").drag_to(block(studio, onto))
+        expect(block(studio, block_type)).to_be_visible()
+        studio.at("tidy").click()
+    assert children(studio)[:3] == ["ReactiveSequence", "ReactiveFallback", "Forward"]
+    studio.at("undo").click()
+    studio.at("redo").click()
+    studio.saved()
+    for scheme in ("dark", "light"):
+        expect_accessible(studio, scheme)
+        studio.picture(f"built-{scheme}")
+
+    fault_is_found_and_mended(studio)
+    package_is_taken_away(studio)
+    behaviour_is_reused(studio)
+    world_is_chosen(studio)
+
+
+def new_action(studio: Studio, action: str) -> None:
+    """Makes an action from the explorer, and types its code."""
+    studio.at("new-action").first.click()
+    studio.page.get_by_role("dialog").get_by_role("textbox").fill(action)
+    if action == "CheckObstacle":
+        studio.page.get_by_role("dialog").get_by_role("radio").nth(1).click()
+    studio.at("file-dialog-ok").click()
+    expect(studio.page.locator(f'[data-path="actions/{action}.py"]')).to_be_visible()
+    editor = studio.page.locator(f'[data-path="actions/{action}.py"] .cm-content')
+    editor.click()
+    studio.page.keyboard.press("Control+a")
+    studio.page.keyboard.insert_text(source(action))
+    studio.saved()
+
+
+def fault_is_found_and_mended(studio: Studio) -> None:
+    """A mistake in Python is named with its line, and gone after the mending."""
+    path = "actions/Turn.py"
+    bad = source("Turn").replace("twist.angular.z", "twist.angular.zz")
+    line = bad.splitlines().index('        twist.angular.zz = get_input(self, "ang_speed")') + 1
+    edit(studio, path, bad)
+    studio.at("run").click()
+    expect(studio.at("banner")).to_contain_text(f"Turn.py:{line}")
+    edit(studio, path, source("Turn"))
+    studio.run()
+    observer = studio.observe()
+    wait_until(lambda: observer.distance_travelled("robot") > 0.3, "the robot drives")
+    observer.close()
+    studio.end_session()
+
+
+def edit(studio: Studio, path: str, text: str) -> None:
+    studio.at(f"file-{path}").click()
+    editor = studio.page.locator(f'[data-path="{path}"] .cm-content')
+    editor.click()
+    studio.page.keyboard.press("Control+a")
+    studio.page.keyboard.insert_text(text)
+    studio.saved()
+
+
+def package_is_taken_away(studio: Studio) -> None:
+    """The dialogue tells what will be in the package; the downloads hold it."""
+    studio.at("open-take-away").click()
+    expect(studio.at("package-files")).to_contain_text("package.xml")
+    expect(studio.at("package-dependencies")).to_contain_text("geometry_msgs")
+    expect_accessible(studio, "light")
+    studio.picture("take-away")
+    studio.at("package-name").fill("my_robot")
+    expect(studio.at("take-away-commands")).to_contain_text("ros2 launch my_robot my_robot.launch.py")
+    with studio.page.expect_download() as download:
+        studio.at("download-package").click()
+    names = zipfile.ZipFile(io.BytesIO(Path(download.value.path()).read_bytes())).namelist()
+    assert {"my_robot/package.xml", "my_robot/my_robot/actions/Forward.py"} <= set(names)
+    for button, start in (
+        ("download-project", b"PK"),
+        ("download-xml", b"<"),
+        ("download-self-contained", b"<"),
+        ("download-svg", b"<?xml"),
+        ("download-png", b"\x89PNG"),
+    ):
+        with studio.page.expect_download() as download:
+            studio.at(button).click()
+        data = Path(download.value.path()).read_bytes()
+        assert data.startswith(start), button
+        assert len(data) > 500, button
+    studio.page.keyboard.press("Escape")
+    expect(studio.at("take-away")).to_have_count(0)
+
+
+def behaviour_is_reused(studio: Studio) -> None:
+    """A behaviour of the library comes with what it needs, and a second time under its own name."""
+    studio.at("file-trees/MainTree.json").click()
+    block(studio, "ReactiveSequence").click()
+    studio.page.locator(".flexlayout__tab_button", has_text="Library").click()
+    studio.at("behaviour-Docking").get_by_role("button", name="Docking", exact=True).click()
+    expect(studio.at("behaviour-Docking")).to_contain_text("actions/ApproachUntilNear.py")
+    studio.picture("library")
+    studio.at("insert-DriveForward").click()
+    expect(studio.at("file-trees/DriveForward.json")).to_be_visible()
+    expect(studio.at("file-actions/DriveDistance.py")).to_be_visible()
+    expect(studio.at("port-distance")).to_have_value("1.0")
+    studio.saved()
+
+    edit(studio, "actions/DriveDistance.py", "# mine\n" + library_source("DriveDistance"))
+    studio.at("file-trees/MainTree.json").click()
+    studio.at("insert-DriveForward").click()
+    expect(studio.at("file-trees/DriveForward2.json")).to_be_visible()
+    expect(studio.at("file-actions/DriveDistance2.py")).to_be_visible()
+    studio.saved()
+    expect_accessible(studio, "light")
+
+
+def library_source(action: str) -> str:
+    folder = Path(__file__).parents[2] / "backend" / "catalog" / "behaviours" / "actions"
+    return (folder / f"{action}.py").read_text(encoding="utf-8")
+
+
+def world_is_chosen(studio: Studio) -> None:
+    """Another universe, by its picture; the project keeps it."""
+    studio.at("open-worlds").click()
+    expect(studio.at("choice-maze").locator("img")).to_be_visible()
+    studio.at("choice-maze").click()
+    expect_accessible(studio, "light")
+    studio.picture("worlds")
+    studio.at("choose-world").click()
+    expect(studio.at("open-worlds")).to_contain_text("maze")
+    studio.saved()
+    studio.page.reload()
+    expect(studio.at("open-worlds")).to_contain_text("maze")

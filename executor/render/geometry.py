@@ -81,7 +81,7 @@ def cylinder(segments: int = SEGMENTS) -> Vertices:
 
 def capsule(radius: float, length: float, segments: int = SEGMENTS) -> Vertices:
     """A cylinder of a length along z, closed by two half spheres; a sphere if the length is 0."""
-    rings = max(2, segments // 4 - 1) if length > 0 else max(2, segments // 4)
+    rings = max(2, (segments + 2) // 4 - (length > 0))
     latitudes = [-math.pi / 2 + math.pi / 2 * i / rings for i in range(rings + 1)]
     rows = [(lat, -length / 2) for lat in latitudes] + [(-lat, length / 2) for lat in reversed(latitudes)]
     if length <= 0:

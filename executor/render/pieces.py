@@ -24,14 +24,14 @@ VERTEX: Final = np.dtype(
 )
 """Position in m and normal in the object's frame, colour in sRGB, row of the object in the scene."""
 
-SEGMENTS: Final = (24, 12, 6)
-LEVELS_PX: Final = (8.0, 30.0)
-"""A round thing that is smaller than this (its radius, in pixels) is drawn with fewer triangles."""
+SEGMENTS: Final = (24, 16, 10, 6)
+LEVELS_PX: Final = (4.0, 9.0, 22.0)
+"""Below these radii, in pixels, a round thing gets fewer triangles: it loses half a pixel at most."""
 SMALLEST_PX: Final = 0.5
 
 
 class Pieces:
-    """All shapes of a scene, one piece each, in up to three levels of detail.
+    """All shapes of a scene, one piece each, in up to four levels of detail.
 
     Attributes:
         vertices: all vertices of all levels, as `VERTEX`.

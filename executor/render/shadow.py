@@ -19,7 +19,7 @@ LARGEST_REACH_M: Final = 24.0
 CELL_M: Final = 8.0
 ROOM_M: Final = 1.5
 MOVED: Final = 1e-4
-LEVELS_TEXELS: Final = (12.0, 40.0)
+LEVELS_TEXELS: Final = (10.0, 25.0, 60.0)
 SMALLEST_TEXELS: Final = 0.7
 MOST_RECTANGLES: Final = 24
 
@@ -118,7 +118,7 @@ class ShadowPlan:
         for at, first, length in ((texels[:, 0], x, wide), (texels[:, 1], y, high)):
             shown &= (at + radii >= first) & (at - radii <= first + length)
         numbers = np.flatnonzero(shown)
-        levels = 2 - np.searchsorted(LEVELS_TEXELS, rounds[numbers])
+        levels = len(LEVELS_TEXELS) - np.searchsorted(LEVELS_TEXELS, rounds[numbers])
         return rectangle, self._pieces.order_of(numbers, levels)
 
 

@@ -116,7 +116,7 @@ class Streams:
         return max(0.0, min((s.next_s - now_s for s in self._subscriptions.values()), default=1.0))
 
     def send_due(self, now_s: float) -> None:
-        """Sends what is due at a real time. Pictures leave the world time to go on, if the machine is slow."""
+        """Sends what is due at a real time. Slow pictures leave the world time to go on."""
         may_draw, drawing_s = now_s >= self._rests_until_s, 0.0
         for subscription in list(self._subscriptions.values()):
             is_picture = subscription.stream in PICTURES

@@ -56,7 +56,7 @@ ENV PATH=/opt/bt-studio/.venv/bin:$PATH PYTHONUNBUFFERED=1 PYTHONDONTWRITEBYTECO
 USER studio
 VOLUME /var/lib/bt-studio
 EXPOSE 8000
-HEALTHCHECK --interval=10s --timeout=5s --start-period=30s --retries=3 \
+HEALTHCHECK --interval=15s --timeout=10s --start-period=60s --retries=3 \
     CMD ["python", "-m", "backend.config.healthcheck"]
 ENTRYPOINT ["bt-studio"]
 CMD ["serve", "--no-browser"]

@@ -1,4 +1,7 @@
-"""`python -m backend.config.healthcheck`: whether the web server of this container is ready."""
+"""`python -m backend.config.healthcheck`: whether the web server of this container is ready.
+
+It runs every few seconds, so it imports little.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,7 @@ import http.client
 import os
 import sys
 
-from backend.config.probes import READY
-
+READY = "/health/ready"
 TIMEOUT_S = 4
 
 

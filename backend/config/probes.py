@@ -17,6 +17,7 @@ from asgiref.sync import sync_to_async
 
 from backend.config import metrics
 from backend.config.environment import environment
+from backend.config.healthcheck import READY
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, HTTPScope, Scope
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 log = logging.getLogger("bt_studio.access")
 
 LIVE: Final = "/health/live"
-READY: Final = "/health/ready"
 METRICS: Final = "/metrics"
 LOOPBACK: Final = frozenset({"127.0.0.1", "::1"})
 

@@ -70,7 +70,7 @@ class _Pixels:
         """
         if not len(edges):
             return
-        is_darker = self.brightness[edges] < self.brightness[edges + across]
+        is_darker = self.brightness.take(edges) < self.brightness.take(edges + across)
         new_line[1:] |= is_darker[1:] != is_darker[:-1]
         starts = np.flatnonzero(new_line)
         lengths = np.diff(starts, append=len(edges))
@@ -91,6 +91,6 @@ class _Pixels:
         told = share > LEAST_SHARE
         pixels, share, is_here = pixels[told], share[told, None], rise[told] > 0
         mixed, other = np.where(is_here, pixels, pixels + across), np.where(is_here, pixels + across, pixels)
-        own = self.colors[mixed].astype(np.float32)
-        own += (self.colors[other] - own) * share
+        own = self.colors.take(mixed, axis=0).astype(np.float32)
+        own += (self.colors.take(other, axis=0) - own) * share
         self.colors[mixed] = (own + 0.5).astype(np.uint8)

@@ -6,6 +6,7 @@ from contextvars import ContextVar
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
+from django.contrib.sessions.models import Session
 from django.utils import timezone
 
 from backend.accounts.models import AuditEntry
@@ -55,5 +56,6 @@ def note(
 
 
 def forget_old(now: datetime) -> int:
-    """Removes the entries that are older than `BT_STUDIO_AUDIT_DAYS`; returns how many went."""
+    """Removes ended sign-ins, and entries older than `BT_STUDIO_AUDIT_DAYS`; returns how many of these."""
+    Session.objects.filter(expire_date__lt=now).delete()
     return AuditEntry.objects.filter(at__lt=now - timedelta(days=environment().audit_days)).delete()[0]

@@ -8,6 +8,7 @@ import json
 import os
 import secrets
 import socket
+import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 GRACE_S: Final = 2
+GARBAGE_EVERY_S: Final = 24 * 3600
 MIGRATION_LOCK: Final = 0x62742D73747564
 
 
@@ -149,11 +151,16 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
 
 
 def warm_up() -> None:
-    """Imports what the first requests would wait for, while the browser loads the page; then tidies up."""
+    """Imports what the first requests would wait for, while the browser loads the page; then tidies up, once a day."""
     import backend.config.urls  # noqa: F401, PLC0415
+    from django.db import connection  # noqa: PLC0415
+
     from backend.projects.actions import collect_garbage  # noqa: PLC0415
 
-    collect_garbage()
+    while True:
+        collect_garbage()
+        connection.close()
+        time.sleep(GARBAGE_EVERY_S)
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:

@@ -9,7 +9,7 @@ from django.db import IntegrityError, transaction
 from django.db.models import Sum
 from django.utils import timezone
 
-from backend.accounts.audit import note
+from backend.accounts.audit import forget_old, note
 from backend.config.environment import environment
 from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError, NotFoundError
@@ -244,6 +244,7 @@ def collect_garbage(*, now: datetime | None = None) -> int:
     # A save may be about to use a blob that nothing holds yet.
     transaction_lock(BLOBS)
     Project.objects.filter(deleted_at__lt=now - timedelta(days=limits.deleted_project_days)).delete()
+    forget_old(now)
     Draft.objects.filter(updated_at__lt=now - timedelta(days=limits.draft_days)).delete()
     IdempotencyKey.objects.filter(created_at__lt=now - timedelta(days=1)).delete()
     return Blob.objects.filter(filerevision=None, currentfile=None).delete()[0]

@@ -151,10 +151,10 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
 
 
 def warm_up() -> None:
-    """Imports what the first requests would wait for, while the browser loads the page; then tidies up, once a day."""
-    import backend.config.urls  # noqa: F401, PLC0415
+    """Imports what the first requests would wait for, then tidies up, now and once a day."""
     from django.db import connection  # noqa: PLC0415
 
+    import backend.config.urls  # noqa: F401, PLC0415
     from backend.projects.actions import collect_garbage  # noqa: PLC0415
 
     while True:

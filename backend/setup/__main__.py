@@ -4,7 +4,7 @@ Runs on the bare standard library, before anything is installed; any Python 3.7 
 is the wrong one. Every step is skipped when what it made
 is still current, so that a second start costs a few hundred milliseconds. Everything lands in the clone:
 `.venv`, `frontend/node_modules`, `frontend/dist`, `var`. The one exception are the Debian packages that
-the browser tests need; they are installed by root alone, and said aloud.
+the tests need; they are installed by root alone, and said aloud.
 """
 
 from __future__ import annotations

@@ -22,7 +22,13 @@ export function ReadOnlyBadge() {
   }, [refused, t]);
   return (
     <Tooltip label={t('readOnly.note')}>
-      <Badge variant="light" leftSection={<IconEye size={13} />} tt="none" style={{ flexShrink: 0 }} data-testid="read-only">
+      <Badge
+        variant="light"
+        leftSection={<IconEye size={13} />}
+        tt="none"
+        style={{ flexShrink: 0 }}
+        data-testid="read-only"
+      >
         {t('readOnly.badge')}
       </Badge>
     </Tooltip>

@@ -8,6 +8,7 @@ import { registerCanvasActions } from '@/features/canvas/actions';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { TakeAway } from '@/features/export/TakeAway';
+import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { Banner } from '@/features/run/Banner';
 import { RestartOffer } from '@/features/run/RestartOffer';
 import { RunProgress } from '@/features/run/RunProgress';
@@ -116,6 +117,7 @@ function Workbench({ projectId }: StudioProps) {
       <FileDialog />
       <TakeAway />
       <Worlds />
+      <Shortcuts />
       <PublishDialog />
       <ConnectDialog />
       <RestoredNotice />

@@ -6,6 +6,7 @@ import {
   IconDownload,
   IconGitFork,
   IconHome,
+  IconKeyboard,
   IconLayout,
   IconPlus,
   IconTerminal2,
@@ -18,6 +19,7 @@ import { navigate } from '@/store/route';
 import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/features/code/newFile';
 import { openTakeAway } from '@/features/export/takeAway';
+import { openShortcuts } from '@/features/onboarding/shortcutsDialog';
 import { openWorlds } from '@/features/universe/worlds';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
@@ -138,6 +140,15 @@ const rows: UserAction[] = [
     shortcut: '$mod+Shift+KeyM',
     inTextFields: true,
     run: () => showPanel('problems'),
+  },
+  {
+    id: 'view.shortcuts',
+    group: 'view',
+    labelKey: 'frame:action.shortcuts',
+    icon: IconKeyboard,
+    shortcut: '$mod+Slash',
+    inTextFields: true,
+    run: openShortcuts,
   },
   {
     id: 'view.resetLayout',

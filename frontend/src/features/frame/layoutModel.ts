@@ -23,7 +23,12 @@ export type PanelId =
   | 'timeline'
   | 'topics';
 
-const NEW_PANELS: readonly PanelId[] = ['timeline', 'topics'];
+/** Each with the panel that it comes to stand beside. */
+const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
+  ['timeline', 'console'],
+  ['topics', 'console'],
+  ['library', 'palette'],
+];
 
 export type FrameWidth = 'wide' | 'narrow';
 
@@ -165,10 +170,10 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
   return Model.fromJson(defaultLayout(width, hasWebGl));
 }
 
-/** Panels that came with an update, which a kept layout does not know yet, beside the console. */
+/** Panels that came with an update, which a kept layout does not know yet, beside their neighbours. */
 function withNewPanels(model: Model): Model {
-  const beside = model.getNodeById('console')?.getParent();
-  for (const id of NEW_PANELS) {
+  for (const [id, neighbour] of NEW_PANELS) {
+    const beside = model.getNodeById(neighbour)?.getParent();
     if (!beside || model.getNodeById(id)) continue;
     model.doAction(Actions.addTab(panel(id), beside.getId(), DockLocation.CENTER, -1, false));
   }

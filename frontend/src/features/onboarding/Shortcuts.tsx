@@ -1,0 +1,74 @@
+import { Kbd, Modal, Table, Title } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import { useActionTable, type ActionGroup } from '@/actions/registry';
+import { shortcutLabel } from '@/actions/shortcuts';
+import classes from './onboarding.module.css';
+import { closeShortcuts, useShortcutsDialog } from './shortcutsDialog';
+
+const GROUPS: readonly ActionGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
+
+/** Keys of the canvas itself, which count only while it has the focus; their texts are `key.<id>`. */
+const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
+  ['walk', '← ↑ → ↓'],
+  ['move', 'Ctrl+← ↑ → ↓'],
+  ['child', 'Tab'],
+  ['after', 'Ctrl+Enter'],
+  ['open', 'Enter'],
+  ['rename', 'F2'],
+  ['comment', '/'],
+  ['fold', 'Space'],
+  ['remove', 'Del'],
+  ['unwrap', 'Shift+Del'],
+  ['root', 'Home'],
+];
+
+/** Every shortcut, from the table of user actions: none can be missing here. */
+export function Shortcuts() {
+  const { t } = useTranslation('onboarding');
+  const isOpen = useShortcutsDialog((state) => state.isOpen);
+  const actions = useActionTable((state) => state.actions);
+  const rowsOf = (group: ActionGroup) =>
+    Object.values(actions)
+      .filter((action) => action.group === group && action.shortcut)
+      .map(({ id, labelKey, shortcut = '' }) => ({ id, label: t(labelKey), keys: shortcutLabel(shortcut) }));
+  const sections = [
+    ...GROUPS.map((group) => ({ id: group as string, rows: rowsOf(group) })),
+    {
+      id: 'onCanvas',
+      rows: CANVAS_KEYS.map(([id, keys]) => ({ id, label: t(`key.${id}`), keys })),
+    },
+  ];
+  return (
+    <Modal
+      opened={isOpen}
+      onClose={closeShortcuts}
+      title={t('shortcuts')}
+      size={820}
+      closeButtonProps={{ 'aria-label': t('close') }}
+    >
+      <div className={classes['columns']} data-testid="shortcuts">
+        {sections
+          .filter(({ rows }) => rows.length > 0)
+          .map(({ id, rows }) => (
+            <section key={id} aria-label={t(`group.${id}`)}>
+              <Title order={3} size={13} mb={4}>
+                {t(`group.${id}`)}
+              </Title>
+              <Table verticalSpacing={4} horizontalSpacing={0} withRowBorders={false}>
+                <Table.Tbody>
+                  {rows.map((row) => (
+                    <Table.Tr key={row.id}>
+                      <Table.Td>{row.label}</Table.Td>
+                      <Table.Td ta="right">
+                        <Kbd size="xs">{row.keys}</Kbd>
+                      </Table.Td>
+                    </Table.Tr>
+                  ))}
+                </Table.Tbody>
+              </Table>
+            </section>
+          ))}
+      </div>
+    </Modal>
+  );
+}

@@ -9,6 +9,8 @@ import { useTopicsStore } from '@/store/session/topics';
 import { bytesLabel, rateLabel } from './labels';
 import classes from './topics.module.css';
 
+const sizeClass = `${classes['number']} ${classes['size']}`;
+
 /** Every topic with its type, rate and size; a click listens to it. */
 export function TopicList() {
   const { t } = useTranslation('topics');
@@ -44,7 +46,7 @@ export function TopicList() {
               <th scope="col" className={classes['number']}>
                 {t('rate')}
               </th>
-              <th scope="col" className={classes['number']}>
+              <th scope="col" className={sizeClass}>
                 {t('size')}
               </th>
             </tr>
@@ -95,7 +97,7 @@ function Row({ topic }: { readonly topic: TopicInfo }) {
         {topic.type.replace('/msg/', '/')}
       </td>
       <td className={classes['number']}>{rateLabel(topic.hz)}</td>
-      <td className={classes['number']}>{bytesLabel(topic.bytes_per_s)}</td>
+      <td className={sizeClass}>{bytesLabel(topic.bytes_per_s)}</td>
     </tr>
   );
 }

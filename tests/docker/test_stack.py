@@ -197,7 +197,8 @@ async def test_who_takes_too_much_ends_alone(ann, ben, projects, body):
         # Its manager ends the program, or, where that is starved, the keeper ends the session.
         await until(lambda: greedy.state != "application_running" or greedy.is_closed, 240)
         await ticks_on(bystander)
-    # The place is as good as new.
+    # The next session is as good as new.
+    ann.delete(f"sessions/{ann.post(f'projects/{projects[BUMP]}/session')['id']}")
     async with started(ann, projects[BUMP]) as again:
         await run(again, ann, projects[BUMP], "walled_room")
         await ticks_on(again)

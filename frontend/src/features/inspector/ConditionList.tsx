@@ -1,8 +1,12 @@
-import { ActionIcon, Menu, Textarea } from '@mantine/core';
+import { ActionIcon, Menu } from '@mantine/core';
 import { IconPlus, IconTrash } from '@tabler/icons-react';
+import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setCondition } from '@/model/edits';
+import { blackboardKeys } from '@/model/vocabulary';
+import { useProjectStore } from '@/store/project';
 import { change } from '@/store/project/commands';
+import { ScriptInput } from './ScriptInput';
 import { Section } from './Section';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
@@ -19,9 +23,15 @@ const CONDITIONS = [
 ] as const;
 
 /** Scripts before and after the node's tick, in BT.CPP's script language. */
-export function ConditionList({ id, node }: Target) {
+export function ConditionList({ tree, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const set = node.conditions ?? {};
+  const diagram = useProjectStore((state) => state.diagrams[tree]);
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const keys = useMemo(
+    () => (diagram ? [...blackboardKeys(diagram, vocabulary).keys()].sort() : []),
+    [diagram, vocabulary],
+  );
   const free = CONDITIONS.filter((name) => !(name in set));
   return (
     <Section
@@ -51,23 +61,22 @@ export function ConditionList({ id, node }: Target) {
     >
       {CONDITIONS.filter((name) => name in set).map((name) => (
         <div key={name} className={classes['condition']}>
-          <Textarea
-            size="xs"
-            autosize
-            label={
-              <>
-                {t(`condition.${name}`)} <code className={classes['code']}>{name}</code>
-              </>
-            }
-            spellCheck={false}
-            styles={{ input: { fontFamily: 'var(--bts-font-mono)' } }}
-            value={set[name] ?? ''}
-            onChange={(event) => {
-              change('condition', [setCondition(id, name, event.currentTarget.value)], {
-                mergeKey: `condition ${id} ${name}`,
-              });
-            }}
-          />
+          <div className={classes['grow']}>
+            <span className={classes['conditionName']}>
+              {t(`condition.${name}`)} <code className={classes['code']}>{name}</code>
+            </span>
+            <ScriptInput
+              label={t(`condition.${name}`)}
+              testId={`condition-${name}`}
+              value={set[name] ?? ''}
+              keys={keys}
+              onChange={(value) => {
+                change('condition', [setCondition(id, name, value)], {
+                  mergeKey: `condition ${id} ${name}`,
+                });
+              }}
+            />
+          </div>
           <ActionIcon
             size={22}
             aria-label={t('removeCondition', { name: t(`condition.${name}`) })}

@@ -89,7 +89,14 @@ export function PortField({ port, value, keys, error, isExtra, onChange }: PortF
           onChange={onChange}
         />
       ) : (
-        <ValueInput port={port} labelledBy={label} value={value} error={error} onChange={onChange} />
+        <ValueInput
+          keys={keys}
+          port={port}
+          labelledBy={label}
+          value={value}
+          error={error}
+          onChange={onChange}
+        />
       )}
       {port.description && <p className={classes['portDoc']}>{port.description}</p>}
     </div>

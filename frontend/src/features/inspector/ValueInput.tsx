@@ -1,12 +1,15 @@
-import { SegmentedControl, Select, Textarea, TextInput } from '@mantine/core';
+import { SegmentedControl, Select, TextInput } from '@mantine/core';
 import type { KeyboardEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { choicesOf, widgetOf, type PortSpec } from '@/model/ports';
+import { ScriptInput } from './ScriptInput';
 
 interface ValueInputProps {
   readonly port: PortSpec;
   readonly labelledBy: string;
   readonly value: string | null;
+  /** Blackboard keys that the tree uses. */
+  readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
 }
@@ -20,7 +23,7 @@ function stepped(text: string, by: number): string {
 const mono = { input: { fontFamily: 'var(--bts-font-mono)' } };
 
 /** The widget for a literal of the port's type. */
-export function ValueInput({ port, labelledBy, value, error, onChange }: ValueInputProps) {
+export function ValueInput({ port, labelledBy, value, keys, error, onChange }: ValueInputProps) {
   const { t } = useTranslation('inspector');
   const shared = { 'aria-labelledby': labelledBy, 'data-testid': `port-${port.name}`, size: 'xs' } as const;
   const widget = widgetOf(port.type);
@@ -55,17 +58,12 @@ export function ValueInput({ port, labelledBy, value, error, onChange }: ValueIn
   }
   if (widget === 'script') {
     return (
-      <Textarea
-        {...shared}
-        autosize
-        minRows={2}
-        styles={mono}
+      <ScriptInput
+        labelledBy={labelledBy}
+        testId={`port-${port.name}`}
         value={current}
-        error={error !== null}
-        spellCheck={false}
-        onChange={(event) => {
-          onChange(event.currentTarget.value);
-        }}
+        keys={keys}
+        onChange={onChange}
       />
     );
   }

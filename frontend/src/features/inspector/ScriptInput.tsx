@@ -1,0 +1,53 @@
+import { Text, Textarea } from '@mantine/core';
+import { lazy, Suspense, useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { isProblem, readScript } from '@/model/script';
+import { scriptText } from '@/ui/scriptText';
+
+const ScriptEditor = lazy(async () => ({ default: (await import('./ScriptEditor')).ScriptEditor }));
+
+export interface ScriptInputProps {
+  readonly value: string;
+  /** Blackboard keys, for completion. */
+  readonly keys: readonly string[];
+  readonly testId: string;
+  readonly labelledBy?: string;
+  readonly label?: string;
+  readonly onChange: (value: string) => void;
+}
+
+/** A script of the blackboard: an editor that checks while one types, a plain field until that is loaded. */
+export function ScriptInput(props: ScriptInputProps) {
+  const { value, testId, labelledBy, label, onChange } = props;
+  const { t } = useTranslation();
+  const problem = useMemo(() => {
+    const facts = readScript(value);
+    return value.trim() !== '' && isProblem(facts) ? scriptText(facts, t) : null;
+  }, [value, t]);
+  return (
+    <div>
+      <Suspense
+        fallback={
+          <Textarea
+            size="xs"
+            autosize
+            aria-labelledby={labelledBy}
+            aria-label={label}
+            data-testid={testId}
+            value={value}
+            onChange={(event) => {
+              onChange(event.currentTarget.value);
+            }}
+          />
+        }
+      >
+        <ScriptEditor {...props} />
+      </Suspense>
+      {problem ? (
+        <Text size="xs" c="var(--bts-failure)" role="status" data-testid={`${testId}-error`}>
+          {problem.message}: {problem.hint}
+        </Text>
+      ) : null}
+    </div>
+  );
+}

@@ -1,0 +1,10 @@
+import type { TFunction } from 'i18next';
+import type { ScriptProblem } from '@/model/script';
+
+/** The words of what is wrong with a script. */
+export function scriptText({ kind, values }: ScriptProblem, t: TFunction): { message: string; hint: string } {
+  return {
+    message: t(`editor:script.${kind}.message`, values),
+    hint: t(`editor:script.${kind}.hint`, values),
+  };
+}

@@ -1,0 +1,11 @@
+"""The cases that the editor's parser of scripts is tested on are what the engine says today."""
+
+from __future__ import annotations
+
+import json
+
+from tests.shared.make_scripts import FILE, document
+
+
+def test_the_cases_are_up_to_date():
+    assert json.loads(FILE.read_text(encoding="utf-8")) == document()

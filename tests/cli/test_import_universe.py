@@ -34,7 +34,7 @@ def test_what_cannot_be_done_is_said(tmp_path):
     with pytest.raises(CliError, match="No such file"):
         import_universe(source)
     source.write_text("<sdf><world>")
-    with pytest.raises(CliError, match="yard.sdf:1:"):
+    with pytest.raises(CliError, match=r"yard\.sdf:1:"):
         import_universe(source)
     (tmp_path / "yard.yaml").write_text("mine")
     with pytest.raises(CliError, match="exists already"):

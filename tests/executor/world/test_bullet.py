@@ -165,3 +165,44 @@ def test_the_scene_lists_everything_in_the_order_of_its_poses(make_world: "MakeW
     }
     assert {s.kind for s in scene.sensors} == {"lidar", "camera"}
     assert all(len(o.pose) == 7 for o in scene.objects)
+
+
+def test_a_saved_robot_with_noisy_odometry_goes_on_exactly(make_world: "MakeWorld") -> None:
+    world = make_world("robots: [{id: robot, model: burger}]\n", seed=3)
+    drive(world, 0.2, 0.4, 1.0)
+    saved = world.save()
+    outcomes = []
+    for _ in range(2):
+        drive(world, 0.2, -0.4, 1.0)
+        robot = world.robots[0]
+        outcomes.append(
+            (robot.odometry, robot.imu(robot.config.imus[0]), robot.battery(robot.config.batteries[0]))
+        )
+        world.restore(saved)
+    assert outcomes[0] == outcomes[1]
+    world.forget(saved)
+
+
+def test_what_is_not_solid_is_seen_and_not_felt(make_world: "MakeWorld") -> None:
+    world = make_world(
+        "models:\n  - {id: mist, shape: box, size: [0.2, 4, 1], pose: [1, 0, 0.5, 0, 0, 0], solid: false}\n"
+    )
+    assert any(o.body == "mist" for o in world.scene.objects)
+    drive(world, 0.5, 0.0, 4.0)
+    assert world.robots[0].pose[0] > 1.3
+    assert world.robots[0].collisions == 0
+    assert np.isinf(world.robots[0].scan(world.robots[0].config.lidars[0]).ranges).all()
+
+
+def test_things_stand_where_they_were_dragged(make_world: "MakeWorld") -> None:
+    world = make_world(ROOM)
+    earlier = world.poses()
+    world.move_body("wall", (3, 3, 0.5, 0, 0, 0))
+    wall = next(o.id for o in world.scene.objects if o.body == "wall")
+    assert earlier[wall][0] == 1.0  # who holds the old poses keeps them
+    world.step(10)
+    assert world.poses()[wall][:3] == pytest.approx((3, 3, 0.5))
+    assert world.robots[0].scan(world.robots[0].config.lidars[0]).ranges[0] == np.inf
+    world.reset()
+    wall = next(o.id for o in world.scene.objects if o.body == "wall")
+    assert world.poses()[wall][0] == 1.0

@@ -1,0 +1,83 @@
+"""What one sees and does beside the tree while the robot runs: timeline, topics, ROS tools."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import pytest
+from playwright.sync_api import expect
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from playwright.sync_api import Browser, Locator
+
+    from tests.e2e.studio import Studio
+
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
+
+
+def test_a_run_is_followed_beside_the_tree(
+    open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
+) -> None:
+    studio = open_studio(browser_without_webgl)
+    studio.page.set_default_timeout(120_000)
+    studio.new_from("laser_bump_and_go")
+    studio.run()
+    timeline_tells_what_nodes_did(studio)
+    topics_are_heard_and_plotted(studio)
+    ros_tools_are_told_the_environment(studio)
+    studio.end_session()
+
+
+def timeline_tells_what_nodes_did(studio: Studio) -> None:
+    panel(studio, "Timeline")
+    forward = row(studio, "Forward")
+    expect(forward).to_have_attribute("aria-label", re.compile(r"running; ran"))
+    forward.click()
+    expect(studio.at("node-statistics").locator("[data-key=runs] dd")).not_to_have_text("0")
+    forward.focus()
+    studio.page.keyboard.press("ArrowUp")
+    expect(studio.page.locator(":focus")).to_have_attribute("aria-label", re.compile("^Turn"))
+    studio.page.keyboard.press("Enter")
+    expect(studio.at("inspector")).to_have_attribute("aria-label", "Turn")
+    pictures(studio, "timeline")
+
+
+def topics_are_heard_and_plotted(studio: Studio) -> None:
+    panel(studio, "Topics")
+    odometry = studio.at("topic-/odom")
+    expect(odometry).to_have_attribute("data-hz", re.compile(r"[1-9]"))
+    odometry.get_by_role("button").click()
+    echo = studio.at("echo-/odom")
+    expect(echo).to_have_attribute("data-count", re.compile(r"[1-9]"))
+    echo.get_by_label("Plot pose.pose.position.x").click()
+    expect(studio.at("plot").locator("canvas")).to_be_visible()
+    pictures(studio, "topics")
+
+
+def ros_tools_are_told_the_environment(studio: Studio) -> None:
+    studio.page.get_by_role("button", name="Connect ROS tools…").click()
+    expect(studio.at("ros-environment")).to_contain_text("export ROS_DOMAIN_ID=")
+    studio.page.keyboard.press("Escape")
+    expect(studio.at("connect-ros")).to_be_hidden()
+
+
+def row(studio: Studio, name: str) -> Locator:
+    """A node's row of the timeline."""
+    return studio.at("timeline").get_by_role("button", name=re.compile(f"^{name},"))
+
+
+def panel(studio: Studio, name: str) -> None:
+    """Brings a panel to the front."""
+    studio.page.get_by_role("tab", name=name, exact=True).click()
+
+
+def pictures(studio: Studio, name: str) -> None:
+    """Keeps a picture in each theme."""
+    studio.picture(f"run-{name}-light")
+    studio.at("theme-toggle").click()
+    studio.page.wait_for_timeout(400)
+    studio.picture(f"run-{name}-dark")
+    studio.at("theme-toggle").click()

@@ -34,8 +34,8 @@ class IncludeLaunchDescription(Entity):
         super().__init__(source=launch_description_source, arguments=launch_arguments)
 
 
-class PythonLaunchDescriptionSource(Entity):
-    """launch.launch_description_sources.PythonLaunchDescriptionSource."""
+class AnyLaunchDescriptionSource(Entity):
+    """launch.launch_description_sources.AnyLaunchDescriptionSource."""
 
     def __init__(self, launch_file_path: str) -> None:
         super().__init__(path=launch_file_path)
@@ -79,7 +79,7 @@ MODULES = {
         "DeclareLaunchArgument": DeclareLaunchArgument,
         "IncludeLaunchDescription": IncludeLaunchDescription,
     },
-    "launch.launch_description_sources": {"PythonLaunchDescriptionSource": PythonLaunchDescriptionSource},
+    "launch.launch_description_sources": {"AnyLaunchDescriptionSource": AnyLaunchDescriptionSource},
     "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
     "launch_ros": {},
     "launch_ros.actions": {"Node": Node},

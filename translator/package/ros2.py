@@ -16,6 +16,13 @@ from translator.action import inspect_action
 from translator.export import require_sound, write_self_contained
 from translator.package.app import is_action_source
 from translator.package.engine import engine_files
+from translator.package.launch_files import (
+    as_program,
+    dependencies_of,
+    in_package,
+    launch_files,
+    programs,
+)
 from translator.package.naming import package_name, require_name
 from translator.package.rosdep import dependencies
 from translator.package.zip import write_zip
@@ -69,6 +76,8 @@ class _Builder:
         self.name = name
         self.found: list[Diagnostic] = []
         self.sources = {path: raw for path, raw in sorted(project.files.items()) if is_action_source(path)}
+        self.launch_files = launch_files(project.files)
+        self.programs = programs(project.files)
 
     def files(self) -> dict[str, bytes]:
         inner = f"{self.name}/{self.name}"
@@ -101,8 +110,12 @@ class _Builder:
         """Returns launch files, assets and requirements of the project."""
         result = {}
         for path, raw in self.project.files.items():
-            if path.startswith("launch/") and path.endswith(".launch.py"):
-                result[f"{self.name}/launch/{self.own_launch_name(path)}"] = raw
+            if path in self.launch_files:
+                text, found = in_package(path, raw, self.name, self.programs)
+                result[f"{self.name}/launch/{self.own_launch_name(path)}"] = text
+                self.found.extend(found)
+            elif path in self.programs:
+                result[f"{self.name}/scripts/{self.programs[path]}"] = as_program(raw)
             elif path.startswith("assets/") or path == "requirements.txt":
                 result[f"{self.name}/{path}"] = raw
         return result
@@ -121,18 +134,18 @@ class _Builder:
     def values(self) -> dict[str, object]:
         """Returns what the templates ask for."""
         settings = self.project.settings
+        project_files = dict(sorted(self.project.files.items()))
         models = [
-            inspect_action(raw.decode("utf-8-sig", "replace"), path) for path, raw in self.sources.items()
+            inspect_action(raw.decode("utf-8-sig", "replace"), path)
+            for path, raw in project_files.items()
+            if path in self.sources or path in self.programs
         ]
         own = {PurePosixPath(path).parts[1].removesuffix(".py") for path in self.sources}
         keys, found = dependencies(models, own)
         self.found.extend(found)
-        own_launch = [
-            self.own_launch_name(path)
-            for path in sorted(self.project.files)
-            if path.startswith("launch/") and path.endswith(".launch.py")
-        ]
+        own_launch = [self.own_launch_name(path) for path in self.launch_files]
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
+        always |= dependencies_of(self.launch_files)
         return {
             "name": self.name,
             "title": settings.name,
@@ -145,6 +158,7 @@ class _Builder:
             "packages": [folder.replace("/", ".") for folder in self.packages()],
             "data_files": list(self.data_files(own_launch)),
             "own_launch": own_launch,
+            "scripts": [f"scripts/{name}" for name in self.programs.values()],
             "tick_hz": float(settings.tick_hz),
             "on_finish": settings.on_finish,
             "on_error": settings.on_error,

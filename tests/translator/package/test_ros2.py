@@ -105,6 +105,40 @@ def test_launch_files_assets_and_requirements_travel_along(make_project):
     assert b"requirements.txt" in package.files["test_bt/README.md"]
 
 
+LAUNCH = b"""launch:
+  - node:
+      exec: launch/talker.py  # ours
+      name: talker
+  - node: {exec: "tools/listener.py"}
+  - node:
+      pkg: demo_nodes_py
+      exec: listener
+"""
+
+
+def test_programs_of_launch_files_become_executables_of_the_package(make_project):
+    files = {
+        "launch/nodes.launch.yaml": LAUNCH,
+        "launch/talker.py": b"import rclpy\nimport cv2\n",
+        "launch/tools/listener.py": b"#!/usr/bin/env python3\nimport rclpy\n",
+    }
+    package = to_ros2_package(make_project(LEAF, files=files))
+    text = package.files["test_bt/launch/nodes.launch.yaml"].decode()
+    nodes = [action["node"] for action in yaml.safe_load(text)["launch"]]
+    assert nodes[0] == {"pkg": "test_bt", "exec": "talker.py", "name": "talker"}
+    assert nodes[2] == {"pkg": "demo_nodes_py", "exec": "listener"}
+    (found,) = package.diagnostics
+    assert (found.code, found.place.file, found.place.line) == ("BT0911", "launch/nodes.launch.yaml", 5)
+    setup = package.files["test_bt/setup.py"].decode()
+    assert "scripts=['scripts/talker.py', 'scripts/tools_listener.py']" in setup
+    assert package.files["test_bt/scripts/talker.py"].startswith(b"#!/usr/bin/env python3\nimport rclpy")
+    assert package.files["test_bt/scripts/tools_listener.py"].count(b"#!") == 1
+    manifest = package.files["test_bt/package.xml"].decode()
+    assert "launch_yaml" in manifest
+    assert "python3-opencv" in manifest
+    assert b"nodes.launch.yaml" in package.files["test_bt/launch/test_bt.launch.py"]
+
+
 @pytest.mark.parametrize(
     ("title", "name"),
     [

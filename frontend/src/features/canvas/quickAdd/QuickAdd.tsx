@@ -1,7 +1,7 @@
 import { IconPlus } from '@tabler/icons-react';
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { allChoices, searchChoices, suits, type Purpose } from '@/model/choices';
+import { allChoices, matchScore, searchChoices, suits, type Purpose } from '@/model/choices';
 import { createAction, type ActionKind } from '@/store/project/actionTemplate';
 import { achieve } from '@/store/project/commands';
 import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
@@ -40,7 +40,8 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const diagram = useProjectStore((state) => state.diagrams[request.tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const [search, setSearch] = useState(request.text);
-  const [index, setIndex] = useState(0);
+  /** Null until the user moves: then the most likely choice. */
+  const [index, setIndex] = useState<number | null>(null);
   const list = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
 
@@ -60,7 +61,11 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
     request.goal.does === 'add' && /^[A-Za-z_]\w*$/.test(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;
-  const active = Math.min(index, count - 1);
+  // Who types a name that no block has means a new action, even if the word stands in a description.
+  const least = /^[A-Z]/.test(search) ? 3 : 1;
+  const isNamed = found.some(({ label }) => matchScore(label, search) >= least);
+  const likely = made.length > 0 && !isNamed ? found.length : 0;
+  const active = Math.min(index ?? likely, count - 1);
 
   useEffect(() => {
     list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: 'nearest' });
@@ -109,7 +114,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
         value={search}
         onChange={(event) => {
           setSearch(event.currentTarget.value);
-          setIndex(0);
+          setIndex(null);
         }}
         onKeyDown={(event) => {
           event.stopPropagation();

@@ -86,7 +86,7 @@ class GlRenderer:
         self._context.clear(depth=1.0)
         count = stock.choose(stock.pieces.seen(self._placed, view, width, height))
         self._paint(stock, count, _upside_down(view, width, height), view)
-        picture: NDArray[np.uint8] = cv2.cvtColor(self._targets.read(width, height), cv2.COLOR_RGBA2RGB)  # type: ignore[assignment]
+        picture: NDArray[np.uint8] = cv2.cvtColor(self._targets.read(width, height), cv2.COLOR_RGBA2RGB)
         return smoothed(picture) if smooth and self._is_software else picture
 
     def depth(

@@ -156,7 +156,8 @@ export interface AppBundle {
 
 export interface SessionInfo {
   id: string;
-  state: 'starting' | 'ready' | 'failed' | 'ended';
+  state: 'queued' | 'starting' | 'ready' | 'failed' | 'ended';
+  position: number | null;
   control_url: string;
   stream_url: string;
   error?: string;

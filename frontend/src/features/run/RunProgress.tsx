@@ -35,7 +35,7 @@ export function RunProgress() {
           {name}
         </Text>
         <Text size="xs" c="dimmed" truncate="end">
-          {rung ? progress?.message : ''}
+          {stage === 'launching' || stage === 'starting' ? progress?.message : ''}
         </Text>
         {stage === 'launching' ? (
           <Button size="compact-xs" variant="subtle" color="gray" onClick={cancelRun}>

@@ -1,6 +1,6 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: help run test test-full lint format bench lock clean setup setup-test test-frontend test-python generate
+.PHONY: help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
@@ -27,6 +27,10 @@ test: setup-test lint test-frontend test-python ## sets up what is missing, then
 
 test-full: export BT_STUDIO_FULL = 1
 test-full: setup-test lint test-frontend test-python ## the same with the large counts of tests/budget.toml (hours)
+
+test-docker: export BT_STUDIO_FULL = 1
+test-docker: setup-test ## builds the images and tries the server for a team in real containers (needs root)
+	@$(BIN)/python -m pytest tests/docker
 
 test-frontend:
 	@cd frontend && npm run --silent test

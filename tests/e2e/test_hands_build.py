@@ -106,7 +106,8 @@ def test_by_keyboard_alone(shared_studio: Studio) -> None:
     observer = studio.observe()
     wait_until(lambda: observer.distance_travelled("robot") > 0.5, "the robot drives")
     observer.close()
-    studio.end_session()
+    studio.at("end-session").click()
+    studio.expect_state("idle")
 
 
 def ports_names_and_order_by_keys(studio: Studio) -> None:
@@ -172,7 +173,6 @@ def new_action(studio: Studio, action: str) -> None:
     if action == "CheckObstacle":
         studio.page.get_by_role("dialog").get_by_role("radio").nth(1).click()
     studio.at("file-dialog-ok").click()
-    expect(studio.page.locator(f'[data-path="actions/{action}.py"]')).to_be_visible()
     editor = studio.page.locator(f'[data-path="actions/{action}.py"] .cm-content')
     editor.click()
     studio.page.keyboard.press("Control+a")
@@ -193,7 +193,8 @@ def fault_is_found_and_mended(studio: Studio) -> None:
     observer = studio.observe()
     wait_until(lambda: observer.distance_travelled("robot") > 0.3, "the robot drives")
     observer.close()
-    studio.end_session()
+    studio.at("end-session").click()
+    studio.expect_state("idle")
 
 
 def edit(studio: Studio, path: str, text: str) -> None:

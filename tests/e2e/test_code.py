@@ -10,6 +10,8 @@ from playwright.sync_api import expect
 from tests.e2e.studio import Studio
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from playwright.sync_api import Locator
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(400)]
@@ -62,12 +64,12 @@ def expect_help(studio: Studio) -> None:
     expect(studio.at("language-state")).to_have_attribute("data-state", "ready", timeout=60_000)
 
 
-def offline(studio: Studio, *, yes: bool) -> None:
-    """Cuts one tab off; the other goes on."""
-    network = studio.page.context.new_cdp_session(studio.page)
-    network.send("Network.enable")
+def network_of(studio: Studio) -> Callable[[bool], None]:
+    """Cuts one tab off (True), or lets it in again; the other tab goes on."""
+    session = studio.page.context.new_cdp_session(studio.page)
+    session.send("Network.enable")
     speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
-    network.send("Network.emulateNetworkConditions", {"offline": yes, **speed})
+    return lambda cut: session.send("Network.emulateNetworkConditions", {"offline": cut, **speed})
 
 
 def begin(studio: Studio) -> None:
@@ -94,9 +96,10 @@ def test_completion_findings_and_types(studio: Studio) -> None:
 
     # A wrong name is marked, with what to do; hovering tells types.
     page.keyboard.type("\ntwist.liner")
-    expect(page.locator(".cm-lintRange-error")).to_be_visible(timeout=30_000)
+    wrong = page.locator(".cm-lintRange-error", has_text="liner")
+    expect(wrong).to_be_visible(timeout=30_000)
     page.keyboard.press("Control+z")
-    expect(page.locator(".cm-lintRange-error")).to_have_count(0, timeout=30_000)
+    expect(wrong).to_have_count(0, timeout=30_000)
     page.mouse.move(*spot(studio, "import Twist", "Twist"))
     expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear", timeout=30_000)
     studio.picture("code-hover-light")
@@ -125,12 +128,13 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     studio.saved()
     expect(line(studio, "def broken(:")).to_be_visible()
     expect(line(studio, "return   py_trees")).to_be_visible()
-    page.keyboard.press("Control+z")
+    studio.replace_code(SOURCE)
 
     # F12 leads to another file of the project; F2 renames the action there: its file and its blocks, too.
     page.mouse.click(*spot(studio, "from Turn import Turn", "Turn"))
     page.keyboard.press("F12")
     expect(page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"]')).to_be_visible()
+    page.mouse.click(*spot(studio, "class Turn", "Turn"))
     page.keyboard.press("F2")
     page.locator(".cm-lsp-rename-panel input").fill("Rotate")
     page.keyboard.press("Enter")
@@ -153,13 +157,14 @@ def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio)
     other.picture("code-two-tabs-light")
 
     # Both write at once: the one that is late is asked, and nothing of either is lost.
-    offline(other, yes=True)
+    cut_off = network_of(other)
+    cut_off(True)
     editor(other).click()
     other.page.keyboard.press("Control+End")
     other.page.keyboard.type("# from the second")
     expect(other.at("save-state")).to_have_attribute("data-state", "failed")
     studio.replace_code("# said in the first tab\n# and more\n")
-    offline(other, yes=False)
+    cut_off(False)
     merge = other.page.get_by_role("dialog")
     expect(merge).to_contain_text("Two versions of actions/Forward.py", timeout=60_000)
     other.picture("code-conflict-light")

@@ -25,4 +25,4 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
         ".map(each => `${each.id}: `"
         " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"
     )
-    assert found == [], f"axe-core, {scheme}"
+    assert not found, f"axe-core, {scheme}:\n" + "\n".join(found)

@@ -142,7 +142,12 @@ export function PackageSection({ projectId }: PackageSectionProps) {
                 <Text size="sm" fw={600} mb={4}>
                   {t('files', { count: data.files.length })}
                 </Text>
-                <ScrollArea.Autosize mah={180} className={classes['files']} type="auto">
+                <ScrollArea.Autosize
+                  mah={180}
+                  className={classes['files']}
+                  type="auto"
+                  viewportProps={{ tabIndex: 0 }}
+                >
                   <ul data-testid="package-files">
                     {data.files.map(({ path, size }) => (
                       <li key={path}>

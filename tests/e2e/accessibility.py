@@ -22,7 +22,8 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
     found = studio.page.evaluate(
         "async () => (await axe.run("
         # What lies behind a dialogue cannot be reached while that is open.
-        "document.querySelector('[role=dialog][aria-modal=true]') ?? document, {resultTypes: ['violations']})).violations"
+        "document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
+        " {resultTypes: ['violations']})).violations"
         ".filter(each => ['serious', 'critical'].includes(each.impact))"
         ".map(each => `${each.id}: `"
         " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"

@@ -31,15 +31,19 @@ export function StatusBar() {
 function ConnectionStatus() {
   const { t } = useTranslation('frame');
   const connection = useSessionStore((state) => state.connection);
-  const universe = useSessionStore((state) => state.universe);
   const Icon = connection === 'open' ? IconPlugConnected : IconPlugConnectedX;
   return (
     <span className={classes['statusItem']} data-connection={connection}>
       <Icon size={14} aria-hidden="true" />
       {t(`connection.${connection}`)}
-      {connection === 'open' && universe ? ` · ${universe}` : null}
     </span>
   );
+}
+
+/** `walled_room` as one reads it. */
+function titleOf(universe: string): string {
+  const words = universe.replaceAll('_', ' ');
+  return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
 /** Where the robot will be; a click chooses another place. */
@@ -56,7 +60,7 @@ function WorldButton() {
       onClick={openWorlds}
     >
       <IconWorld size={14} aria-hidden="true" />
-      {once ?? own}
+      {titleOf(once ?? own)}
     </button>
   );
 }

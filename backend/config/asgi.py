@@ -23,9 +23,9 @@ from backend.config.sockets import serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
 from backend.projects import consumers as projects  # noqa: E402
 from backend.projects.notices import watch_revisions  # noqa: E402
+from backend.sessions import consumers as sessions  # noqa: E402
 from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
 from backend.sessions.care import care_for_ever  # noqa: E402
-from backend.sessions.consumers import relay_sockets  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
@@ -46,13 +46,16 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
 
 
 watch_revisions()
-routes: Final = {projects.ADDRESS: projects.serve_notices, language.ADDRESS: language.serve_language}
+routes: Final = {
+    projects.ADDRESS: projects.serve_notices,
+    language.ADDRESS: language.serve_language,
+    sessions.ADDRESS: sessions.relay,
+}
 
 
 async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Every websocket: those of projects, and all others, which are sessions' or nobody's."""
-    if not await serve(routes, scope, receive, send):
-        await relay_sockets(scope, receive, send)
+    """Every websocket."""
+    await serve(routes, scope, receive, send)
 
 
 application: ASGI3Application = probed(

@@ -7,6 +7,7 @@ that is called once the guard has let the socket pass and it is accepted.
 from __future__ import annotations
 
 import contextlib
+import re  # noqa: TC003
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -18,12 +19,13 @@ from backend.config import guard
 from backend.config.middleware import cookies_of
 
 if TYPE_CHECKING:
-    import re
-
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
 
     from backend.accounts.models import User
 
+PROTOCOL: Final = "bt-studio.v1"
+ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
+"""What of an address is a project's or a session's id."""
 POLICY_VIOLATION: Final = 1008
 _REASON_BYTES: Final = 120  # a close frame holds 123
 
@@ -36,9 +38,16 @@ class Closed:
     reason: str = ""
 
 
-Handler = Callable[
-    ["re.Match[str]", "User", "ASGIReceiveCallable", "ASGISendCallable"], Awaitable["Closed | None"]
-]
+@dataclass(frozen=True, slots=True)
+class Call:
+    """What a socket asks for: its address as its route matched it, who asks, and the query string."""
+
+    address: re.Match[str]
+    user: User
+    query: str
+
+
+Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable["Closed | None"]]
 
 
 def _headers(scope: WebSocketScope) -> dict[str, str]:
@@ -66,37 +75,33 @@ async def serve(
     scope: WebSocketScope,
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
-) -> bool:
-    """Serves a socket whose path is one of these; False when it is none, and nothing has been read."""
-    for pattern, handler in routes.items():
-        match = pattern.match(scope["path"])
-        if match:
-            await _serve(match, handler, scope, receive, send)
-            return True
-    return False
-
-
-async def _serve(
-    match: re.Match[str],
-    handler: Handler,
-    scope: WebSocketScope,
-    receive: ASGIReceiveCallable,
-    send: ASGISendCallable,
 ) -> None:
+    """Serves a socket whose path is one of these; all others are refused."""
     await receive()  # websocket.connect
-    refused = refusal(scope) is not None
-    cookies = cookies_of(_headers(scope).get("cookie", ""))
+    found = _route(routes, scope["path"])
     # Whether this user may see what the path names is for the handler to ask.
-    user = None if refused else await sync_to_async(identify)(cookies)
-    if user is None:
+    user = None if found is None or refusal(scope) is not None else await _user(scope)
+    if found is None or user is None:
         # A close before the accept makes the server answer the handshake with 403.
         await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
         return
-    await send({"type": "websocket.accept", "subprotocol": None, "headers": []})
-    closed = await handler(match, user, receive, send)
+    address, handler = found
+    offered = list(scope.get("subprotocols") or [])
+    subprotocol = PROTOCOL if PROTOCOL in offered else None
+    await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
+    closed = await handler(Call(address, user, scope["query_string"].decode("latin-1")), receive, send)
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})
+
+
+def _route(routes: Mapping[re.Pattern[str], Handler], path: str) -> tuple[re.Match[str], Handler] | None:
+    matches = ((pattern.match(path), handler) for pattern, handler in routes.items())
+    return next(((match, handler) for match, handler in matches if match), None)
+
+
+async def _user(scope: WebSocketScope) -> User | None:
+    return await sync_to_async(identify)(cookies_of(_headers(scope).get("cookie", "")))
 
 
 def short(reason: str) -> str:

@@ -24,7 +24,7 @@ from asgiref.sync import sync_to_async
 
 from backend.config.environment import environment
 from backend.config.problems import NotFoundError
-from backend.config.sockets import Closed
+from backend.config.sockets import ID, Call, Closed
 from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
 from backend.language.errors import UnavailableError
 from backend.language.folder import Folder, Sync
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger(__name__)
 
-ADDRESS: Final = re.compile(r"^/ws/projects/([0-9a-f-]{36})/language$")
+ADDRESS: Final = re.compile(rf"^/ws/projects/{ID}/language$")
 MAX_MESSAGE_BYTES: Final = 4 * 1024 * 1024
 WATCH_S: Final = 1.0
 
@@ -57,18 +57,16 @@ Following = Callable[[], Awaitable[dict[str, Any]]]
 _served: Final[set[object]] = set()
 
 
-async def serve_language(
-    address: re.Match[str], user: User, receive: ASGIReceiveCallable, send: ASGISendCallable
-) -> Closed | None:
+async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Serves one page until a side ends."""
     if len(_served) >= environment().max_language_servers:
         return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
     mark = object()
     _served.add(mark)
     try:
-        async with notices_of(UUID(address[1])) as following:
-            return await _serve(Page(UUID(address[1]), user, receive, send), following)
-    except (NotFoundError, ValueError):
+        async with notices_of(UUID(call.address[1])) as following:
+            return await _serve(Page(UUID(call.address[1]), call.user, receive, send), following)
+    except NotFoundError:
         return Closed(NO_SUCH_PROJECT, "There is no such project.")
     except UnavailableError as error:
         return Closed(UNAVAILABLE, str(error))

@@ -11,7 +11,7 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 
 from backend.config.problems import NotFoundError
-from backend.config.sockets import Closed
+from backend.config.sockets import ID, Call, Closed
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.notices import notices_of
@@ -19,22 +19,19 @@ from backend.projects.notices import notices_of
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
 
-    from backend.accounts.models import User
-
-ADDRESS: Final = re.compile(r"^/ws/projects/([0-9a-f-]{36})/notices$")
+ADDRESS: Final = re.compile(rf"^/ws/projects/{ID}/notices$")
 NO_SUCH_PROJECT: Final = 4404
 
 
-async def serve_notices(
-    address: re.Match[str], user: User, receive: ASGIReceiveCallable, send: ASGISendCallable
-) -> Closed | None:
+async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each."""
-    async with notices_of(UUID(address[1])) as following:
+    project_id = UUID(call.address[1])
+    async with notices_of(project_id) as following:
         try:
             project = await sync_to_async(
-                lambda: queries.project(UUID(address[1]), user=user, need=Need.READ)
+                lambda: queries.project(project_id, user=call.user, need=Need.READ)
             )()
-        except (NotFoundError, ValueError):
+        except NotFoundError:
             return Closed(NO_SUCH_PROJECT, "There is no such project.")
         await _tell(send, {"type": "revision", "revision": project.revision, "author": "", "message": ""})
         telling = asyncio.create_task(_relay(following, send))

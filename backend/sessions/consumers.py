@@ -8,10 +8,8 @@ which knows what a message supersedes, sends it less. Frames never touch the cha
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import logging
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
@@ -19,24 +17,21 @@ from asgiref.sync import sync_to_async
 from websockets.asyncio.client import ClientConnection, connect, unix_connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
-from backend.accounts.identity import identify
-from backend.config import guard
-from backend.config.middleware import cookies_of
 from backend.config.problems import NotFoundError
+from backend.config.sockets import ID, Call, Closed
 from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
 
 if TYPE_CHECKING:
-    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
+    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
 
     from backend.accounts.models import User
     from backend.sessions.models import Session
 
 log = logging.getLogger(__name__)
 
-ADDRESS: Final = re.compile(r"^/ws/sessions/([0-9a-f-]{36})/(control|stream)$")
-PROTOCOL: Final = "bt-studio.v1"
+ADDRESS: Final = re.compile(rf"^/ws/sessions/{ID}/(control|stream)$")
 MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
 POLL_S: Final = 0.03
@@ -48,63 +43,11 @@ NO_SUCH_SESSION: Final = 4404
 EXECUTOR_FAILED: Final = 4503
 
 
-@dataclass(frozen=True, slots=True)
-class Closed:
-    """How one side ended its socket."""
-
-    code: int
-    reason: str
-
-
-async def relay_sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """The ASGI application of all sockets."""
-    await receive()  # websocket.connect
-    address = ADDRESS.match(scope["path"])
-    if address is None or _refusal(scope) is not None:
-        await _refuse(send)
-        return
-    # Who owns the session is asked below: a guest or a stranger owns none.
-    user = await sync_to_async(identify)(_cookies(scope))
-    if user is None or user.is_guest:
-        await _refuse(send)
-        return
-    offered = list(scope.get("subprotocols") or [])
-    subprotocol = PROTOCOL if PROTOCOL in offered else None
-    await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
-    closed = await _serve(
-        UUID(address[1]), user, address[2], scope["query_string"].decode("latin-1"), receive, send
-    )
-    if closed is not None:
-        with contextlib.suppress(OSError, RuntimeError):
-            await send({"type": "websocket.close", "code": closed.code, "reason": closed.reason})
-
-
-async def _refuse(send: ASGISendCallable) -> None:
-    """A close before the accept makes the server answer the handshake with 403."""
-    await send({"type": "websocket.close", "code": 1008, "reason": ""})
-
-
-def _headers(scope: WebSocketScope) -> dict[str, str]:
-    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
-
-
-def _cookies(scope: WebSocketScope) -> dict[str, str]:
-    return cookies_of(_headers(scope).get("cookie", ""))
-
-
-def _refusal(scope: WebSocketScope) -> guard.Refusal | None:
-    headers = _headers(scope)
-    scheme, _, bearer = headers.get("authorization", "").partition(" ")
-    host = headers.get("host", "")
-    facts = guard.Facts(
-        method="GET",
-        host=host,
-        origin=headers.get("origin"),
-        cookie=cookies_of(headers.get("cookie", "")).get(guard.cookie_name(host)),
-        bearer=bearer if scheme.lower() == "bearer" else None,
-        socket=True,
-    )
-    return guard.check(facts)
+async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
+    """Relays one socket until a side ends."""
+    if call.user.is_guest:
+        return Closed(NO_SUCH_SESSION, "There is no such session.")
+    return await _serve(UUID(call.address[1]), call.user, call.address[2], call.query, receive, send)
 
 
 async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
@@ -122,7 +65,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     except NotFoundError as error:
         return Closed(NO_SUCH_SESSION, error.detail)
     if session.state != SessionState.READY:
-        return Closed(EXECUTOR_FAILED, _short(session.error or "The session has ended."))
+        return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
     noted = _noting(session_id, receive) if is_control else receive
     try:
         async with _manager(session, channel + (f"?{query}" if query else "")) as manager:
@@ -172,7 +115,7 @@ async def _explained(session: Session, closed: Closed) -> Closed:
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
         session = await sync_to_async(actions.refresh)(session)
         if session.state != SessionState.READY:
-            return Closed(EXECUTOR_FAILED, _short(session.error or "The session has ended."))
+            return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
         await asyncio.sleep(POLL_S)
     return closed
 
@@ -239,10 +182,4 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
 def _closed_by(error: ConnectionClosed) -> Closed:
     if error.rcvd is None or error.rcvd.code in {1005, 1006}:
         return Closed(EXECUTOR_FAILED, "The connection to the executor was lost.")
-    return Closed(error.rcvd.code, _short(error.rcvd.reason))
-
-
-def _short(reason: str) -> str:
-    """A close frame holds 123 bytes."""
-    first = reason.splitlines()[0] if reason else ""
-    return first.encode()[:120].decode(errors="ignore")
+    return Closed(error.rcvd.code, error.rcvd.reason)

@@ -14,19 +14,25 @@ from websockets.sync.client import connect
 
 from backend.config import guard
 from backend.config.server import bind
+from backend.config.sockets import serve
 from backend.sessions import actions
-from backend.sessions.consumers import EXECUTOR_FAILED, NO_SUCH_SESSION, relay_sockets
+from backend.sessions.consumers import ADDRESS, EXECUTOR_FAILED, NO_SUCH_SESSION
+from backend.sessions.consumers import relay as relay_socket
 from tests.backend.sessions.test_sessions import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"
 
 
+async def application(scope, receive, send):
+    await serve({ADDRESS: relay_socket}, scope, receive, send)
+
+
 @pytest.fixture
 def relay():
     """The sockets behind a real server; its address as a `Host`."""
     listener = bind("127.0.0.1", 0)
-    config = uvicorn.Config(relay_sockets, ws="websockets-sansio", lifespan="off", log_config=None)
+    config = uvicorn.Config(application, ws="websockets-sansio", lifespan="off", log_config=None)
     server = uvicorn.Server(config)
     thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
     thread.start()

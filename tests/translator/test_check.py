@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from translator import Severity, check
+from translator import Severity, check, from_xml
 from translator.diagnostic import rules
 
 LEAF = {"type": "AlwaysSuccess"}
@@ -180,6 +180,29 @@ def test_ring_of_subtrees_is_reported_once(make_project):
     rings = [item for item in check(project) if item.code == "BT0502"]
     assert len(rings) == 1
     assert "A → B → A" in rings[0].message
+
+
+DRIVE = b"""<root BTCPP_format="4" main_tree_to_execute="Main">
+<BehaviorTree ID="Main"><SubTree ID="Drive" distance="%s" times="%s"/></BehaviorTree>
+<BehaviorTree ID="Drive"><Script code="x := distance * times"/></BehaviorTree>
+<TreeNodesModel><SubTree ID="Drive">
+  <input_port name="distance" type="double"/><input_port name="times" type="int"/>
+</SubTree></TreeNodesModel></root>"""
+
+
+@pytest.mark.parametrize(
+    ("distance", "times", "codes"),
+    [
+        (b"2.0", b"3", []),
+        (b"{there}", b"{=}", []),
+        (b"2", b"3", [("BT0506", "distance")]),
+        (b"far", b"3.5", [("BT0204", "distance"), ("BT0206", "times")]),
+        (b"{there", b"{}", [("BT0203", "distance"), ("BT0207", "times")]),
+    ],
+)
+def test_values_of_a_subtree_suit_the_ports_of_its_tree(distance, times, codes):
+    found = [item for item in check(from_xml(DRIVE % (distance, times))) if item.code[:4] in {"BT02", "BT05"}]
+    assert [(item.code, item.place.port) for item in found] == codes
 
 
 def test_key_that_is_not_passed_to_a_subtree(make_project):

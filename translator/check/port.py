@@ -41,7 +41,7 @@ def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> 
         elif name in RESERVED or name.startswith("_") or not is_xml_name(name):
             context.report("BT0209", tree, node, name, port=name)
         else:
-            _check_braces(context, tree, node, name, text)
+            check_braces(context, tree, node, name, text)
 
 
 def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> None:
@@ -52,13 +52,18 @@ def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> No
                 "BT0201", tree, node, port.name, type=node.type, port=port.name, description=port.description
             )
         return
-    if port.type == "script" or not _check_braces(context, tree, node, port.name, text):
+    if port.type == "script" or not check_braces(context, tree, node, port.name, text):
         return
     if pointer(text, port.name) is not None:
         return
     if port.is_written and not _takes_literal(node, port):
         context.report("BT0205", tree, node, port.name, port=port.name, value=text)
         return
+    check_literal(context, tree, node, port, text)
+
+
+def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, text: str) -> None:
+    """Reports a literal that is not of its port's type."""
     suits = fit(port.type, text)
     values = {"port": port.name, "value": text, "wanted": describe(port.type)}
     if suits is Fit.BAD:
@@ -72,7 +77,8 @@ def _takes_literal(node: Node, port: PortModel) -> bool:
     return port.direction == "inout" and (node.type.startswith("Loop") or port.name == "output_key")
 
 
-def _check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
+def check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
+    """Reports braces that do not make a key; whether they are right."""
     stripped = text.strip()
     if stripped == "{}":
         context.report("BT0207", tree, node, port, port=port)

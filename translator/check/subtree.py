@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from translator.catalog import did_you_mean
-from translator.check.port import RESERVED
+from translator.check.port import RESERVED, check_braces, check_literal
 from translator.text import is_xml_name
-from translator.tree import AUTOREMAP
+from translator.tree import AUTOREMAP, pointer
 
 if TYPE_CHECKING:
+    from translator.catalog import PortModel
     from translator.check.context import Context
     from translator.tree import Node, Tree
+
+_WHOLE = re.compile(r"[-+]?\d+")
 
 
 def check_subtrees(context: Context) -> None:
@@ -48,11 +52,29 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
     for name in node.ports:
         if name in RESERVED or name.startswith("_") or not is_xml_name(name):
             context.report("BT0209", tree, node, name, port=name)
+    for port in trees[node.tree].ports:
+        _check_value(context, tree, node, port)
     if node.autoremap:
         return
     for port in trees[node.tree].ports:
         if port.name not in node.ports and port.default is None:
             context.report("BT0504", tree, node, port.name, target=node.tree, port=port.name)
+
+
+def _check_value(context: Context, tree: Tree, node: Node, port: PortModel) -> None:
+    """Reports a literal that the tree below could not read."""
+    text = node.ports.get(port.name)
+    if text is None or not check_braces(context, tree, node, port.name, text):
+        return
+    if pointer(text, port.name) is not None:
+        return
+    if port.type == "double" and _WHOLE.fullmatch(text.strip()):
+        # A number that a SubTree is given becomes a typed entry; an int is no double there.
+        context.report(
+            "BT0506", tree, node, port.name, port=port.name, value=text, wanted=f"{text.strip()}.0"
+        )
+    elif not port.is_written:
+        check_literal(context, tree, node, port, text)
 
 
 def _check_cycles(context: Context) -> None:

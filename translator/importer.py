@@ -12,7 +12,7 @@ from translator.catalog import NodeModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.project import Project, assemble
-from translator.settings import PROJECT_FILE, Settings
+from translator.settings import MAX_NAME, PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
 from translator.xml.read import Document, read_document
 
@@ -127,6 +127,9 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
     trees: dict[str, Tree] = {}
     for document in work.documents.values():
         for item in document.trees:
+            if len(item.tree.id) > MAX_NAME:
+                place = Place(document.file, line=item.element.line, column=1)
+                raise TranslatorError([*work.found, diagnostic("BT0736", place, limit=MAX_NAME)])
             if item.tree.id in trees:
                 place = Place(document.file, tree=item.tree.id, line=item.element.line)
                 work.found.append(
@@ -139,7 +142,7 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
     if main != named and (named or len(trees) > 1):
         work.found.append(diagnostic("BT0735", Place(file, line=1), main=named or "(none)", chosen=main))
     name = first.source.root.attributes.get("project_name") or PurePosixPath(file).stem
-    return list(trees.values()), Settings(name=name[:200] or "Untitled", main_tree=main or "MainTree")
+    return list(trees.values()), Settings(name=name[:MAX_NAME] or "Untitled", main_tree=main or "MainTree")
 
 
 def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:

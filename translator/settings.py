@@ -12,6 +12,7 @@ from translator.text import clean, is_clean
 
 PROJECT_FILE = "project.json"
 FORMAT = "bt-studio/project"
+MAX_NAME = 200
 
 
 class Maintainer(BaseModel):
@@ -19,8 +20,8 @@ class Maintainer(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="ignore")
 
-    name: str = Field(default="", max_length=200)
-    email: str = Field(default="", max_length=200)
+    name: str = Field(default="", max_length=MAX_NAME)
+    email: str = Field(default="", max_length=MAX_NAME)
 
 
 class Settings(BaseModel):
@@ -30,12 +31,12 @@ class Settings(BaseModel):
 
     format: Literal["bt-studio/project"] = "bt-studio/project"
     version: Literal[1] = 1
-    name: str = Field(default="Untitled", min_length=1, max_length=200)
+    name: str = Field(default="Untitled", min_length=1, max_length=MAX_NAME)
     description: str = Field(default="", max_length=10_000)
-    main_tree: str = Field(default="MainTree", min_length=1, max_length=200)
+    main_tree: str = Field(default="MainTree", min_length=1, max_length=MAX_NAME)
     tick_hz: float = Field(default=20, gt=0, le=1000)
-    universe: str = Field(default="empty", max_length=200)
-    robot: str | None = Field(default=None, max_length=200)
+    universe: str = Field(default="empty", max_length=MAX_NAME)
+    robot: str | None = Field(default=None, max_length=MAX_NAME)
     on_finish: Literal["stop", "repeat"] = "stop"
     on_error: Literal["stop", "failure"] = "stop"
     license: str = Field(default="Apache-2.0", max_length=100)

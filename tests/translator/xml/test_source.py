@@ -28,6 +28,7 @@ ATTACKS = {
     "less-than in a value": ('<root a="<"/>', "BT0701"),
     "another document": ("<html/>", "BT0703"),
     "no tree": ("<root/>", "BT0734"),
+    "endless ID": (f'<root><BehaviorTree ID="{"M" * 300}"><AlwaysSuccess/></BehaviorTree></root>', "BT0736"),
     "unknown encoding": ('<?xml version="1.0" encoding="utf-7"?><root/>', "BT0702"),
     "control character": ("<root a='\x01'/>", "BT0701"),
 }

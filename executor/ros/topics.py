@@ -35,6 +35,8 @@ _QOS: Final = QoSProfile(
 _LATCHED_QOS: Final = QoSProfile(
     depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
+# How rcl calls a node whose topics were discovered before its name was.
+_NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 # A picture is heard only by those who asked for it: else listing topics would set the renderer to work.
 _UNHEARD: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
@@ -146,8 +148,10 @@ class Topics:
         self._send({"type": "topics", "topics": rows})
 
     def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
-        """Names the nodes at one end of a topic, without our own ear."""
-        names = [f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in ends]
+        """Names the nodes at one end of a topic, without our own ear and without those not yet introduced."""
+        names = [
+            f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in ends if end.node_name != _NO_NAME_YET
+        ]
         if own and (ours := self._node.get_fully_qualified_name()) in names:
             names.remove(ours)
         return sorted(set(names))[:MOST_NODES]

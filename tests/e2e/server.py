@@ -32,8 +32,16 @@ class Server(NamedTuple):
         return self.url.split("/?")[0].rstrip("/")
 
     def children(self) -> list[psutil.Process]:
-        """Every process below the server: managers, worlds, applications."""
-        return [child for child in self.process.children(recursive=True) if child.is_running()]
+        """Every process of a session below the server: managers, worlds, applications."""
+        below = self.process.children(recursive=True)
+        return [child for child in below if _is_of_a_session(child)]
+
+
+def _is_of_a_session(process: psutil.Process) -> bool:
+    try:
+        return process.is_running() and "executor" in " ".join(process.cmdline())
+    except psutil.NoSuchProcess:
+        return False
 
 
 def command(*arguments: str) -> list[str]:

@@ -33,6 +33,11 @@ async def outside_robot():
         await process.wait()
 
 
+async def topics_of(client):
+    assert await client.ask("list_topics") == "ack"
+    return {topic["name"]: topic for topic in client.named("topics")[-1]["topics"]}
+
+
 @pytest.mark.simulation
 async def test_the_application_drives_a_robot_that_is_not_ours_and_a_pause_has_it_stand():
     async def told(robot, condition):
@@ -47,10 +52,11 @@ async def test_the_application_drives_a_robot_that_is_not_ours_and_a_pause_has_i
         client = await SessionClient(manager.ready["port"]).open(stream=False)
         assert await client.ask("run", run_data(universe="none")) == "ack"
         await told(robot, lambda speed: speed > 0)
-        assert await client.ask("list_topics") == "ack"
-        rows = {t["name"]: t for t in client.named("topics")[-1]["topics"]}
+        async with asyncio.timeout(40):  # DDS may tell of topics before it names their nodes
+            while not (rows := await topics_of(client))["/scan"]["publishers"]:
+                await asyncio.sleep(0.1)
         assert rows["/scan"]["publishers"] == ["/outside_robot"]
-        assert "/outside_robot" in rows["/cmd_vel"]["subscribers"]
+        assert "/outside_robot" in (await topics_of(client))["/cmd_vel"]["subscribers"]
 
         assert await client.ask("pause") == "ack"
         await told(robot, lambda speed: speed == 0)

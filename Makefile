@@ -36,7 +36,7 @@ test-frontend:
 	@cd frontend && npm run --silent test
 
 test-python:
-	@$(BIN)/python -m pytest tests
+	@$(BIN)/python -m pytest tests --durations 40 --durations-min 3
 
 lint: ## style, types and the direction of imports, in Python and TypeScript
 	@$(BIN)/ruff check . && $(BIN)/ruff format --check .

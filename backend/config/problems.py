@@ -5,7 +5,8 @@
     ├─ NotFoundError            404
     └─ (projects, sessions: see there)
 
-Views raise; `exception_handler` turns these, DRF's own errors and nothing else into answers.
+Views raise; `exception_handler` turns these, DRF's own errors and those of a database that is out of
+reach or out of room into answers, and nothing else.
 """
 
 from __future__ import annotations
@@ -16,12 +17,16 @@ from http import HTTPStatus
 from typing import Any, ClassVar
 
 from django.core.exceptions import PermissionDenied
+from django.db import OperationalError
 from django.http import Http404, HttpRequest, JsonResponse
 from rest_framework import exceptions
 from rest_framework.response import Response
 
 log = logging.getLogger(__name__)
 
+DISK_FULL = frozenset({"SQLITE_FULL", "SQLITE_IOERR_WRITE", "53100"})
+"""How the databases say that there is no room to write."""
+RETRY_S = 5
 MEDIA_TYPE = "application/problem+json"
 TYPE_PREFIX = "urn:bt-studio:problem:"
 
@@ -103,6 +108,9 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
         document = error.document()
     elif isinstance(error, Http404):
         document = problem(404, "not_found", detail="There is nothing at this address.")
+    elif isinstance(error, OperationalError):
+        log.error("the database failed", exc_info=error)
+        document, headers = _database_problem(error), {"Retry-After": str(RETRY_S)}
     elif isinstance(error, PermissionDenied):
         document = problem(403, "forbidden", detail="This is not allowed.")
     elif isinstance(error, exceptions.ValidationError):
@@ -121,6 +129,25 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
     else:
         return None
     return Response(document, status=document["status"], content_type=MEDIA_TYPE, headers=headers)
+
+
+def _database_problem(error: OperationalError) -> dict[str, Any]:
+    """No transaction was committed: whoever asks may ask again as soon as the database can write."""
+    cause = error.__cause__
+    code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
+    if code in DISK_FULL:
+        return problem(
+            507,
+            "disk_full",
+            detail="The server's disk is full: nothing was written, and what was saved before is safe.",
+            hint="Keep this page open, make room on the server's disk, then save again.",
+        )
+    return problem(
+        503,
+        "database_unavailable",
+        detail="The database does not answer: nothing was written.",
+        hint="Try again in a moment. If it stays so, the server's log has the reason.",
+    )
 
 
 def _first_message(detail: Any, path: str = "") -> tuple[str, str]:

@@ -23,10 +23,10 @@ def _program(name):
 
 
 @contextmanager
-def postgresql(**settings):
-    """The URL of a fresh cluster, on a Unix socket alone; PostgreSQL refuses to run as root."""
+def postgresql(place=None, **settings):
+    """The URL of a fresh cluster in `place`, on a Unix socket alone; PostgreSQL refuses to run as root."""
     as_user = {"user": "postgres", "group": "postgres", "extra_groups": []} if os.geteuid() == 0 else {}
-    with tempfile.TemporaryDirectory(prefix="bts-pg-") as name:
+    with tempfile.TemporaryDirectory(prefix="bts-pg-", dir=place) as name:
         folder = Path(name)
         if as_user:
             shutil.chown(folder, "postgres", "postgres")

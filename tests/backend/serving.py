@@ -33,12 +33,12 @@ class Served:
         return self.process.returncode
 
 
-def start(folder, *arguments, **environment):
-    """A process that serves, or tries to."""
+def start(folder, *arguments, prefix=(), **environment):
+    """A process that serves, or tries to; started by the program `prefix`, if any."""
     clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
     command = [sys.executable, "-m", "backend.cli.main", "serve", "--no-browser", "--data-dir", str(folder)]
     return subprocess.Popen(
-        [*command, *arguments],
+        [*prefix, *command, *arguments],
         cwd=REPOSITORY,
         env=clean | environment,
         stdout=subprocess.PIPE,
@@ -58,11 +58,13 @@ def await_ready(process, ready_file):
 
 
 @contextmanager
-def serving(folder, *arguments, **environment):
+def serving(folder, *arguments, prefix=(), **environment):
     """A server on a free port, ended in the end."""
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
-    process = start(folder, "--port", "0", "--ready-file", str(ready_file), *arguments, **environment)
+    process = start(
+        folder, "--port", "0", "--ready-file", str(ready_file), *arguments, prefix=prefix, **environment
+    )
     with process:
         try:
             yield Served(process, await_ready(process, ready_file))

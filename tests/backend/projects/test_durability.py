@@ -1,4 +1,4 @@
-"""The server is killed in a storm of saves: what it acknowledged is there, and nothing is half there."""
+"""The server is killed in a storm of saves, or its disk fills up: what it acknowledged is there, whole."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import threading
 import pytest
 import requests
 
+from tests.backend.disks import MEBIBYTE, small_disk
+from tests.backend.services import postgresql
 from tests.backend.serving import serving
 from tests.budget import count
 
@@ -77,34 +79,100 @@ def check(server, project, acknowledged):
             assert found.text == text
 
 
+@pytest.fixture(params=["sqlite", "postgresql"])
+def database(request):
+    """Settings of a server on this database."""
+    if request.param == "sqlite":
+        yield {}
+        return
+    # The web server is killed, not the database: what is committed is safe without a sync.
+    with postgresql(fsync="off") as url:
+        yield {"BT_STUDIO_DATABASE_URL": url}
+
+
+def make_projects(server, number):
+    made = [
+        requests.post(
+            f"{server.base}/api/v1/projects", json={"name": f"P{n}"}, headers=server.headers, timeout=30
+        ).json()
+        for n in range(number)
+    ]
+    return [project["id"] for project in made]
+
+
 @pytest.mark.timeout(0)
-def test_no_acknowledged_save_is_lost_when_the_server_is_killed(tmp_path):
+def test_no_acknowledged_save_is_lost_when_the_server_is_killed(tmp_path, database):
     kills = count("backend_kill_storm")
     seed = 7
     chance = random.Random(seed)  # noqa: S311
-    storm = None
+    storm, saves = None, 0
     for kill in range(kills + 1):
-        with serving(tmp_path) as server:
+        with serving(tmp_path, **database) as server:
             if storm is not None:
                 for project, acknowledged in storm.acknowledged.items():
                     check(server, project, acknowledged)
+                    saves += len(acknowledged)
             if kill == kills:
                 break
             if storm is None:
-                made = [
-                    requests.post(
-                        f"{server.base}/api/v1/projects",
-                        json={"name": f"P{n}"},
-                        headers=server.headers,
-                        timeout=30,
-                    ).json()
-                    for n in range(WRITERS)
-                ]
-                projects = [project["id"] for project in made]
+                projects = make_projects(server, WRITERS)
             storm = Storm(server, projects, chance.randint(5, 25))
             storm.rage()
             assert server.process.wait() == -signal.SIGKILL
-    database = sqlite3.connect(tmp_path / "bt-studio.sqlite3")
+    print(f"{kills} kills, {saves} acknowledged saves, {saves * len(FILES)} files looked at")
+    if not database:
+        assert_sound(tmp_path)
+
+
+def assert_sound(folder):
+    database = sqlite3.connect(folder / "bt-studio.sqlite3")
     assert database.execute("PRAGMA integrity_check").fetchone() == ("ok",)
     assert database.execute("PRAGMA foreign_key_check").fetchall() == []
     database.close()
+
+
+def fill(server, project):
+    """Saves until there is no room; returns what was acknowledged, and the answer that was not."""
+    address = f"{server.base}/api/v1/projects/{project}/changes"
+    acknowledged, revision = {}, 0
+    while True:
+        text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()  # noqa: S311
+        body = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
+        answer = requests.post(address, json=body, headers=server.headers, timeout=60)
+        if answer.status_code != 200:
+            return acknowledged, answer
+        revision = answer.json()["revision"]
+        acknowledged[revision] = text
+
+
+def written(server, project, revision):
+    """The text that all files of a revision have, each after its own name."""
+    found = set()
+    for path in FILES:
+        address = f"{server.base}/api/v1/projects/{project}/revisions/{revision}/files/{path}"
+        answer = requests.get(address, headers=server.headers, timeout=30)
+        assert answer.text.startswith(path)
+        found.add(answer.text.removeprefix(path))
+    (text,) = found
+    return text
+
+
+def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
+    with small_disk(tmp_path / "disk", 24) as disk:
+        with serving(disk.folder, prefix=disk.prefix) as server:
+            (project,) = make_projects(server, 1)
+            acknowledged, refused = fill(server, project)
+            assert (refused.status_code, refused.json()["code"]) == (507, "disk_full")
+            assert len(acknowledged) > 1
+            # Reading goes on.
+            assert {n: written(server, project, n) for n in acknowledged} == acknowledged
+            server.process.kill()
+        disk.grow(96)
+        with serving(disk.folder, prefix=disk.prefix) as server:
+            assert {n: written(server, project, n) for n in acknowledged} == acknowledged
+            newest = max(acknowledged)
+            body = {"files": [{"path": p, "base_revision": newest, "content": "room again"} for p in FILES]}
+            address = f"{server.base}/api/v1/projects/{project}/changes"
+            again = requests.post(address, json=body, headers=server.headers, timeout=30)
+            assert again.json()["revision"] == newest + 1
+        assert_sound(disk.folder)

@@ -1,0 +1,40 @@
+"""A disk that is soon full, for tests of what a server does then."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from contextlib import contextmanager
+
+MEBIBYTE = 1024 * 1024
+
+
+class SmallDisk:
+    """A folder with little room: a tmpfs where this user may mount one, else a limit on the size of files."""
+
+    def __init__(self, folder, mebibytes, *, mounted):
+        self.folder = folder
+        self.mounted = mounted
+        # What a program has to be started with to feel the limit.
+        self.prefix = () if mounted else ("prlimit", f"--fsize={mebibytes * MEBIBYTE // 4}")
+
+    def grow(self, mebibytes):
+        if self.mounted:
+            subprocess.run(["mount", "-o", f"remount,size={mebibytes}m", self.folder], check=True)
+        self.prefix = ()
+
+
+@contextmanager
+def small_disk(folder, mebibytes):
+    """Makes the folder; what is in it is gone afterwards."""
+    folder.mkdir()
+    options = ["-t", "tmpfs", "-o", f"size={mebibytes}m", "bts-test"]
+    mounted = (
+        os.geteuid() == 0
+        and subprocess.run(["mount", *options, folder], check=False, capture_output=True).returncode == 0
+    )
+    try:
+        yield SmallDisk(folder, mebibytes, mounted=mounted)
+    finally:
+        if mounted:
+            subprocess.run(["umount", "--lazy", folder], check=True)

@@ -35,6 +35,12 @@ function bytes(size: number, language: string): string {
   return format.format(isSmall ? size : size / 1024);
 }
 
+/** The user's package before the engine that comes with it. */
+function ownFirst<File extends { readonly path: string }>(name: string, files: readonly File[]): File[] {
+  const isOther = ({ path }: File) => Number(!path.startsWith(`${name}/`));
+  return files.toSorted((a, b) => isOther(a) - isOther(b));
+}
+
 function Findings({ found }: { readonly found: readonly Diagnostic[] }) {
   const { t } = useTranslation('export');
   if (found.length === 0) return null;
@@ -149,7 +155,7 @@ export function PackageSection({ projectId }: PackageSectionProps) {
                   viewportProps={{ tabIndex: 0 }}
                 >
                   <ul data-testid="package-files">
-                    {data.files.map(({ path, size }) => (
+                    {ownFirst(data.name, data.files).map(({ path, size }) => (
                       <li key={path}>
                         <span>{path}</span>
                         <span className={classes['size']}>{bytes(size, i18n.language)}</span>

@@ -7,6 +7,7 @@ import type { UniverseInfo } from '@/api/types';
 import { useProjectStore } from '@/store/project';
 import { useWorldChoice } from '@/store/run/world';
 import { ChoiceCards } from './ChoiceCards';
+import classes from './universe.module.css';
 import { closeWorlds } from './worlds';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
@@ -63,7 +64,7 @@ export function WorldChooser() {
         {t('robot')}
       </Text>
       <ChoiceCards label={t('robot')} items={machines} chosen={robot} onChoose={setRobot} />
-      <Group justify="space-between" align="flex-end">
+      <Group justify="space-between" align="flex-end" className={classes['decision']}>
         <Group align="flex-end">
           <NumberInput
             w={140}

@@ -93,7 +93,7 @@ def xml(files: Mapping[str, bytes], *, self_contained: bool) -> str:
         project = translator.load(files)
         return translator.self_contained(project) if self_contained else translator.to_xml(project)
     except translator.TranslatorError as error:
-        _refuse(error)
+        refuse(error)
 
 
 def app(files: Mapping[str, bytes]) -> dict[str, Any]:
@@ -108,7 +108,7 @@ def app(files: Mapping[str, bytes]) -> dict[str, Any]:
         project = translator.load(files)
         zipped = translator.to_app_zip(project)
     except translator.TranslatorError as error:
-        _refuse(error)
+        refuse(error)
     settings = project.settings
     return {
         "app_zip_base64": base64.b64encode(zipped).decode("ascii"),
@@ -131,7 +131,7 @@ def app_zip(files: Mapping[str, bytes]) -> bytes:
     try:
         return translator.to_app_zip(translator.load(files))
     except translator.TranslatorError as error:
-        _refuse(error)
+        refuse(error)
 
 
 def package(files: Mapping[str, bytes], name: str | None = None) -> Ros2Package:
@@ -145,7 +145,7 @@ def package(files: Mapping[str, bytes], name: str | None = None) -> Ros2Package:
     try:
         return translator.to_ros2_package(translator.load(files), name=name)
     except translator.TranslatorError as error:
-        _refuse(error)
+        refuse(error)
 
 
 def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
@@ -159,7 +159,7 @@ def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
     try:
         return dict(translator.open_files(files, name=name).files)
     except translator.TranslatorError as error:
-        _refuse(error)
+        refuse(error)
 
 
 def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
@@ -184,7 +184,8 @@ def inspect(source: str, filename: str) -> dict[str, Any]:
     return translator.inspect_action(source, filename).to_json()
 
 
-def _refuse(error: TranslatorError) -> NoReturn:
+def refuse(error: TranslatorError) -> NoReturn:
+    """Raises what the translator refused as an answer with `diagnostics`."""
     diagnostics = [diagnostic.to_json() for diagnostic in error.diagnostics]
     first = next(
         (d for d in diagnostics if d["severity"] == "error"), diagnostics[0] if diagnostics else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from django.urls import path
 
-from backend.projects import views, views_files, views_mine, views_revisions, views_sharing
+from backend.projects import views, views_files, views_mine, views_revisions, views_sharing, views_trees
 
 ONE = "projects/<uuid:project_id>"
 
@@ -38,5 +38,7 @@ urlpatterns = [
     path(f"{ONE}/shares/links/<uuid:link_id>", views_sharing.OneLink.as_view()),
     path("me/usage", views_mine.Usage.as_view()),
     path("me/data", views_mine.MyData.as_view()),
+    path("trees/xml", views_trees.TreeXml.as_view()),
+    path("trees/diagram", views_trees.TreeDiagram.as_view()),
     path("actions/inspect", views.InspectAction.as_view()),
 ]

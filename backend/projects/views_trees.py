@@ -1,0 +1,94 @@
+"""Trees as text that is being written; nothing is stored."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from drf_spectacular.utils import extend_schema
+from rest_framework import serializers
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.config.api import parsed
+from backend.projects import serializers as s
+from backend.projects import tree_text
+
+if TYPE_CHECKING:
+    from rest_framework.request import Request
+
+MAX_TEXT = 2_000_000
+MAX_NODES = 20_000
+
+
+class WriteTreeSerializer(s.StrictSerializer):
+    """A diagram to be written as XML."""
+
+    diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
+    base = s.TextField(
+        required=False, default="", max_length=MAX_TEXT, help_text="An earlier text, to be patched."
+    )
+    ids = serializers.ListField(
+        child=s.TextField(max_length=200),
+        required=False,
+        default=list,
+        max_length=MAX_NODES,
+        help_text="The nodes of `base`, in the order of the text.",
+    )
+
+
+class ReadTreeSerializer(s.StrictSerializer):
+    """An edited text."""
+
+    xml = s.TextField(max_length=MAX_TEXT)
+    diagram = s.TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
+
+
+class NodeRangeSerializer(serializers.Serializer[Any]):
+    """Where a node stands in the text; offsets in UTF-16 code units, lines ending in one."""
+
+    node = serializers.CharField()
+    start = serializers.IntegerField()
+    open_end = serializers.IntegerField(help_text="Behind its start tag.")
+    end = serializers.IntegerField()
+
+
+class TreeTextSerializer(serializers.Serializer[Any]):
+    """The XML of one tree."""
+
+    xml = serializers.CharField()
+    ranges = NodeRangeSerializer(many=True)
+
+
+class ReadTreeDoneSerializer(TreeTextSerializer):
+    """The tree that a text stands for."""
+
+    diagram = serializers.CharField()
+    diagnostics = s.DiagnosticSerializer(many=True)
+
+
+class TreeXml(APIView):
+    """A tree as text."""
+
+    @extend_schema(
+        operation_id="write_tree_xml",
+        request=WriteTreeSerializer,
+        responses=TreeTextSerializer,
+        tags=["trees"],
+    )
+    def post(self, request: Request) -> Response:
+        """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
+        return Response(tree_text.write(**parsed(WriteTreeSerializer, request.data)))
+
+
+class TreeDiagram(APIView):
+    """A text as tree."""
+
+    @extend_schema(
+        operation_id="read_tree_xml",
+        request=ReadTreeSerializer,
+        responses=ReadTreeDoneSerializer,
+        tags=["trees"],
+    )
+    def post(self, request: Request) -> Response:
+        """Reads the XML of one tree, nodes keeping their ids; 422 with `diagnostics` when it cannot be."""
+        return Response(tree_text.read(**parsed(ReadTreeSerializer, request.data)))

@@ -1,0 +1,34 @@
+"""Trees as text over HTTP."""
+
+from __future__ import annotations
+
+import json
+
+DIAGRAM = json.dumps(
+    {
+        "format": "bt-studio/diagram",
+        "version": 1,
+        "id": "Main",
+        "root": "n1",
+        "nodes": {"n1": {"type": "Inverter", "children": ["n2"]}, "n2": {"type": "Stop", "position": [1, 2]}},
+    }
+)
+
+
+def test_a_tree_goes_to_text_and_back(api):
+    text = api.post("trees/xml", {"diagram": DIAGRAM})
+    assert [found["node"] for found in text["ranges"]] == ["n1", "n2"]
+    xml = text["xml"].replace("<Stop", "<!-- halt -->\n      <Go")
+    read = api.post("trees/diagram", {"diagram": DIAGRAM, "xml": xml})
+    nodes = json.loads(read["diagram"])["nodes"]
+    assert nodes["n2"] == {"type": "Go", "position": [1, 2]}
+    ids = [found["node"] for found in read["ranges"]]
+    again = api.post("trees/xml", {"diagram": DIAGRAM, "base": xml, "ids": ids})
+    assert again["xml"] == xml.replace("<Go", "<Stop")
+
+
+def test_what_cannot_be_read_is_refused_at_its_line(api):
+    refused = api.post("trees/diagram", {"diagram": DIAGRAM, "xml": "<root>\n<"}, expect=422)
+    assert (refused["code"], refused["diagnostics"][0]["line"]) == ("check_failed", 2)
+    refused = api.post("trees/xml", {"diagram": "[]"}, expect=422)
+    assert refused["diagnostics"][0]["code"] == "BT0004"

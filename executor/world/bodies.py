@@ -76,6 +76,9 @@ def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
         uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001,
         restitution=model.restitution, linearDamping=0.0, angularDamping=0.0,
     )  # fmt: skip
+    if model.mass == 0:
+        # What never moves need not be told about in each step; what runs into it is stopped all the same.
+        bullet.changeDynamics(uid, -1, activationState=bullet.ACTIVATION_STATE_SLEEP)
     return Body(uid, is_dynamic=model.mass > 0)
 
 

@@ -43,6 +43,18 @@ def universe_preview(universe_id: str) -> Path | None:
     return UNIVERSES / "previews" / f"{universe_id}.webp" if universe_id in known else None
 
 
+def universe_text(universe_id: str) -> Path | None:
+    """Where the document of a built-in universe is, if there is one."""
+    known = {entry["id"] for entry in universes()}
+    return UNIVERSES / f"{universe_id}.yaml" if universe_id in known else None
+
+
+def robot_urdf(robot_id: str) -> Path | None:
+    """Where the URDF of a built-in robot is, if there is one."""
+    known = {entry["id"] for entry in robots()}
+    return ROBOTS / robot_id / f"{robot_id}.urdf" if robot_id in known else None
+
+
 def robot_preview(robot_id: str) -> Path | None:
     """Where the picture of a built-in robot is, if there is one."""
     known = {entry["id"] for entry in robots()}

@@ -59,6 +59,22 @@ class UniversePreview(APIView):
         return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
 
 
+class UniverseText(APIView):
+    """What a built-in world is written as."""
+
+    open_to_guests = True
+
+    @extend_schema(
+        operation_id="get_universe_text",
+        responses={(200, "application/yaml"): OpenApiTypes.STR},
+        tags=["catalog"],
+    )
+    def get(self, request: Request, universe_id: str) -> HttpResponse:
+        """Its YAML, to make a project's own of."""
+        path = queries.universe_text(universe_id)
+        return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
+
+
 class Robots(APIView):
     """Built-in robots."""
 
@@ -85,6 +101,21 @@ class RobotPreview(APIView):
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
 
 
+class RobotUrdf(APIView):
+    """What a built-in robot is made of."""
+
+    open_to_guests = True
+
+    @extend_schema(
+        operation_id="get_robot_urdf",
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["catalog"],
+    )
+    def get(self, request: Request, robot_id: str) -> HttpResponse:
+        """Its URDF, to draw it."""
+        return _text(queries.robot_urdf(robot_id), "text/xml", f"There is no robot {robot_id!r}.")
+
+
 class Templates(APIView):
     """Projects that new ones start from."""
 
@@ -105,6 +136,12 @@ class Behaviours(APIView):
     def get(self, request: Request) -> Response:
         """The built-in library, with every file that a behaviour brings."""
         return Response({"items": [asdict(behaviour) for behaviour in library.behaviours()]})
+
+
+def _text(path: Path | None, content_type: str, missing: str) -> HttpResponse:
+    if path is None or not path.is_file():
+        raise NotFoundError(missing)
+    return HttpResponse(path.read_bytes(), content_type=f"{content_type}; charset=utf-8")
 
 
 def _picture(path: Path | None, what: str) -> HttpResponse:

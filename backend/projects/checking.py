@@ -96,8 +96,8 @@ def xml(files: Mapping[str, bytes], *, self_contained: bool) -> str:
         refuse(error)
 
 
-def app(files: Mapping[str, bytes]) -> dict[str, Any]:
-    """What the browser sends to the executor to run the project.
+def app(files: Mapping[str, bytes], universe_id: str | None = None) -> dict[str, Any]:
+    """What the browser sends to the executor to run the project, there or in its own universe.
 
     Raises:
         CheckFailedError: the project has errors.
@@ -115,7 +115,7 @@ def app(files: Mapping[str, bytes]) -> dict[str, Any]:
         "tick_hz": settings.tick_hz,
         "on_finish": settings.on_finish,
         "on_error": settings.on_error,
-        "universe": universe(files, settings.universe),
+        "universe": universe(files, universe_id or settings.universe),
         "robot": settings.robot,
     }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from drf_spectacular.utils import extend_schema
+from drf_spectacular.utils import OpenApiParameter, extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
@@ -240,11 +240,17 @@ class Check(APIView):
 class App(APIView):
     """What runs."""
 
-    @extend_schema(operation_id="get_app", responses=s.AppSerializer, tags=["projects"])
+    @extend_schema(
+        operation_id="get_app",
+        parameters=[OpenApiParameter("universe", str, description="Where to run, if not where it says.")],
+        responses=s.AppSerializer,
+        tags=["projects"],
+    )
     def get(self, request: Request, project_id: UUID) -> Response:
         """What the executor needs to run the project; 422 with `diagnostics` when it has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return Response(checking.app(queries.contents(project)))
+        wanted = request.query_params.get("universe") or None
+        return Response(checking.app(queries.contents(project), wanted))
 
 
 class InspectAction(APIView):

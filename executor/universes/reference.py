@@ -8,7 +8,10 @@ from typing import Final
 
 from executor.universes.model import Universe
 
-FOLDER: Final = Path(__file__).parents[2] / "docs" / "reference" / "schemas"
+_ROOT: Final = Path(__file__).parents[2]
+FOLDER: Final = _ROOT / "docs" / "reference" / "schemas"
+# What the editor checks universes with; beside its other generated sources, so that it builds alone.
+FOR_THE_EDITOR: Final = _ROOT / "frontend" / "src" / "generated" / "universe.schema.json"
 
 
 def schemas() -> dict[str, str]:
@@ -22,6 +25,7 @@ def main() -> None:
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name, text in schemas().items():
         (FOLDER / name).write_text(text, encoding="utf-8")
+    FOR_THE_EDITOR.write_text(schemas()["universe.schema.json"], encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -77,6 +77,7 @@ POLICY = {
     ("delete", f"{P}/shares/groups/{{group_id}}"): MANAGE_GONE,
     ("post", f"{P}/shares/links"): MANAGE_NEW,
     ("delete", f"{P}/shares/links/{{link_id}}"): MANAGE_GONE,
+    ("post", f"{P}/transfer"): MANAGE,
     ("post", f"{P}/session"): RUN,
     ("get", "/api/v1/sessions/{session_id}"): NOT_OWNED,
     ("delete", "/api/v1/sessions/{session_id}"): NOT_OWNED,
@@ -101,8 +102,10 @@ POLICY = {
     ("get", "/api/v1/catalog/nodes"): OPEN,
     ("get", "/api/v1/catalog/universes"): OPEN,
     ("get", "/api/v1/catalog/universes/{universe_id}/preview"): OPEN,
+    ("get", "/api/v1/catalog/universes/{universe_id}/text"): OPEN,
     ("get", "/api/v1/catalog/robots"): OPEN,
     ("get", "/api/v1/catalog/robots/{robot_id}/preview"): OPEN,
+    ("get", "/api/v1/catalog/robots/{robot_id}/urdf"): OPEN,
     ("get", "/api/v1/catalog/templates"): OPEN,
 }
 BODIES = {
@@ -115,6 +118,7 @@ BODIES = {
     ("post", f"{P}/revisions/{{number}}/restore"): {},
     ("put", f"{P}/drafts/{{path}}"): {"base_revision": 1, "content": "typed"},
     ("post", f"{P}/shares"): {"name": "other", "role": "viewer"},
+    ("post", f"{P}/transfer"): {"name": "editor"},
     ("put", f"{P}/shares/groups/{{group_id}}"): {"role": "viewer"},
     ("post", f"{P}/shares/links"): {},
     ("patch", "/api/v1/groups/{group_id}"): {"name": "Mine now"},

@@ -31,6 +31,16 @@ def test_each_universe_and_robot_has_a_picture(api, kind):
     assert api.client.get(f"/api/v1/catalog/{kind}/..%2Fempty/preview").status_code == 404
 
 
+def test_a_universe_and_a_robot_can_be_read_as_they_are_written(api):
+    assert api.client.get("/api/v1/catalog/universes/house/text").content.startswith(
+        b"format: bt-studio/universe"
+    )
+    for robot in api.get("catalog/robots")["items"]:
+        assert b"<robot " in api.client.get(f"/api/v1/catalog/robots/{robot['id']}/urdf").content
+    assert api.client.get("/api/v1/catalog/universes/ghost/text").status_code == 404
+    assert api.client.get("/api/v1/catalog/robots/..%2Fturtle2/urdf").status_code == 404
+
+
 def test_templates_are_the_empty_project_and_the_examples(api):
     items = api.get("catalog/templates")["items"]
     assert items[0]["id"] == "empty"

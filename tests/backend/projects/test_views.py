@@ -269,6 +269,7 @@ def test_a_universe_of_the_project_goes_along(api):
     universe = api.get(f"projects/{pid}/app")["universe"]
     assert universe["document"] == "name: mine\n"
     assert universe["assets_zip_base64"]
+    assert api.get(f"projects/{pid}/app?universe=house")["universe"] == "house"
 
 
 def test_etags_save_traffic_and_guard_writes(api, project):

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from pydantic import Field
 
-from executor.robots.expand import urdf_of
-from executor.robots.prepare import mesh_path
+from executor.robots.links import read_links
 from executor.robots.sensors import (
     Battery,
     Bumper,
@@ -23,15 +22,14 @@ from executor.robots.sensors import (
     Sensor,
     Strict,
 )
-from executor.robots.urdf import Urdf, UrdfError, parse_urdf
 from executor.universes.document import DocumentError, Located, Problem, read_yaml
 from executor.universes.loader import validate
-from executor.world.mesh import MeshError, load_mesh
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from executor.messages import Mesh
+    from executor.robots.urdf import Urdf
 
 __all__ = [
     "Battery",
@@ -172,23 +170,10 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
 
 
 def _read_urdf(robot_id: str, path: Path) -> tuple[Urdf, dict[str, Mesh]]:
-    where = f"{robot_id}/{path.name}"
     try:
-        urdf = parse_urdf(urdf_of(path), path.name)
-    except OSError as error:
-        problem = Problem(f"the URDF cannot be read: {error.strerror or error}", code="BTR002")
-        raise RobotError([problem], where) from error
-    except UrdfError as error:
-        raise RobotError([Problem(error.message, error.line, code="BTR002")], where) from error
-    meshes, problems = {}, []
-    for name, line in urdf.mesh_files.items():
-        try:
-            meshes[name] = load_mesh(mesh_path(name, path.parent))
-        except MeshError as error:
-            problems.append(Problem(str(error), line, code="BTR004"))
-    if problems:
-        raise RobotError(problems, where)
-    return urdf, meshes
+        return read_links(path, f"{robot_id}/{path.name}")
+    except DocumentError as error:
+        raise RobotError(error.problems, error.file) from error
 
 
 def _check_names(robot_id: str, located: Located, document: _Document, urdf: Urdf) -> None:

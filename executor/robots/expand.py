@@ -1,22 +1,28 @@
-"""Turns xacro into URDF. It runs only where a robot is loaded: in the executor, never in the web server."""
+"""Turns xacro and SDF into URDF. It runs only where a robot is loaded: never in the web server."""
 
 from __future__ import annotations
 
 import contextlib
 import io
+import logging
 import re
 from pathlib import Path
 
+from executor.robots.sdf_model import urdf_of_sdf
 from executor.robots.urdf import UrdfError
+
+_log = logging.getLogger(__name__)
 
 
 def urdf_of(path: Path) -> bytes:
-    """Returns the URDF of a file, expanded if its name ends in `.xacro`.
+    """Returns the URDF of a file: made from SDF if its name ends in `.sdf`, expanded if it does in `.xacro`.
 
     Raises:
-        UrdfError: the macros are wrong.
+        UrdfError: the SDF or the macros are wrong.
         OSError: it cannot be read.
     """
+    if path.suffix == ".sdf":
+        return _urdf_of_sdf(path)
     if path.suffix != ".xacro":
         return path.read_bytes()
     import xacro  # noqa: PLC0415 - few robots need it
@@ -31,6 +37,13 @@ def urdf_of(path: Path) -> bytes:
         text = _in_words(error)
         line = getattr(error, "lineno", None) or _line_of(text, path)
         raise UrdfError(text, path.name, line) from error
+
+
+def _urdf_of_sdf(path: Path) -> bytes:
+    made = urdf_of_sdf(path.read_bytes(), path.name)
+    for problem in made.left_out:
+        _log.warning("%s:%s", path.name, problem)
+    return made.urdf
 
 
 def _line_of(message: str, path: Path) -> int:

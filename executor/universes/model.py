@@ -7,7 +7,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
 
-Shape = Literal["box", "cylinder", "sphere", "plane", "mesh"]
+Shape = Literal["box", "cylinder", "sphere", "plane", "mesh", "urdf", "sdf"]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$")]
 Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
@@ -22,6 +22,12 @@ SIZE_MEANING: Final[dict[str, tuple[str, ...]]] = {
     "plane": ("x", "y"),
     "mesh": ("scale x", "scale y", "scale z"),
 }
+FILES: Final[dict[str, tuple[str, ...]]] = {
+    "mesh": (".stl", ".obj", ".dae", ".ply", ".glb"),
+    "urdf": (".urdf", ".xacro"),
+    "sdf": (".sdf",),
+}
+"""How the name of the file of a shape ends, where it has one."""
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
     rf"^(?P<id>[\w-]+)\.(?:pose\.(?P<axis>{'|'.join(_AXES)})|(?P<field>mass|friction|speed))$"
@@ -40,11 +46,14 @@ class Ground(_Strict):
 
 
 class Model(_Strict):
-    """A body of one shape; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
+    """A thing; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
 
     A mesh is read from `file`, a path in the project; its `size` is a scale. It is solid as it is drawn if it
     stands, and as its convex hull if it has mass. What is not `solid` is only seen: paint, a carpet, a line
     on the floor. Robots and rays go through it.
+
+    A `urdf` or `sdf` is a model of several links from `file`, with its own sizes and colours; its joints move
+    freely. Without mass its root stands fast, with one it weighs that much in all.
     """
 
     id: Name
@@ -58,17 +67,36 @@ class Model(_Strict):
     restitution: float = Field(default=0.0, ge=0, le=1)
     solid: bool = True
 
+    @property
+    def is_assembly(self) -> bool:
+        """Whether it is made of links and joints."""
+        return self.shape in ("urdf", "sdf")
+
+    @model_validator(mode="after")
+    def _file_fits_shape(self) -> Model:
+        wanted = FILES.get(self.shape)
+        if wanted is None:
+            if self.file:
+                raise ValueError(f"a {self.shape} has no `file`; {', '.join(FILES)} have one")
+        elif not self.file:
+            raise ValueError(f"a {self.shape} needs a `file` of the project, such as assets/crate{wanted[0]}")
+        elif not self.file.lower().endswith(wanted):
+            raise ValueError(f"the `file` of a {self.shape} ends in {' or '.join(wanted)}")
+        return self
+
     @model_validator(mode="after")
     def _size_fits_shape(self) -> Model:
-        meaning = SIZE_MEANING[self.shape]
-        if (self.shape == "mesh") != bool(self.file):
-            raise ValueError(
-                "a mesh, and nothing else, needs a `file` of the project, such as assets/crate.obj"
-            )
-        if self.shape == "mesh" and not self.size:
-            return self
-        if len(self.size) != len(meaning):
-            raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
+        if self.is_assembly:
+            if self.size:
+                raise ValueError(f"a {self.shape} has sizes of its own, and no `size` here")
+        elif self.size or self.shape != "mesh":
+            meaning = SIZE_MEANING[self.shape]
+            if len(self.size) != len(meaning):
+                raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
+        return self
+
+    @model_validator(mode="after")
+    def _can_weigh(self) -> Model:
         if self.shape == "plane" and self.mass > 0:
             raise ValueError("a plane has no mass")
         if not self.solid and self.mass > 0:

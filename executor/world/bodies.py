@@ -83,9 +83,9 @@ def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
 
 
 def scene_shape(model: Model) -> Shape:
-    """Returns what one sees of a model."""
+    """Returns what one sees of a model of one shape."""
     return Shape(
-        shape=model.shape,
+        shape=model.shape,  # type: ignore[arg-type]  # assemblies are not asked
         size=list(model.size or (1.0, 1.0, 1.0)),
         pose=list(IDENTITY),
         color=rgba(model.color),

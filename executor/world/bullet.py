@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor.messages import Light, Mesh, Scene, SensorPlacement
 from executor.robots.config import RobotConfig, load_robot
 from executor.world.actor import BulletActor
+from executor.world.assembly import Assembly, Links, read_assembly
 from executor.world.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
 from executor.world.engine import Bullet
 from executor.world.interface import WorldError
@@ -48,6 +49,7 @@ class _Content:
     ground: int = -1
     bodies: dict[str, Body] = field(default_factory=dict)
     objects: dict[str, int] = field(default_factory=dict)
+    assemblies: dict[str, Assembly] = field(default_factory=dict)
     robots: list[BulletRobot] = field(default_factory=list)
     actors: list[BulletActor] = field(default_factory=list)
     names: dict[int, str] = field(default_factory=dict)
@@ -76,7 +78,10 @@ class BulletWorld:
         self._configs: list[RobotConfig] = [
             load_robot(robot or place.model, assets) for place in universe.robots
         ]
-        self._meshes = _meshes(self._configs, self._universe, assets)
+        self._assemblies = {
+            model.file: read_assembly(model, assets) for model in self._universe.models if model.is_assembly
+        }
+        self._meshes = _meshes(self._configs, self._assemblies, self._universe, assets)
         self._bullet = Bullet()
         self._steps = 0
         self._poses: NDArray[np.float32] | None = None
@@ -179,10 +184,13 @@ class BulletWorld:
                 robot.moved_by_hand()
                 break
         else:
-            if body not in self._content.bodies:
+            if body in self._content.assemblies:
+                self._content.assemblies[body].move_body(wanted, self._objects)
+            elif body in self._content.bodies:
+                put_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
+                self._objects.place(self._content.objects[body], wanted)
+            else:
                 raise WorldError(f"there is no body {body!r} that can be moved")
-            put_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
-            self._objects.place(self._content.objects[body], wanted)
         self._poses = None
 
     def take_collisions(self) -> list[tuple[str, Collision]]:
@@ -219,7 +227,10 @@ class BulletWorld:
         universe, content = self._universe, self._content
         content.ground = make_ground(self._bullet, universe.ground.friction)
         for model in universe.models:
-            self._add_model(model)
+            if model.is_assembly:
+                self._add_assembly(model)
+            else:
+                self._add_model(model)
         content.actors = [BulletActor(self._bullet, actor) for actor in universe.actors]
         content.robots = [
             BulletRobot(self._bullet, config, place, index=i, seed=self._seed)
@@ -246,6 +257,12 @@ class BulletWorld:
         if body.is_dynamic:
             self._objects.add_mover(lambda: self._where(object_id, body.uid))
 
+    def _add_assembly(self, model: Model) -> None:
+        made = Assembly(self._bullet, model, self._assemblies[model.file])
+        made.add_to_scene(self._objects)
+        self._content.assemblies[model.id] = made
+        self._content.names[made.uid] = model.id
+
     def _where(self, object_id: int, uid: int) -> Sequence[tuple[int, Pose]]:
         position, orientation = self._bullet.getBasePositionAndOrientation(uid)
         return [(object_id, (*position, *orientation))]
@@ -271,9 +288,13 @@ class BulletWorld:
         )
 
 
-def _meshes(configs: list[RobotConfig], universe: Universe, assets: Path | None) -> dict[str, Mesh]:
+def _meshes(
+    configs: list[RobotConfig], assemblies: dict[str, Links], universe: Universe, assets: Path | None
+) -> dict[str, Mesh]:
     """Returns the meshes of robots and models by their names in the scene."""
-    found = {mesh_key(config, name): mesh for config in configs for name, mesh in config.meshes.items()}
+    found = {mesh_key(config.id, name): mesh for config in configs for name, mesh in config.meshes.items()}
+    for file, (_, meshes) in assemblies.items():
+        found |= {mesh_key(file, name): mesh for name, mesh in meshes.items()}
     for model in universe.models:
         if model.shape == "mesh" and model.file not in found:
             found[model.file] = model_mesh(model, assets)

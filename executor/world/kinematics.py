@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from executor.robots.config import RobotConfig
     from executor.robots.urdf import Joint, Urdf, Visual
-    from executor.world.objects import SceneObjects
+    from executor.world.objects import Kind, SceneObjects
 
 
 def joint_pose(joint: Joint, position: float) -> Pose:
@@ -37,15 +37,22 @@ def link_pose(urdf: Urdf, base: Pose, link: str, positions: Mapping[str, float])
     return pose
 
 
-def add_links(robot_id: str, config: RobotConfig, objects: SceneObjects) -> dict[str, int]:
-    """Adds one object for the root with all that is fixed to it, and one for each link that moves."""
+def add_links(body: str, urdf: Urdf, meshes: str, objects: SceneObjects, kind: Kind) -> dict[str, int]:
+    """Adds one object for the root with all that is fixed to it, and one for each link that moves.
+
+    Args:
+        body: whose links they are.
+        urdf: the links.
+        meshes: what the names of their meshes in the scene begin with.
+        objects: where to add them.
+        kind: of all of them.
+    """
     shapes: dict[str, list[Shape]] = {}
-    for link in config.urdf.links.values():
-        carrier, pose = config.urdf.rigid_parent(link.name)
-        shapes.setdefault(carrier, []).extend(_shape(config, visual, pose) for visual in link.visuals)
+    for link in urdf.links.values():
+        carrier, pose = urdf.rigid_parent(link.name)
+        shapes.setdefault(carrier, []).extend(_shape(meshes, visual, pose) for visual in link.visuals)
     return {
-        link: objects.add(robot_id, link, "robot", link_shapes, IDENTITY)
-        for link, link_shapes in shapes.items()
+        link: objects.add(body, link, kind, link_shapes, IDENTITY) for link, link_shapes in shapes.items()
     }
 
 
@@ -64,17 +71,17 @@ def sensor_placements(config: RobotConfig, ids: Mapping[str, int]) -> list[Senso
     return placed
 
 
-def mesh_key(config: RobotConfig, name: str) -> str:
-    """Names a robot's mesh in the scene: two robots may have meshes of one name."""
-    return f"{config.id}/{name}"
+def mesh_key(of: str, name: str) -> str:
+    """Names a mesh in the scene: two robots may have meshes of one name."""
+    return f"{of}/{name}"
 
 
-def _shape(config: RobotConfig, visual: Visual, carrier: Pose) -> Shape:
+def _shape(meshes: str, visual: Visual, carrier: Pose) -> Shape:
     pose = compose(carrier, visual.pose)
     return Shape(
         shape=visual.shape,  # type: ignore[arg-type]
         size=list(visual.size),
         pose=list(pose),
         color=list(visual.color),
-        mesh=mesh_key(config, visual.file) if visual.file else "",
+        mesh=mesh_key(meshes, visual.file) if visual.file else "",
     )

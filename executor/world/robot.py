@@ -208,7 +208,7 @@ class BulletRobot:
 
     def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
         """Adds what one sees of the robot, and its sensors."""
-        ids = add_links(self.id, self.config, objects)
+        ids = add_links(self.id, self.config.urdf, self.config.id, objects, "robot")
         objects.add_mover(lambda: self._where(ids))
         sensors += sensor_placements(self.config, ids)
 

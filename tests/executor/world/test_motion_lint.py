@@ -22,6 +22,7 @@ PLACERS = {("world/placement.py", "put"), ("world/placement.py", "put_at_rest"),
 # Dragging by hand, and actors, whose nature it is to be carried.
 CALLERS = {
     ("world/bullet.py", "move_body"),
+    ("world/assembly.py", "move_body"),
     ("world/actor.py", "_carry"),
     ("world/placement.py", "put_at_rest"),
 }

@@ -163,10 +163,10 @@ class ChildProcess:
         if self._channel is not None:
             self._channel.close()
 
-    def check_limits(self) -> None:
-        """Ends a child whose tree uses more than it may."""
+    def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
+        """Ends a child whose tree, among all that descends from this process, uses more than it may."""
         limits = self._program.limits
-        tree = self.tree()
+        tree = self._tree(descendants)
         if limits.processes is not None and len(tree) > limits.processes:
             self.kill(f"was ended: it had {len(tree)} processes, more than the {limits.processes} allowed")
         elif (allowed := limits.memory_bytes) is not None and (used := _used_bytes(tree, allowed)) > allowed:
@@ -176,11 +176,14 @@ class ChildProcess:
 
     def tree(self) -> list[psutil.Process]:
         """The child and all living processes that come from it, also those that left its group."""
+        return self._tree(psutil.Process().children(recursive=True))
+
+    def _tree(self, descendants: Iterable[psutil.Process]) -> list[psutil.Process]:
         family = {self.pid}
         found = []
         # Parents come before their children, so one pass sees whole branches.
-        for process in psutil.Process().children(recursive=True):
-            with contextlib.suppress(psutil.Error, OSError):
+        for process in descendants:
+            with contextlib.suppress(psutil.Error, OSError), process.oneshot():
                 if process.status() == psutil.STATUS_ZOMBIE:
                     continue
                 if process.pid in family or process.ppid() in family or self._is_marked(process):

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import psutil
 
 from executor.confine import adopt_orphans
+from executor.descendants import Descendants
 from executor.events import ChildExited, ChildSaid, Effect, Event, Interrupt, Kill, Kind, Retire, Spawn, Tell
 from executor.processes import ChildProcess, Program
 from executor.shared_memory import remove_abandoned_segments
@@ -52,6 +53,7 @@ class Supervisor:
         self._waiting: dict[tuple[Kind, int], list[Effect]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._checker: asyncio.Task[None] | None = None
+        self._descendants = Descendants()
         adopt_orphans()
 
     def apply(self, effect: Spawn | Tell | Interrupt | Retire | Kill) -> None:
@@ -142,15 +144,20 @@ class Supervisor:
     async def _check_limits(self) -> None:
         while True:
             await asyncio.sleep(CHECK_INTERVAL_S)
+            there = self._descendants.look()
             for (kind, _), child in list(self._children.items()):
                 if kind != "world":
-                    child.check_limits()
+                    child.check_limits(there)
             if self._reaps_all:
-                self._reap_orphans()
+                self._reap_orphans(there)
 
-    def _reap_orphans(self) -> None:
-        pids = self.pids
-        for process in psutil.Process().children():
-            with contextlib.suppress(psutil.Error, OSError):
-                if process.pid not in pids and process.status() == psutil.STATUS_ZOMBIE:
+    def _reap_orphans(self, descendants: list[psutil.Process]) -> None:
+        pids, own = self.pids, os.getpid()
+        for process in descendants:
+            with contextlib.suppress(psutil.Error, OSError), process.oneshot():
+                if (
+                    process.pid not in pids
+                    and process.ppid() == own
+                    and process.status() == psutil.STATUS_ZOMBIE
+                ):
                     os.waitpid(process.pid, os.WNOHANG)

@@ -36,7 +36,7 @@ class Storm:
         threads = [threading.Thread(target=self.write, args=(project,)) for project in self.projects]
         for thread in threads:
             thread.start()
-        assert self.raging.wait(60)
+        assert self.raging.wait(240)
         self.server.process.kill()
         for thread in threads:
             thread.join()
@@ -69,14 +69,14 @@ class Storm:
 def check(server, project, acknowledged):
     """Every acknowledged revision is there, whole; at most one more was written and not acknowledged."""
     address = f"{server.base}/api/v1/projects/{project}"
-    newest = requests.get(address, headers=server.headers, timeout=30).json()
+    newest = requests.get(address, headers=server.headers, timeout=120).json()
     assert max(acknowledged, default=1) <= newest["revision"] <= max(acknowledged, default=1) + 1
     now = {f["path"]: f["content"] for f in newest["files"]}
     assert len({now.get(path) for path in FILES}) == 1
     for revision, text in acknowledged.items():
         for path in FILES:
             found = requests.get(
-                f"{address}/revisions/{revision}/files/{path}", headers=server.headers, timeout=30
+                f"{address}/revisions/{revision}/files/{path}", headers=server.headers, timeout=120
             )
             assert found.text == text
 
@@ -95,7 +95,7 @@ def database(request):
 def make_projects(server, number):
     made = [
         requests.post(
-            f"{server.base}/api/v1/projects", json={"name": f"P{n}"}, headers=server.headers, timeout=30
+            f"{server.base}/api/v1/projects", json={"name": f"P{n}"}, headers=server.headers, timeout=120
         ).json()
         for n in range(number)
     ]
@@ -140,7 +140,7 @@ def fill(server, project):
     while True:
         text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()  # noqa: S311
         body = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
-        answer = requests.post(address, json=body, headers=server.headers, timeout=60)
+        answer = requests.post(address, json=body, headers=server.headers, timeout=120)
         if answer.status_code != 200:
             return acknowledged, answer
         revision = answer.json()["revision"]
@@ -152,7 +152,7 @@ def written(server, project, revision):
     found = set()
     for path in FILES:
         address = f"{server.base}/api/v1/projects/{project}/revisions/{revision}/files/{path}"
-        answer = requests.get(address, headers=server.headers, timeout=30)
+        answer = requests.get(address, headers=server.headers, timeout=120)
         assert answer.text.startswith(path)
         found.add(answer.text.removeprefix(path))
     (text,) = found
@@ -175,6 +175,6 @@ def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
             newest = max(acknowledged)
             body = {"files": [{"path": p, "base_revision": newest, "content": "room again"} for p in FILES]}
             address = f"{server.base}/api/v1/projects/{project}/changes"
-            again = requests.post(address, json=body, headers=server.headers, timeout=30)
+            again = requests.post(address, json=body, headers=server.headers, timeout=120)
             assert again.json()["revision"] == newest + 1
         assert_sound(disk.folder)

@@ -212,6 +212,9 @@ SPECTACULAR_SETTINGS: dict[str, Any] = {
         "ProjectRole": ["viewer", "editor", "owner"],
         "SharedRole": ["viewer", "editor"],
     },
-    "POSTPROCESSING_HOOKS": ["drf_spectacular.hooks.postprocess_schema_enums"],
+    "POSTPROCESSING_HOOKS": [
+        "drf_spectacular.hooks.postprocess_schema_enums",
+        "backend.config.examples.illustrate",
+    ],
     "SERVERS": [],
 }

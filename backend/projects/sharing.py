@@ -57,7 +57,8 @@ def etag(document: dict[str, Any]) -> str:
     return f'"{hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()[:32]}"'
 
 
-def _owned(project_id: UUID, user: User, if_match: str) -> Project:
+def owned(project_id: UUID, user: User, if_match: str) -> Project:
+    """The project, locked, for its owner; `if_match` is the ETag of what `shares` shows."""
     project = queries.project(project_id, user=user, need=Need.MANAGE, lock=True)
     if if_match:
         matches(if_match, etag(shares(project)), CHANGED)
@@ -74,7 +75,7 @@ def share_with_person(
         NotFoundError: there is no such account.
         InvalidInputError: it is the owner's own.
     """
-    project = _owned(project_id, acting_user, if_match)
+    project = owned(project_id, acting_user, if_match)
     person = user_named(name)
     if person is None or not person.is_active:
         raise NotFoundError(f"There is no account “{name}”.", field="name")
@@ -101,7 +102,7 @@ def unshare_with_person(project_id: UUID, name: str, *, acting_user: User, if_ma
     if name == acting_user.username:
         project = queries.project(project_id, user=acting_user, need=Need.COPY, lock=True)
     else:
-        project = _owned(project_id, acting_user, if_match)
+        project = owned(project_id, acting_user, if_match)
     if not Membership.objects.filter(project=project, user__username=name).delete()[0]:
         raise NotFoundError("The project is not shared with this person.")
     _note("unshare", project, acting_user, person=name)
@@ -113,7 +114,7 @@ def share_with_group(
     project_id: UUID, group_id: UUID, role: Role, *, acting_user: User, if_match: str = ""
 ) -> Project:
     """Gives everybody in a group of one's own, or that one is in, a role."""
-    project = _owned(project_id, acting_user, if_match)
+    project = owned(project_id, acting_user, if_match)
     found = groups.group(group_id, user=acting_user)
     GroupShare.objects.update_or_create(
         project=project,
@@ -128,7 +129,7 @@ def share_with_group(
 @transaction.atomic
 def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
     """Takes the role of a group away."""
-    project = _owned(project_id, acting_user, if_match)
+    project = owned(project_id, acting_user, if_match)
     if not GroupShare.objects.filter(project=project, group=group_id).delete()[0]:
         raise NotFoundError("The project is not shared with this group.")
     _note("unshare", project, acting_user, group=str(group_id))
@@ -138,7 +139,7 @@ def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, i
 @transaction.atomic
 def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match: str = "") -> Project:
     """Makes a link by which anybody may read the project; for ever, or for some days."""
-    project = _owned(project_id, acting_user, if_match)
+    project = owned(project_id, acting_user, if_match)
     now = timezone.now()
     made = ShareLink.objects.create(
         project=project,
@@ -153,7 +154,7 @@ def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match
 @transaction.atomic
 def revoke_link(project_id: UUID, link_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
     """Ends a link, also for those who opened it."""
-    project = _owned(project_id, acting_user, if_match)
+    project = owned(project_id, acting_user, if_match)
     gone = ShareLink.objects.filter(project=project, id=link_id, revoked_at=None).update(
         revoked_at=timezone.now()
     )

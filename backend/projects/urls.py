@@ -32,6 +32,7 @@ urlpatterns = [
     path(f"{ONE}/drafts", views_revisions.Drafts.as_view()),
     path(f"{ONE}/drafts/<path:path>", views_revisions.OneDraft.as_view()),
     path(f"{ONE}/shares", views_sharing.Shares.as_view()),
+    path(f"{ONE}/transfer", views_sharing.Transfer.as_view()),
     path(f"{ONE}/shares/people/<str:username>", views_sharing.SharedPerson.as_view()),
     path(f"{ONE}/shares/groups/<uuid:group_id>", views_sharing.SharedGroup.as_view()),
     path(f"{ONE}/shares/links", views_sharing.Links.as_view()),

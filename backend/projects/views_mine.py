@@ -65,7 +65,7 @@ class MyData(APIView):
         tags=["accounts"],
     )
     def delete(self, request: Request) -> Response:
-        """Deletes the account with all its projects, at once and for good."""
+        """Deletes the account with all its projects, for good; the body is `{"username": one's own name}`."""
         user = user_of(request)
         if not environment().is_team:
             raise NotFoundError("There are no accounts on this server.")

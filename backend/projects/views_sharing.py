@@ -12,7 +12,7 @@ from rest_framework.views import APIView
 from backend.accounts.serializers import PersonSerializer
 from backend.config.api import if_match, parsed, user_of
 from backend.config.openapi import IF_MATCH
-from backend.projects import queries, sharing
+from backend.projects import queries, sharing, transfer
 from backend.projects.access import Need
 from backend.projects.choices import SHARED_ROLES, Role
 
@@ -36,6 +36,12 @@ class SharePersonSerializer(SharedRoleSerializer):
     """With whom, and what they may do."""
 
     name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an account.")
+
+
+class TransferSerializer(serializers.Serializer[Any]):
+    """The next owner."""
+
+    name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an editor.")
 
 
 class MakeLinkSerializer(serializers.Serializer[Any]):
@@ -104,6 +110,23 @@ class Shares(APIView):
         return _answer(
             sharing.share_with_person(project_id, asked["name"], role, acting_user=user, if_match=tag)
         )
+
+
+class Transfer(APIView):
+    """Another owner."""
+
+    @extend_schema(
+        operation_id="transfer_project",
+        parameters=[IF_MATCH],
+        request=TransferSerializer,
+        responses=SharesSerializer,
+        tags=["sharing"],
+    )
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Gives the project to one of its editors; who gave it stays an editor."""
+        asked = parsed(TransferSerializer, request.data)
+        user, tag = user_of(request), if_match(request)
+        return _answer(transfer.transfer_project(project_id, asked["name"], acting_user=user, if_match=tag))
 
 
 class SharedPerson(APIView):

@@ -79,6 +79,36 @@ def test_an_address_is_believed_from_as_many_proxies_as_are_said(person, setting
     assert AuditEntry.objects.filter(action="project.create").get().address == "192.0.2.7"
 
 
+def test_a_project_gets_another_owner_with_its_history(person):
+    owner, friend, other = person("olga"), person("fred"), person("otto")
+    one = project_of(owner)
+    project_of(friend)
+    assert owner.problem("POST", f"projects/{one}/transfer", 422, {"name": "otto"}) == "invalid_input"
+    owner.post(f"projects/{one}/shares", {"name": "fred", "role": "editor"})
+    owner.post(f"projects/{one}/shares", {"name": "otto", "role": "viewer"})
+    assert owner.problem("POST", f"projects/{one}/transfer", 422, {"name": "otto"}) == "invalid_input"
+    shares = owner.post(f"projects/{one}/transfer", {"name": "fred@example.org"})
+    assert shares["owner"]["username"] == "fred"
+    assert [(p["username"], p["role"]) for p in shares["people"]] == [("olga", "editor"), ("otto", "viewer")]
+    # Fred had one of this name; the project's own file says the new one, too.
+    found = owner.get(f"projects/{one}")
+    assert (found["name"], found["role"], found["owner"]) == ("Robot 2", "editor", "fred")
+    assert found["settings"]["name"] == "Robot 2"
+    assert friend.get(f"projects/{one}/revisions")["items"][-1]["author"] == "olga"
+    assert owner.problem("DELETE", f"projects/{one}", 403) == "role_too_low"
+    friend.delete(f"projects/{one}")
+    assert other.problem("GET", f"projects/{one}", 404) == "not_found"
+
+
+def test_nobody_is_given_more_than_they_have_room_for(person):
+    owner, friend = person("olga"), person("fred")
+    one = project_of(owner)
+    owner.post(f"projects/{one}/shares", {"name": "fred", "role": "editor"})
+    User.objects.filter(username="fred").update(max_projects=0)
+    assert owner.problem("POST", f"projects/{one}/transfer", 413, {"name": "fred"}) == "quota_exceeded"
+    assert friend.get(f"projects/{one}")["owner"] == "olga"
+
+
 def test_everything_kept_of_a_user_can_be_taken_away(person):
     owner = person("olga")
     one = project_of(owner)

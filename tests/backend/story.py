@@ -1,0 +1,253 @@
+"""A story that meets every endpoint: a teacher's project is made, written, shared, run and deleted.
+
+It is played against the real views. What was asked and answered are the examples of the OpenAPI document.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import zipfile
+
+from django.core.files.uploadedfile import SimpleUploadedFile
+
+FORWARD = '''"""Drives ahead."""
+
+from geometry_msgs.msg import Twist
+from py_trees.behaviour import Behaviour
+from py_trees.common import Status
+from tree_gardener.ports import Port
+
+
+class Forward(Behaviour):
+    """Drives ahead at a speed."""
+
+    INPUT_PORTS = {"speed": Port(float, 0.2, description="in m/s")}
+
+    def setup(self, **kwargs):
+        self.publisher = kwargs["node"].create_publisher(Twist, "cmd_vel", 10)
+
+    def update(self):
+        twist = Twist()
+        twist.linear.x = self.get_input("speed")
+        self.publisher.publish(twist)
+        return Status.RUNNING
+'''
+TREE = {
+    "format": "bt-studio/diagram",
+    "version": 1,
+    "id": "MainTree",
+    "root": "n1",
+    "nodes": {
+        "n1": {"type": "Forward", "name": "", "ports": {"speed": "0.3"}, "children": [], "x": 0, "y": 0},
+    },
+}
+MAX_TEXT = 240
+MAX_ITEMS = 2
+UUID = re.compile(r"[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}")
+TIME = re.compile(r"^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?(Z|\+00:00)$")
+LINK = re.compile(r"^(http://[^/]+/(?:join|shared)/).*$")
+
+
+def _pattern(template):
+    """What addresses of an operation look like; only the path of a file has slashes."""
+    holes = re.sub(r"\{path\}", "(.+)", template)
+    return re.compile(re.sub(r"\{\w+\}", "([^/]+)", holes) + "$")
+
+
+class Story:
+    """Asks, and writes down what was answered under the name of the operation."""
+
+    def __init__(self, document):
+        self.told = {}
+        self._operations = [
+            (method, _pattern(path), path, operation["operationId"])
+            for path, operations in document["paths"].items()
+            for method, operation in operations.items()
+        ]
+        self._ids = {}
+
+    def ask(self, who, method, path, body=None, *, status=200, file=None):
+        """One request; its answer as JSON, or as it is."""
+        address = f"/api/v1/{path}"
+        if file is not None:
+            response = who.client.post(address, {"file": SimpleUploadedFile(*file)})
+        else:
+            data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
+            response = who.client.generic(method, address, **data)
+        assert response.status_code == status, (method, path, response.status_code, response.content[:1500])
+        is_json = "json" in response.headers.get("Content-Type", "")
+        answer = json.loads(response.content) if is_json else None
+        row = self.told.setdefault(self._operation(method, address), {"answers": {}})
+        if body is not None and status < 400:
+            row["request"] = self._plain(body)
+        if response.headers.get("Content-Type", "").startswith("text/"):
+            row["answers"].setdefault(str(status), self._plain(response.content.decode()))
+        if answer is not None:
+            row["answers"].setdefault(str(status), self._plain(answer))
+        return answer
+
+    def _operation(self, method, address):
+        path = address.partition("?")[0]
+        found = [
+            (len(template), operation)
+            for verb, pattern, template, operation in self._operations
+            if verb == method.lower() and pattern.match(path)
+        ]
+        return max(found)[1]
+
+    def _plain(self, value, key=""):
+        """The same in every recording, and short enough to read."""
+        if isinstance(value, dict):
+            kept = list(value.items())
+            if key in {"nodes", "files"}:
+                kept = kept[:MAX_ITEMS]
+            return {name: self._plain(inner, name) for name, inner in kept}
+        if isinstance(value, list):
+            return [self._plain(inner) for inner in value[:MAX_ITEMS]]
+        if not isinstance(value, str):
+            return value
+        if key == "version":
+            return "1.0.0"
+        if TIME.match(value):
+            return "2026-02-17T10:15:00Z" if key == "expires_at" else "2026-02-03T10:15:00Z"
+        text = LINK.sub(r"\g<1>3f2504e04f8941d39a0c.Zm9y", value)
+        text = UUID.sub(self._id, text)
+        return text if len(text) <= MAX_TEXT or "\n" in text else text[:MAX_TEXT] + "…"
+
+    def _id(self, match):
+        number = self._ids.setdefault(match[0], len(self._ids) + 1)
+        return f"3f2504e0-4f89-41d3-9a0c-{number:012}"
+
+
+def play(story, teacher, student, stranger, guest):
+    """All of it.
+
+    Args:
+        story: who writes down.
+        teacher: someone who may make groups.
+        student: someone with an account.
+        stranger: nobody is signed in.
+        guest: makes a browser that opened a read-only link.
+    """
+    one = _project(story, teacher, stranger)
+    _files(story, teacher, one)
+    _history(story, teacher, one)
+    _people(story, teacher, student, one, guest)
+    _run(story, teacher, one)
+    _tools(story, teacher)
+    _end(story, teacher, student, one)
+
+
+def _project(story, teacher, stranger):
+    story.ask(stranger, "GET", "projects", status=401)
+    made = story.ask(teacher, "POST", "projects", {"name": "Patrol", "template": "empty"}, status=201)
+    one = f"projects/{made['id']}"
+    story.ask(teacher, "POST", "projects", {"name": "Patrol"}, status=409)
+    story.ask(teacher, "GET", "projects?search=pat&sort=-updated_at&limit=20")
+    story.ask(teacher, "GET", one)
+    story.ask(teacher, "GET", "projects/00000000-0000-4000-8000-000000000000", status=404)
+    story.ask(teacher, "POST", "projects", {"title": "Patrol"}, status=422)
+    return one
+
+
+def _files(story, teacher, one):
+    tree = json.dumps(TREE, indent=2)
+    action = {"path": "actions/Forward.py", "base_revision": 0, "content": FORWARD}
+    diagram = {"path": "trees/MainTree.json", "base_revision": 1, "content": tree}
+    story.ask(teacher, "POST", f"{one}/changes", {"message": "Drive ahead", "files": [action, diagram]})
+    stale = {"message": "Drive faster", "files": [action | {"content": FORWARD.replace("0.2", "0.5")}]}
+    story.ask(teacher, "POST", f"{one}/changes", stale, status=409)
+    overlay = [{"path": "actions/Forward.py", "content": FORWARD.replace("def update(self)", "def update(")}]
+    story.ask(teacher, "POST", f"{one}/check", {"files": overlay})
+    story.ask(teacher, "POST", "actions/inspect", {"filename": "actions/Forward.py", "source": FORWARD})
+    for address in ("app", "xml", "package", "package/preview", "export", "files/actions/Forward.py"):
+        story.ask(teacher, "GET", f"{one}/{address}")
+    draft = {"base_revision": 2, "content": FORWARD.replace("0.2", "0.4")}
+    story.ask(teacher, "PUT", f"{one}/drafts/actions/Forward.py", draft)
+    story.ask(teacher, "GET", f"{one}/drafts")
+    story.ask(teacher, "DELETE", f"{one}/drafts/actions/Forward.py", status=204)
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("trees/MainTree.json", tree)
+        archive.writestr("actions/Forward.py", FORWARD)
+    story.ask(teacher, "POST", "projects/import", status=201, file=("Imported.zip", packed.getvalue()))
+    story.ask(teacher, "POST", "projects/import", status=422, file=("notes.zip", b"no archive"))
+
+
+def _history(story, teacher, one):
+    story.ask(
+        teacher, "PATCH", one, {"base_revision": 1, "description": "Drives ahead until someone stops it."}
+    )
+    story.ask(teacher, "GET", f"{one}/revisions?limit=2")
+    story.ask(teacher, "PATCH", f"{one}/revisions/2", {"label": "Before the lesson"})
+    story.ask(teacher, "GET", f"{one}/revisions/2/diff")
+    story.ask(teacher, "GET", f"{one}/revisions/2/files/actions/Forward.py")
+    story.ask(teacher, "POST", f"{one}/revisions/2/restore", {"paths": ["project.json"]})
+    story.ask(teacher, "POST", f"{one}/duplicate", {"name": "Patrol, second try"}, status=201)
+    for verb in ("archive", "unarchive"):
+        story.ask(teacher, "POST", f"{one}/{verb}")
+
+
+def _people(story, teacher, student, one, guest):
+    story.ask(student, "POST", "groups", {"name": "Mine"}, status=403)
+    group = story.ask(teacher, "POST", "groups", {"name": "Robotics"}, status=201)
+    of_group = f"groups/{group['id']}"
+    story.ask(teacher, "PATCH", of_group, {"name": "Robotics 1"})
+    invitation = story.ask(
+        teacher, "POST", f"{of_group}/invitations", {"days": 14, "max_uses": 30}, status=201
+    )
+    student.form(invitation["url"].partition("example.org")[2])
+    story.ask(teacher, "GET", of_group)
+    story.ask(teacher, "GET", "groups")
+    story.ask(teacher, "DELETE", f"invitations/{invitation['id']}", status=204)
+    story.ask(student, "GET", one, status=404)
+    story.ask(teacher, "POST", f"{one}/shares", {"name": "ben", "role": "editor"})
+    story.ask(teacher, "POST", f"{one}/shares", {"name": "bne", "role": "editor"}, status=404)
+    story.ask(teacher, "PUT", f"{one}/shares/groups/{group['id']}", {"role": "viewer"})
+    shares = story.ask(teacher, "POST", f"{one}/shares/links", {"days": 14}, status=201)
+    reader = guest(shares["links"][0]["url"])
+    story.ask(reader, "POST", f"{one}/duplicate", {}, status=403)
+    story.ask(teacher, "GET", f"{one}/shares")
+    story.ask(student, "DELETE", one, status=403)
+    story.ask(teacher, "POST", f"{one}/transfer", {"name": "ben"})
+    story.ask(student, "POST", f"{one}/transfer", {"name": "tina"})
+    story.ask(teacher, "DELETE", f"{one}/shares/links/{shares['links'][0]['id']}", status=204)
+    story.ask(teacher, "DELETE", f"{one}/shares/groups/{group['id']}", status=204)
+    story.ask(teacher, "DELETE", f"{one}/shares/people/ben", status=204)
+    story.ask(teacher, "DELETE", f"{of_group}/members/ben", status=204)
+    story.ask(teacher, "DELETE", of_group, status=204)
+
+
+def _run(story, teacher, one):
+    session = story.ask(teacher, "POST", f"{one}/session")
+    story.ask(teacher, "GET", f"sessions/{session['id']}")
+    story.ask(teacher, "DELETE", f"sessions/{session['id']}", status=204)
+
+
+def _tools(story, teacher):
+    source = {"filename": "actions/Forward.py", "source": "import os\nx=1\n"}
+    story.ask(teacher, "POST", "python/format", source)
+    story.ask(teacher, "POST", "python/lint", source)
+    tree = {"diagram": json.dumps(TREE)}
+    answer = story.ask(teacher, "POST", "trees/xml", tree)
+    story.ask(teacher, "POST", "trees/diagram", tree | {"xml": answer["xml"].replace("0.3", "0.6")})
+    for name in ("nodes", "universes", "robots", "templates", "behaviours"):
+        story.ask(teacher, "GET", f"catalog/{name}")
+    universe = story.ask(teacher, "GET", "catalog/universes")["items"][0]["id"]
+    robot = story.ask(teacher, "GET", "catalog/robots")["items"][0]["id"]
+    story.ask(teacher, "GET", f"catalog/universes/{universe}/text")
+    story.ask(teacher, "GET", f"catalog/robots/{robot}/urdf")
+    story.ask(teacher, "GET", f"catalog/universes/{universe}/preview")
+    story.ask(teacher, "GET", f"catalog/robots/{robot}/preview")
+
+
+def _end(story, teacher, student, one):
+    story.ask(teacher, "DELETE", one, status=204)
+    story.ask(teacher, "POST", f"{one}/restore")
+    story.ask(teacher, "GET", "me")
+    story.ask(teacher, "GET", "me/usage")
+    story.ask(teacher, "GET", "me/data")
+    story.ask(student, "DELETE", "me/data", {"username": "someone"}, status=422)
+    story.ask(student, "DELETE", "me/data", {"username": "ben"}, status=204)

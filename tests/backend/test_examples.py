@@ -1,0 +1,74 @@
+"""The examples of the OpenAPI document are what a server answers; BT_STUDIO_RECORD=1 records them again."""
+
+from __future__ import annotations
+
+import json
+import os
+
+import jsonschema
+import pytest
+
+from backend.config import examples
+from backend.config.schema_view import document
+from backend.language import ruff
+from backend.language import views as language
+from backend.sessions import actions as session_actions
+from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
+from tests.backend.story import Story, play
+
+
+@pytest.fixture
+def told(person, stranger, monkeypatch):  # noqa: F811
+    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    # A team's server checks Python in containers.
+    monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
+    teacher, student = person("tina", is_teacher=True), person("ben")
+
+    def guest(url):
+        browser = Person()
+        assert browser.page(url.partition(PUBLIC)[2]).status_code == 302
+        return browser
+
+    story = Story(document())
+    play(story, teacher, student, stranger, guest)
+    return story.told
+
+
+def operations():
+    return {
+        operation["operationId"]: operation
+        for methods in document()["paths"].values()
+        for operation in methods.values()
+    }
+
+
+def test_the_story_meets_every_endpoint_and_is_answered_as_the_examples_show(told):
+    if os.environ.get("BT_STUDIO_RECORD") == "1":
+        text = json.dumps(dict(sorted(told.items())), ensure_ascii=False, indent=1)
+        examples.RECORDED.write_text(text + "\n", encoding="utf-8")
+        examples.recorded.cache_clear()
+        document.cache_clear()
+    assert set(told) == set(operations())
+    assert {name: shape(row) for name, row in examples.recorded().items()} == {
+        name: shape(row) for name, row in told.items()
+    }, "run BT_STUDIO_RECORD=1 pytest tests/backend/test_examples.py, then python -m backend.config.reference"
+
+
+def shape(value):
+    """Which members there are; texts and numbers may change."""
+    if isinstance(value, dict):
+        return {key: shape(inner) for key, inner in value.items()}
+    return [shape(inner) for inner in value] if isinstance(value, list) else None
+
+
+def test_every_operation_with_json_shows_an_example_that_its_schema_admits():
+    components = document()["components"]
+    for name, operation in operations().items():
+        bodies = [*operation["responses"].values(), operation.get("requestBody", {})]
+        for body in bodies:
+            for kind, media in body.get("content", {}).items():
+                if kind != "application/json":
+                    continue
+                assert "example" in media, f"{name} shows no example"
+                schema = media["schema"] | {"components": components}
+                jsonschema.validate(media["example"], schema)

@@ -58,6 +58,8 @@ VERSION: Final = "0.1.0"
 KEPT_FOLDERS: Final = 3
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
+# Who shares out the work on a small picture spends more on sharing, and sessions have but one machine.
+FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
 @dataclass(frozen=True)
@@ -112,7 +114,8 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 
 def session_programs(domain_id: int) -> dict[Kind, Program]:
     """Returns the real world and application, with their limits."""
-    environment = {**ros_environment(domain_id), "PYTHONDONTWRITEBYTECODE": "1"}
+    threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
+    environment = {**ros_environment(domain_id), **threads, "PYTHONDONTWRITEBYTECODE": "1"}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
         file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),

@@ -58,9 +58,6 @@ def _illustrate(operation: dict[str, Any], example: dict[str, Any]) -> None:
             _put(responses["default"]["content"], answer, name=answer["code"])
 
 
-def _put(content: dict[str, Any], value: Any, name: str = "") -> None:
+def _put(content: dict[str, Any], value: Any, name: str = "usual") -> None:
     for media_type in content.values():
-        if name:
-            media_type.setdefault("examples", {})[name] = {"value": value}
-        else:
-            media_type["example"] = value
+        media_type.setdefault("examples", {})[name] = {"value": value}

@@ -1524,12 +1524,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "filename": "actions/Forward.py",
-                 *       "source": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                 *     }
-                 */
                 "application/json": components["schemas"]["InspectActionRequest"];
             };
         };
@@ -1539,31 +1533,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "name": "Forward",
-                     *       "path": "actions/Forward.py",
-                     *       "doc": "Drives ahead at a speed.",
-                     *       "kind": "action",
-                     *       "open": false,
-                     *       "line": 9,
-                     *       "ports": [
-                     *         {
-                     *           "name": "speed",
-                     *           "direction": "input",
-                     *           "type": "double",
-                     *           "default": "0.2",
-                     *           "required": false,
-                     *           "description": "in m/s"
-                     *         }
-                     *       ],
-                     *       "imports": [
-                     *         "geometry_msgs.msg",
-                     *         "py_trees.behaviour"
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["Action"];
                 };
             };
@@ -1592,114 +1561,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "DriveForward",
-                     *           "version": "1.0.0",
-                     *           "group": "motion",
-                     *           "universe": "empty",
-                     *           "summary": {
-                     *             "en": "Drives a distance straight ahead.",
-                     *             "es": "Avanza en línea recta una distancia."
-                     *           },
-                     *           "doc": {
-                     *             "en": "Succeeds when the odometry says that the distance is covered, and stops there. A negative distance drives backwards. It looks for no obstacles.",
-                     *             "es": "Termina con éxito cuando la odometría dice que se ha recorrido la distancia, y se detiene. Una distancia negativa va hacia atrás. No vigila obstáculos."
-                     *           },
-                     *           "diagram": {
-                     *             "format": "bt-studio/diagram",
-                     *             "version": 1,
-                     *             "id": "DriveForward",
-                     *             "root": "n1",
-                     *             "nodes": {
-                     *               "n1": {
-                     *                 "type": "DriveDistance",
-                     *                 "ports": {
-                     *                   "distance": "{distance}",
-                     *                   "speed": "{speed}"
-                     *                 }
-                     *               }
-                     *             },
-                     *             "drafts": [],
-                     *             "layout": "vertical",
-                     *             "ports": [
-                     *               {
-                     *                 "name": "distance",
-                     *                 "direction": "input",
-                     *                 "type": "double",
-                     *                 "default": "1.0",
-                     *                 "description": "How far, in m; negative is backwards."
-                     *               },
-                     *               {
-                     *                 "name": "speed",
-                     *                 "direction": "input",
-                     *                 "type": "double",
-                     *                 "default": "0.3",
-                     *                 "description": "Speed in m/s."
-                     *               }
-                     *             ]
-                     *           },
-                     *           "files": {
-                     *             "actions/DriveDistance.py": "import math\n\nimport py_trees\nfrom geometry_msgs.msg import Twist\nfrom nav_msgs.msg import Odometry\n\nfrom tree_gardener.ports import Port, get_input\n\n\nclass DriveDistance(py_trees.behaviour.Behaviour):\n    \"\"\"Drives straight until a distance is covered; a negative one drives backwards.\"\"\"\n\n    INPUT_PORTS = {\n        \"distance\": Port(float, default=1.0, description=\"How far, in m; negative is backwards.\"),\n        \"speed\": Port(float, default=0.3, description=\"Speed in m/s.\"),\n    }\n\n    def setup(self, **kwargs):\n        self.place = None\n        self.start = None\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"/cmd_vel\", 10)\n        self.subscription = kwargs[\"node\"].create_subscription(Odometry, \"/odom\", self.on_odometry, 10)\n\n    def on_odometry(self, odometry):\n        position = odometry.pose.pose.position\n        self.place = (position.x, position.y)\n\n    def initialise(self):\n        self.start = None\n\n    def update(self):\n        if self.place is None:\n            return py_trees.common.Status.RUNNING\n        self.start = self.start or self.place\n        distance = get_input(self, \"distance\")\n        left = abs(distance) - math.dist(self.start, self.place)\n        if left <= 0.01:\n            return py_trees.common.Status.SUCCESS\n        twist = Twist()\n        # The last stretch is driven slowly, so that the robot stops where it shall.\n        speed = max(0.05, min(get_input(self, \"speed\"), 1.5 * left))\n        twist.linear.x = math.copysign(speed, distance)\n        self.publisher.publish(twist)\n        return py_trees.common.Status.RUNNING\n\n    def terminate(self, new_status):\n        self.publisher.publish(Twist())\n",
-                     *             "trees/DriveForward.json": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"DriveForward\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\"type\": \"DriveDistance\", \"ports\": {\"distance\": \"{distance}\", \"speed\": \"{speed}\"}}\n  },\n  \"drafts\": [],\n  \"layout\": \"vertical\",\n  \"ports\": [\n    {\"name\": \"distance\", \"direction\": \"input\", \"type\": \"double\", \"default\": \"1.0\", \"description\": \"How far, in m; negative is backwards.\"},\n    {\"name\": \"speed\", \"direction\": \"input\", \"type\": \"double\", \"default\": \"0.3\", \"description\": \"Speed in m/s.\"}\n  ]\n}\n"
-                     *           }
-                     *         },
-                     *         {
-                     *           "id": "TurnBy",
-                     *           "version": "1.0.0",
-                     *           "group": "motion",
-                     *           "universe": "empty",
-                     *           "summary": {
-                     *             "en": "Turns on the spot by an angle.",
-                     *             "es": "Gira sobre el sitio un ángulo."
-                     *           },
-                     *           "doc": {
-                     *             "en": "Positive angles turn left; more than 360° are full turns. Succeeds within one degree.",
-                     *             "es": "Los ángulos positivos giran a la izquierda; más de 360° son vueltas completas. Éxito con un grado de margen."
-                     *           },
-                     *           "diagram": {
-                     *             "format": "bt-studio/diagram",
-                     *             "version": 1,
-                     *             "id": "TurnBy",
-                     *             "root": "n1",
-                     *             "nodes": {
-                     *               "n1": {
-                     *                 "type": "TurnAngle",
-                     *                 "ports": {
-                     *                   "angle": "{angle}",
-                     *                   "speed": "{speed}"
-                     *                 }
-                     *               }
-                     *             },
-                     *             "drafts": [],
-                     *             "layout": "vertical",
-                     *             "ports": [
-                     *               {
-                     *                 "name": "angle",
-                     *                 "direction": "input",
-                     *                 "type": "double",
-                     *                 "default": "90.0",
-                     *                 "description": "How far, in degrees; positive turns left."
-                     *               },
-                     *               {
-                     *                 "name": "speed",
-                     *                 "direction": "input",
-                     *                 "type": "double",
-                     *                 "default": "0.8",
-                     *                 "description": "Turning speed in rad/s."
-                     *               }
-                     *             ]
-                     *           },
-                     *           "files": {
-                     *             "actions/TurnAngle.py": "import math\n\nimport py_trees\nfrom geometry_msgs.msg import Twist\nfrom nav_msgs.msg import Odometry\n\nfrom tree_gardener.ports import Port, get_input\n\n\nclass TurnAngle(py_trees.behaviour.Behaviour):\n    \"\"\"Turns on the spot by an angle, also by more than a full turn.\"\"\"\n\n    INPUT_PORTS = {\n        \"angle\": Port(float, default=90.0, description=\"How far, in degrees; positive turns left.\"),\n        \"speed\": Port(float, default=0.8, description=\"Turning speed in rad/s.\"),\n    }\n\n    def setup(self, **kwargs):\n        self.heading = None\n        self.before = None\n        self.turned = 0.0\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"/cmd_vel\", 10)\n        self.subscription = kwargs[\"node\"].create_subscription(Odometry, \"/odom\", self.on_odometry, 10)\n\n    def on_odometry(self, odometry):\n        q = odometry.pose.pose.orientation\n        self.heading = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))\n\n    def initialise(self):\n        self.before = None\n        self.turned = 0.0\n\n    def update(self):\n        if self.heading is None:\n            return py_trees.common.Status.RUNNING\n        if self.before is not None:\n            self.turned += math.remainder(self.heading - self.before, math.tau)\n        self.before = self.heading\n        left = math.radians(get_input(self, \"angle\")) - self.turned\n        if abs(left) <= math.radians(1):\n            return py_trees.common.Status.SUCCESS\n        twist = Twist()\n        twist.angular.z = math.copysign(max(0.1, min(get_input(self, \"speed\"), 2.0 * abs(left))), left)\n        self.publisher.publish(twist)\n        return py_trees.common.Status.RUNNING\n\n    def terminate(self, new_status):\n        self.publisher.publish(Twist())\n",
-                     *             "trees/TurnBy.json": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"TurnBy\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\"type\": \"TurnAngle\", \"ports\": {\"angle\": \"{angle}\", \"speed\": \"{speed}\"}}\n  },\n  \"drafts\": [],\n  \"layout\": \"vertical\",\n  \"ports\": [\n    {\"name\": \"angle\", \"direction\": \"input\", \"type\": \"double\", \"default\": \"90.0\", \"description\": \"How far, in degrees; positive turns left.\"},\n    {\"name\": \"speed\", \"direction\": \"input\", \"type\": \"double\", \"default\": \"0.8\", \"description\": \"Turning speed in rad/s.\"}\n  ]\n}\n"
-                     *           }
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["BehaviourList"];
                 };
             };
@@ -1728,38 +1589,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "format": "bt-studio/catalog",
-                     *       "version": 1,
-                     *       "nodes": [
-                     *         {
-                     *           "type": "Sequence",
-                     *           "kind": "control",
-                     *           "symbol": "→",
-                     *           "children": {
-                     *             "min": 1,
-                     *             "max": null
-                     *           },
-                     *           "ports": [],
-                     *           "summary": "Ticks its children in order until one fails; resumes at the running one.",
-                     *           "since": "4.0"
-                     *         },
-                     *         {
-                     *           "type": "AsyncSequence",
-                     *           "kind": "control",
-                     *           "symbol": "→",
-                     *           "children": {
-                     *             "min": 1,
-                     *             "max": null
-                     *           },
-                     *           "ports": [],
-                     *           "summary": "A Sequence that returns RUNNING between its children, so that the tree stays responsive.",
-                     *           "since": "4.0"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Nodes"];
                 };
             };
@@ -1788,24 +1617,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "burger",
-                     *           "name": "Burger",
-                     *           "description": "A small, slow and nimble robot with a LIDAR and a camera, of the size of a TurtleBot 3 Burger.",
-                     *           "preview": "/api/v1/catalog/robots/burger/preview"
-                     *         },
-                     *         {
-                     *           "id": "rover",
-                     *           "name": "Rover",
-                     *           "description": "A rover 70 cm long with four driven wheels that turns by skidding, a LIDAR and a depth camera on its mast.",
-                     *           "preview": "/api/v1/catalog/robots/rover/preview"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["EntryList"];
                 };
             };
@@ -1868,102 +1679,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example <?xml version="1.0"?>
-                     *     <!-- A small robot of the proportions of a TurtleBot 3 Burger. x ahead, y left, z up; base_link on the ground between the wheels. -->
-                     *     <robot name="burger">
-                     *       <material name="black"><color rgba="0.10 0.10 0.11 1"/></material>
-                     *       <material name="charcoal"><color rgba="0.19 0.20 0.22 1"/></material>
-                     *       <material name="plate"><color rgba="0.27 0.28 0.30 1"/></material>
-                     *       <material name="steel"><color rgba="0.72 0.74 0.77 1"/></material>
-                     *       <material name="rubber"><color rgba="0.07 0.07 0.07 1"/></material>
-                     *       <material name="glass"><color rgba="0.06 0.09 0.16 1"/></material>
-                     *       <material name="led"><color rgba="0.25 0.75 0.95 1"/></material>
-                     *       <material name="white"><color rgba="0.93 0.93 0.92 1"/></material>
-                     *       <material name="accent"><color rgba="0.16 0.55 0.90 1"/></material>
-                     *       <material name="board"><color rgba="0.10 0.42 0.28 1"/></material>
-                     *       <link name="base_link">
-                     *         <inertial><origin xyz="-0.03 0 0.065"/><mass value="0.82"/><inertia ixx="0.0028" ixy="0" ixz="0" iyy="0.0026" iyz="0" izz="0.0022"/></inertial>
-                     *         <visual><origin xyz="-0.032 0 0.028"/><geometry><box size="0.128 0.128 0.005"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.028"/><geometry><box size="0.138 0.088 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.028"/><geometry><box size="0.092 0.14 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.07"/><geometry><box size="0.128 0.128 0.005"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.07"/><geometry><box size="0.138 0.088 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.07"/><geometry><box size="0.092 0.14 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.112"/><geometry><box size="0.128 0.128 0.005"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.112"/><geometry><box size="0.138 0.088 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.112"/><geometry><box size="0.092 0.14 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.152"/><geometry><box size="0.128 0.128 0.005"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.152"/><geometry><box size="0.138 0.088 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.152"/><geometry><box size="0.092 0.14 0.0052"/></geometry><material name="plate"/></visual>
-                     *         <visual><origin xyz="0.022 0.05 0.09"/><geometry><cylinder radius="0.0035" length="0.124"/></geometry><material name="steel"/></visual>
-                     *         <visual><origin xyz="0.022 -0.05 0.09"/><geometry><cylinder radius="0.0035" length="0.124"/></geometry><material name="steel"/></visual>
-                     *         <visual><origin xyz="-0.086 0.05 0.09"/><geometry><cylinder radius="0.0035" length="0.124"/></geometry><material name="steel"/></visual>
-                     *         <visual><origin xyz="-0.086 -0.05 0.09"/><geometry><cylinder radius="0.0035" length="0.124"/></geometry><material name="steel"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.050"/><geometry><box size="0.105 0.046 0.036"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.0495"/><geometry><box size="0.105 0.047 0.006"/></geometry><material name="accent"/></visual>
-                     *         <visual><origin xyz="-0.030 0 0.082"/><geometry><box size="0.085 0.056 0.003"/></geometry><material name="board"/></visual>
-                     *         <visual><origin xyz="-0.020 0.008 0.086"/><geometry><box size="0.018 0.018 0.006"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="0.008 -0.012 0.090"/><geometry><box size="0.016 0.02 0.014"/></geometry><material name="steel"/></visual>
-                     *         <visual><origin xyz="-0.032 0 0.124"/><geometry><box size="0.105 0.075 0.003"/></geometry><material name="board"/></visual>
-                     *         <visual><origin xyz="-0.045 0 0.128"/><geometry><box size="0.02 0.02 0.005"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="-0.005 0.022 0.130"/><geometry><box size="0.03 0.012 0.01"/></geometry><material name="charcoal"/></visual>
-                     *         <visual><origin xyz="0.030 0 0.1565"/><geometry><box size="0.006 0.02 0.004"/></geometry><material name="led"/></visual>
-                     *         <visual><origin xyz="0 0.052 0.036"/><geometry><box size="0.046 0.028 0.034"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="0 -0.052 0.036"/><geometry><box size="0.046 0.028 0.034"/></geometry><material name="black"/></visual>
-                     *         <collision><origin xyz="-0.032 0 0.0875"/><geometry><box size="0.138 0.14 0.135"/></geometry></collision>
-                     *       </link>
-                     *       <link name="wheel_left_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.028"/><inertia ixx="8.4e-06" ixy="0" ixz="0" iyy="1.52e-05" iyz="0" izz="8.4e-06"/></inertial>
-                     *         <visual><origin xyz="0 0 0" rpy="1.5707963 0 0"/><geometry><cylinder radius="0.033" length="0.018"/></geometry><material name="rubber"/></visual>
-                     *         <visual><origin xyz="0 0 0" rpy="1.5707963 0 0"/><geometry><cylinder radius="0.02046" length="0.021"/></geometry><material name="accent"/></visual>
-                     *         <visual><origin xyz="0 0 0"/><geometry><box size="0.03465 0.023 0.00528"/></geometry><material name="charcoal"/></visual>
-                     *         <visual><origin xyz="0 0 0"/><geometry><box size="0.00528 0.023 0.03465"/></geometry><material name="charcoal"/></visual>
-                     *         <collision><origin xyz="0 0 0"/><geometry><sphere radius="0.033"/></geometry></collision>
-                     *       </link>
-                     *       <joint name="wheel_left_joint" type="continuous"><parent link="base_link"/><child link="wheel_left_link"/><origin xyz="0 0.08 0.033"/><axis xyz="0 1 0"/></joint>
-                     *       <link name="wheel_right_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.028"/><inertia ixx="8.4e-06" ixy="0" ixz="0" iyy="1.52e-05" iyz="0" izz="8.4e-06"/></inertial>
-                     *         <visual><origin xyz="0 0 0" rpy="1.5707963 0 0"/><geometry><cylinder radius="0.033" length="0.018"/></geometry><material name="rubber"/></visual>
-                     *         <visual><origin xyz="0 0 0" rpy="1.5707963 0 0"/><geometry><cylinder radius="0.02046" length="0.021"/></geometry><material name="accent"/></visual>
-                     *         <visual><origin xyz="0 0 0"/><geometry><box size="0.03465 0.023 0.00528"/></geometry><material name="charcoal"/></visual>
-                     *         <visual><origin xyz="0 0 0"/><geometry><box size="0.00528 0.023 0.03465"/></geometry><material name="charcoal"/></visual>
-                     *         <collision><origin xyz="0 0 0"/><geometry><sphere radius="0.033"/></geometry></collision>
-                     *       </link>
-                     *       <joint name="wheel_right_joint" type="continuous"><parent link="base_link"/><child link="wheel_right_link"/><origin xyz="0 -0.08 0.033"/><axis xyz="0 1 0"/></joint>
-                     *       <link name="caster_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.01"/><inertia ixx="1e-05" ixy="0" ixz="0" iyy="1e-05" iyz="0" izz="1e-05"/></inertial>
-                     *         <visual><origin xyz="0 0 0"/><geometry><sphere radius="0.012"/></geometry><material name="steel"/></visual>
-                     *         <collision><origin xyz="0 0 0"/><geometry><sphere radius="0.012"/></geometry></collision>
-                     *       </link>
-                     *       <joint name="caster_joint" type="fixed"><parent link="base_link"/><child link="caster_link"/><origin xyz="-0.081 0 0.0122"/></joint>
-                     *       <link name="laser_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.1"/><inertia ixx="0.0001" ixy="0" ixz="0" iyy="0.0001" iyz="0" izz="0.0001"/></inertial>
-                     *         <visual><origin xyz="0 0 -0.020"/><geometry><cylinder radius="0.034" length="0.018"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="0 0 0"/><geometry><cylinder radius="0.031" length="0.022"/></geometry><material name="glass"/></visual>
-                     *         <visual><origin xyz="0 0 0.0145"/><geometry><cylinder radius="0.034" length="0.007"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="0 0 0.019"/><geometry><cylinder radius="0.012" length="0.002"/></geometry><material name="accent"/></visual>
-                     *         <visual><origin xyz="-0.035 0 -0.022"/><geometry><box size="0.045 0.034 0.014"/></geometry><material name="black"/></visual>
-                     *         <collision><origin xyz="0 0 -0.0055"/><geometry><cylinder radius="0.035" length="0.047"/></geometry></collision>
-                     *       </link>
-                     *       <joint name="laser_joint" type="fixed"><parent link="base_link"/><child link="laser_link"/><origin xyz="-0.032 0 0.182"/></joint>
-                     *       <link name="camera_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.01"/><inertia ixx="1e-06" ixy="0" ixz="0" iyy="1e-06" iyz="0" izz="1e-06"/></inertial>
-                     *         <visual><origin xyz="-0.006 0 0"/><geometry><box size="0.012 0.032 0.026"/></geometry><material name="black"/></visual>
-                     *         <visual><origin xyz="0.001 0 0" rpy="0 1.5707963 0"/><geometry><cylinder radius="0.007" length="0.004"/></geometry><material name="glass"/></visual>
-                     *         <visual><origin xyz="-0.012 0 -0.02"/><geometry><box size="0.004 0.024 0.03"/></geometry><material name="steel"/></visual>
-                     *       </link>
-                     *       <joint name="camera_joint" type="fixed"><parent link="base_link"/><child link="camera_link"/><origin xyz="0.046 0 0.128"/></joint>
-                     *       <link name="imu_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.001"/><inertia ixx="1e-06" ixy="0" ixz="0" iyy="1e-06" iyz="0" izz="1e-06"/></inertial>
-                     *       </link>
-                     *       <joint name="imu_joint" type="fixed"><parent link="base_link"/><child link="imu_link"/><origin xyz="-0.032 0 0.085"/></joint>
-                     *       <link name="bumper_link">
-                     *         <inertial><origin xyz="0 0 0"/><mass value="0.001"/><inertia ixx="1e-06" ixy="0" ixz="0" iyy="1e-06" iyz="0" izz="1e-06"/></inertial>
-                     *       </link>
-                     *       <joint name="bumper_joint" type="fixed"><parent link="base_link"/><child link="bumper_link"/><origin xyz="0 0 0.08"/></joint>
-                     *     </robot>
-                     */
                     "text/xml": string;
                 };
             };
@@ -1992,64 +1707,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "empty",
-                     *           "name": "Empty project",
-                     *           "description": "",
-                     *           "universe": "walled_room",
-                     *           "root_diagram": {
-                     *             "format": "bt-studio/diagram",
-                     *             "version": 1,
-                     *             "id": "MainTree",
-                     *             "root": "n1",
-                     *             "nodes": {
-                     *               "n1": {
-                     *                 "type": "Sequence",
-                     *                 "children": []
-                     *               }
-                     *             },
-                     *             "drafts": [],
-                     *             "layout": "vertical"
-                     *           }
-                     *         },
-                     *         {
-                     *           "id": "laser_bump_and_go",
-                     *           "name": "Laser bump and go",
-                     *           "description": "Drives ahead until the LIDAR sees an obstacle, turns until the way is free, and goes on.",
-                     *           "universe": "walled_room",
-                     *           "root_diagram": {
-                     *             "format": "bt-studio/diagram",
-                     *             "version": 1,
-                     *             "id": "MainTree",
-                     *             "root": "n1",
-                     *             "nodes": {
-                     *               "n1": {
-                     *                 "type": "ReactiveSequence",
-                     *                 "name": "bump and go",
-                     *                 "children": [
-                     *                   "n2",
-                     *                   "n6"
-                     *                 ]
-                     *               },
-                     *               "n2": {
-                     *                 "type": "ReactiveFallback",
-                     *                 "name": "keep clear",
-                     *                 "children": [
-                     *                   "n3",
-                     *                   "n5"
-                     *                 ]
-                     *               }
-                     *             },
-                     *             "drafts": [],
-                     *             "layout": "vertical"
-                     *           }
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["TemplateList"];
                 };
             };
@@ -2078,24 +1735,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "crowd",
-                     *           "name": "Crowd",
-                     *           "description": "A square of 18 by 18 metres with a fountain, benches and trees, and ten people who walk about.",
-                     *           "preview": "/api/v1/catalog/universes/crowd/preview"
-                     *         },
-                     *         {
-                     *           "id": "empty",
-                     *           "name": "Empty",
-                     *           "description": "An endless floor.",
-                     *           "preview": "/api/v1/catalog/universes/empty/preview"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["EntryList"];
                 };
             };
@@ -2186,33 +1825,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *           "name": "Robotics 1",
-                     *           "owner": "tina",
-                     *           "mine": true,
-                     *           "members": [
-                     *             {
-                     *               "username": "ben",
-                     *               "name": ""
-                     *             }
-                     *           ],
-                     *           "invitations": [
-                     *             {
-                     *               "id": "3f2504e0-4f89-41d3-9a0c-000000000005",
-                     *               "url": "http://bt.example.org/join/3f2504e04f8941d39a0c.Zm9y",
-                     *               "expires_at": "2026-02-17T10:15:00Z",
-                     *               "uses": 1,
-                     *               "max_uses": 30
-                     *             }
-                     *           ]
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["GroupList"];
                 };
             };
@@ -2236,11 +1848,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "Robotics"
-                 *     }
-                 */
                 "application/json": components["schemas"]["NamedRequest"];
             };
         };
@@ -2250,16 +1857,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *       "name": "Robotics",
-                     *       "owner": "tina",
-                     *       "mine": true,
-                     *       "members": [],
-                     *       "invitations": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["Group"];
                 };
             };
@@ -2291,29 +1888,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *       "name": "Robotics 1",
-                     *       "owner": "tina",
-                     *       "mine": true,
-                     *       "members": [
-                     *         {
-                     *           "username": "ben",
-                     *           "name": ""
-                     *         }
-                     *       ],
-                     *       "invitations": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000005",
-                     *           "url": "http://bt.example.org/join/3f2504e04f8941d39a0c.Zm9y",
-                     *           "expires_at": "2026-02-17T10:15:00Z",
-                     *           "uses": 1,
-                     *           "max_uses": 30
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Group"];
                 };
             };
@@ -2370,11 +1944,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "Robotics 1"
-                 *     }
-                 */
                 "application/json": components["schemas"]["PatchedNamedRequest"];
             };
         };
@@ -2384,16 +1953,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *       "name": "Robotics 1",
-                     *       "owner": "tina",
-                     *       "mine": true,
-                     *       "members": [],
-                     *       "invitations": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["Group"];
                 };
             };
@@ -2420,12 +1979,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "days": 14,
-                 *       "max_uses": 30
-                 *     }
-                 */
                 "application/json": components["schemas"]["InviteRequest"];
             };
         };
@@ -2435,15 +1988,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000005",
-                     *       "url": "http://bt.example.org/join/3f2504e04f8941d39a0c.Zm9y",
-                     *       "expires_at": "2026-02-17T10:15:00Z",
-                     *       "uses": 0,
-                     *       "max_uses": 30
-                     *     }
-                     */
                     "application/json": components["schemas"]["Invitation"];
                 };
             };
@@ -2533,16 +2077,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "mode": "team",
-                     *       "user": "tina",
-                     *       "name": "",
-                     *       "email": "tina@example.org",
-                     *       "role": "teacher",
-                     *       "version": "1.0.0"
-                     *     }
-                     */
                     "application/json": components["schemas"]["Me"];
                 };
             };
@@ -2626,14 +2160,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "projects": 3,
-                     *       "max_projects": 2000,
-                     *       "bytes": 3195,
-                     *       "max_bytes": 4294967296
-                     *     }
-                     */
                     "application/json": components["schemas"]["Usage"];
                 };
             };
@@ -2669,43 +2195,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *           "name": "Patrol",
-                     *           "description": "",
-                     *           "main_tree": "MainTree",
-                     *           "universe": "walled_room",
-                     *           "revision": 1,
-                     *           "size": 504,
-                     *           "created_at": "2026-02-03T10:15:00Z",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "archived_at": null,
-                     *           "deleted_at": null,
-                     *           "root_diagram": {
-                     *             "format": "bt-studio/diagram",
-                     *             "version": 1,
-                     *             "id": "MainTree",
-                     *             "root": "n1",
-                     *             "nodes": {
-                     *               "n1": {
-                     *                 "type": "Sequence",
-                     *                 "children": []
-                     *               }
-                     *             },
-                     *             "drafts": [],
-                     *             "layout": "vertical"
-                     *           },
-                     *           "role": "owner",
-                     *           "owner": "tina"
-                     *         }
-                     *       ],
-                     *       "total": 1,
-                     *       "next_offset": null
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectList"];
                 };
             };
@@ -2735,12 +2224,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "Patrol",
-                 *       "template": "empty"
-                 *     }
-                 */
                 "application/json": components["schemas"]["CreateProjectRequest"];
             };
         };
@@ -2750,86 +2233,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 1,
-                     *       "size": 504,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Sequence",
-                     *             "children": []
-                     *           }
-                     *         },
-                     *         "drafts": [],
-                     *         "layout": "vertical"
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 1,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         },
-                     *         {
-                     *           "path": "trees/MainTree.json",
-                     *           "revision": 1,
-                     *           "size": 211,
-                     *           "sha256": "5245d76fee97cec48aa6012c6fd03f49c8f800caa0e56af7a6301d254315f007",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"MainTree\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\n      \"type\": \"Sequence\",\n      \"children\": []\n    }\n  },\n  \"drafts\": [],\n  \"layout\": \"vertical\"\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [],
-                     *       "diagnostics": [
-                     *         {
-                     *           "code": "BT0104",
-                     *           "severity": "error",
-                     *           "message": "Sequence needs at least 1 child, but has 0.",
-                     *           "hint": "Connect what is missing, or remove the node.",
-                     *           "tree": "MainTree",
-                     *           "node": "n1",
-                     *           "port": "",
-                     *           "file": "trees/MainTree.json",
-                     *           "line": 7,
-                     *           "column": 5
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -2864,86 +2267,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 1,
-                     *       "size": 504,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Sequence",
-                     *             "children": []
-                     *           }
-                     *         },
-                     *         "drafts": [],
-                     *         "layout": "vertical"
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 1,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         },
-                     *         {
-                     *           "path": "trees/MainTree.json",
-                     *           "revision": 1,
-                     *           "size": 211,
-                     *           "sha256": "5245d76fee97cec48aa6012c6fd03f49c8f800caa0e56af7a6301d254315f007",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"MainTree\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\n      \"type\": \"Sequence\",\n      \"children\": []\n    }\n  },\n  \"drafts\": [],\n  \"layout\": \"vertical\"\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [],
-                     *       "diagnostics": [
-                     *         {
-                     *           "code": "BT0104",
-                     *           "severity": "error",
-                     *           "message": "Sequence needs at least 1 child, but has 0.",
-                     *           "hint": "Connect what is missing, or remove the node.",
-                     *           "tree": "MainTree",
-                     *           "node": "n1",
-                     *           "port": "",
-                     *           "file": "trees/MainTree.json",
-                     *           "line": 7,
-                     *           "column": 5
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -3013,12 +2336,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "base_revision": 1,
-                 *       "description": "Drives ahead until someone stops it."
-                 *     }
-                 */
                 "application/json": components["schemas"]["PatchedEditProjectRequest"];
             };
         };
@@ -3028,101 +2345,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "Drives ahead until someone stops it.",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 3,
-                     *       "size": 1170,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "Drives ahead until someone stops it.",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 3,
-                     *           "size": 329,
-                     *           "sha256": "fd8b29b0e1a0c9273267cb73b396c93e1908e93b472b480cbe41f95604d1dcfe",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"Drives ahead until someone stops it.\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -3166,16 +2388,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "app_zip_base64": "UEsDBBQAAAAIAAAAIQCW7xZ+QwEAAEECAAASAAAAYWN0aW9ucy9Gb3J3YXJkLnB5dZFNa8MwDIbv+RXCp6QEr9ux0MsYG71kpR+nMYKbKKlZ/IHltCtj/31O0rTrYDoIIz3Wq9dmjD05eUACsUdRcsZYFFXOKKjRKPTulCuqiYcEUlnjPGyOkvzA2FPuHSLxHe7FQZrWjdDjWPgDFkYpo0dq7YVvaUC6fl4LV6JGx7s2jdgy…",
-                     *       "tick_hz": 20,
-                     *       "on_finish": "stop",
-                     *       "on_error": "stop",
-                     *       "universe": "walled_room",
-                     *       "robot": null
-                     *     }
-                     */
                     "application/json": components["schemas"]["App"];
                 };
             };
@@ -3210,101 +2422,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 4,
-                     *       "size": 1134,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": "2026-02-03T10:15:00Z",
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 4,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -3339,23 +2456,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "message": "Drive ahead",
-                 *       "files": [
-                 *         {
-                 *           "path": "actions/Forward.py",
-                 *           "base_revision": 0,
-                 *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                 *         },
-                 *         {
-                 *           "path": "trees/MainTree.json",
-                 *           "base_revision": 1,
-                 *           "content": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"MainTree\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\n      \"type\": \"Forward\",\n      \"name\": \"\",\n      \"ports\": {\n        \"speed\": \"0.3\"\n      },\n      \"children\": [],\n      \"x\": 0,\n      \"y\": 0\n    }\n  }\n}"
-                 *         }
-                 *       ]
-                 *     }
-                 */
                 "application/json": components["schemas"]["ChangesRequest"];
             };
         };
@@ -3365,51 +2465,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "revision": 2,
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 1,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ChangesDone"];
                 };
             };
@@ -3419,31 +2474,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "type": "urn:bt-studio:problem:revision_conflict",
-                     *       "title": "Someone else changed this file",
-                     *       "status": 409,
-                     *       "code": "revision_conflict",
-                     *       "detail": "“actions/Forward.py” changed since the revision that this save is based on.",
-                     *       "hint": "Compare both versions, and save again on top of the newest.",
-                     *       "revision": 2,
-                     *       "conflicts": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "base_revision": 0,
-                     *           "theirs": {
-                     *             "revision": 2,
-                     *             "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n",
-                     *             "updated_at": "2026-02-03T10:15:00Z"
-                     *           },
-                     *           "mine": {
-                     *             "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.5, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *           }
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/problem+json": components["schemas"]["ConflictProblem"];
                 };
             };
@@ -3470,16 +2500,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "files": [
-                 *         {
-                 *           "path": "actions/Forward.py",
-                 *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(:\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                 *         }
-                 *       ]
-                 *     }
-                 */
                 "application/json": components["schemas"]["CheckRequest"];
             };
         };
@@ -3489,50 +2509,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "diagnostics": [
-                     *         {
-                     *           "code": "BT0601",
-                     *           "severity": "error",
-                     *           "message": "The action's Python cannot be read: invalid syntax.",
-                     *           "hint": "Correct the line.",
-                     *           "tree": "",
-                     *           "node": "",
-                     *           "port": "",
-                     *           "file": "actions/Forward.py",
-                     *           "line": 17,
-                     *           "column": 16
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "",
-                     *           "kind": "action",
-                     *           "open": true,
-                     *           "line": 1,
-                     *           "ports": [],
-                     *           "imports": [],
-                     *           "diagnostics": [
-                     *             {
-                     *               "code": "BT0601",
-                     *               "severity": "error",
-                     *               "message": "The action's Python cannot be read: invalid syntax.",
-                     *               "hint": "Correct the line.",
-                     *               "tree": "",
-                     *               "node": "",
-                     *               "port": "",
-                     *               "file": "actions/Forward.py",
-                     *               "line": 17,
-                     *               "column": 16
-                     *             }
-                     *           ]
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Report"];
                 };
             };
@@ -3564,18 +2540,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "base_revision": 2,
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.4, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n",
-                     *           "updated_at": "2026-02-03T10:15:00Z"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["DraftList"];
                 };
             };
@@ -3607,12 +2571,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "base_revision": 2,
-                 *       "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.4, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                 *     }
-                 */
                 "application/json": components["schemas"]["SaveDraftRequest"];
             };
         };
@@ -3622,14 +2580,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "path": "actions/Forward.py",
-                     *       "base_revision": 2,
-                     *       "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.4, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n",
-                     *       "updated_at": "2026-02-03T10:15:00Z"
-                     *     }
-                     */
                     "application/json": components["schemas"]["Draft"];
                 };
             };
@@ -3697,11 +2647,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "Patrol, second try"
-                 *     }
-                 */
                 "application/json": components["schemas"]["DuplicateProjectRequest"];
             };
         };
@@ -3711,101 +2656,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000003",
-                     *       "name": "Patrol, second try",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 1,
-                     *       "size": 1146,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol, second try",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 1,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 1,
-                     *           "size": 305,
-                     *           "sha256": "f7b25d8d5030a75af4d11f8c9c4909aa8c641f16510aa0ef5bb3b43cdbb6f54a",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol, second try\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -3940,23 +2790,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "name": "patrol",
-                     *       "files": [
-                     *         {
-                     *           "path": "patrol/LICENSE",
-                     *           "size": 11358
-                     *         },
-                     *         {
-                     *           "path": "patrol/README.md",
-                     *           "size": 950
-                     *         }
-                     *       ],
-                     *       "manifest": "<?xml version=\"1.0\"?>\n<?xml-model href=\"http://download.ros.org/schema/package_format3.xsd\" schematypens=\"http://www.w3.org/2001/XMLSchema\"?>\n<package format=\"3\">\n  <name>patrol</name>\n  <version>0.1.0</version>\n  <description>Patrol</description>\n  <maintainer email=\"nobody@example.org\">Unnamed</maintainer>\n  <license>Apache-2.0</license>\n\n  <exec_depend>ament_index_python</exec_depend>\n  <exec_depend>geometry_msgs</exec_depend>\n  <exec_depend>launch</exec_depend>\n  <exec_depend>launch_ros</exec_depend>\n  <exec_depend>py_trees</exec_depend>\n  <exec_depend>python3-lxml</exec_depend>\n  <exec_depend>rclpy</exec_depend>\n  <exec_depend>tree_gardener</exec_depend>\n\n  <export>\n    <build_type>ament_python</build_type>\n  </export>\n</package>\n",
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["PackagePreview"];
                 };
             };
@@ -3991,101 +2824,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 4,
-                     *       "size": 1134,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 4,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -4122,46 +2860,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "items": [
-                     *         {
-                     *           "number": 3,
-                     *           "message": "Change the settings",
-                     *           "label": "",
-                     *           "author": "tina",
-                     *           "created_at": "2026-02-03T10:15:00Z",
-                     *           "files": [
-                     *             {
-                     *               "path": "project.json",
-                     *               "change": "written",
-                     *               "renamed_from": ""
-                     *             }
-                     *           ]
-                     *         },
-                     *         {
-                     *           "number": 2,
-                     *           "message": "Drive ahead",
-                     *           "label": "",
-                     *           "author": "tina",
-                     *           "created_at": "2026-02-03T10:15:00Z",
-                     *           "files": [
-                     *             {
-                     *               "path": "actions/Forward.py",
-                     *               "change": "written",
-                     *               "renamed_from": ""
-                     *             },
-                     *             {
-                     *               "path": "trees/MainTree.json",
-                     *               "change": "written",
-                     *               "renamed_from": ""
-                     *             }
-                     *           ]
-                     *         }
-                     *       ],
-                     *       "next_before": 2
-                     *     }
-                     */
                     "application/json": components["schemas"]["RevisionList"];
                 };
             };
@@ -4193,11 +2891,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "label": "Before the lesson"
-                 *     }
-                 */
                 "application/json": components["schemas"]["PatchedLabelRequest"];
             };
         };
@@ -4207,27 +2900,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "number": 2,
-                     *       "message": "Drive ahead",
-                     *       "label": "Before the lesson",
-                     *       "author": "tina",
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "change": "written",
-                     *           "renamed_from": ""
-                     *         },
-                     *         {
-                     *           "path": "trees/MainTree.json",
-                     *           "change": "written",
-                     *           "renamed_from": ""
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Revision"];
                 };
             };
@@ -4263,24 +2935,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "older": 1,
-                     *       "newer": 2,
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "change": "added",
-                     *           "diff": "--- /dev/null\n+++ actions/Forward.py\n@@ -0,0 +1,21 @@\n+\"\"\"Drives ahead.\"\"\"\n+\n+from geometry_msgs.msg import Twist\n+from py_trees.behaviour import Behaviour\n+from py_trees.common import Status\n+from tree_gardener.ports import Port\n+\n+\n+class Forward(Behaviour):\n+    \"\"\"Drives ahead at a speed.\"\"\"\n+\n+    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n+\n+    def setup(self, **kwargs):\n+        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n+\n+    def update(self):\n+        twist = Twist()\n+        twist.linear.x = self.get_input(\"speed\")\n+        self.publisher.publish(twist)\n+        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "trees/MainTree.json",
-                     *           "change": "changed",
-                     *           "diff": "--- trees/MainTree.json\n+++ trees/MainTree.json\n@@ -5,10 +5,14 @@\n   \"root\": \"n1\",\n   \"nodes\": {\n     \"n1\": {\n-      \"type\": \"Sequence\",\n-      \"children\": []\n+      \"type\": \"Forward\",\n+      \"name\": \"\",\n+      \"ports\": {\n+        \"speed\": \"0.3\"\n+      },\n+      \"children\": [],\n+      \"x\": 0,\n+      \"y\": 0\n     }\n-  },\n-  \"drafts\": [],\n-  \"layout\": \"vertical\"\n-}\n+  }\n+}\n\\ No newline at end of file\n"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Diff"];
                 };
             };
@@ -4347,13 +3001,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "paths": [
-                 *         "project.json"
-                 *       ]
-                 *     }
-                 */
                 "application/json": components["schemas"]["RestoreRevisionRequest"];
             };
         };
@@ -4363,101 +3010,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 4,
-                     *       "size": 1134,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 4,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -4489,18 +3041,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000007",
-                     *       "project_id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "state": "starting",
-                     *       "control_url": "/ws/sessions/3f2504e0-4f89-41d3-9a0c-000000000007/control",
-                     *       "stream_url": "/ws/sessions/3f2504e0-4f89-41d3-9a0c-000000000007/stream",
-                     *       "error": "",
-                     *       "position": null,
-                     *       "created_at": "2026-02-03T10:15:00Z"
-                     *     }
-                     */
                     "application/json": components["schemas"]["Session"];
                 };
             };
@@ -4532,36 +3072,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "owner": {
-                     *         "username": "tina",
-                     *         "name": ""
-                     *       },
-                     *       "people": [
-                     *         {
-                     *           "username": "ben",
-                     *           "name": "",
-                     *           "role": "editor"
-                     *         }
-                     *       ],
-                     *       "groups": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *           "name": "Robotics 1",
-                     *           "role": "viewer"
-                     *         }
-                     *       ],
-                     *       "links": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000006",
-                     *           "url": "http://bt.example.org/shared/3f2504e04f8941d39a0c.Zm9y",
-                     *           "expires_at": "2026-02-17T10:15:00Z",
-                     *           "created_at": "2026-02-03T10:15:00Z"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Shares"];
                 };
             };
@@ -4591,12 +3101,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "ben",
-                 *       "role": "editor"
-                 *     }
-                 */
                 "application/json": components["schemas"]["SharePersonRequest"];
             };
         };
@@ -4606,23 +3110,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "owner": {
-                     *         "username": "tina",
-                     *         "name": ""
-                     *       },
-                     *       "people": [
-                     *         {
-                     *           "username": "ben",
-                     *           "name": "",
-                     *           "role": "editor"
-                     *         }
-                     *       ],
-                     *       "groups": [],
-                     *       "links": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["Shares"];
                 };
             };
@@ -4654,11 +3141,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "role": "viewer"
-                 *     }
-                 */
                 "application/json": components["schemas"]["SharedRoleRequest"];
             };
         };
@@ -4668,29 +3150,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "owner": {
-                     *         "username": "tina",
-                     *         "name": ""
-                     *       },
-                     *       "people": [
-                     *         {
-                     *           "username": "ben",
-                     *           "name": "",
-                     *           "role": "editor"
-                     *         }
-                     *       ],
-                     *       "groups": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *           "name": "Robotics 1",
-                     *           "role": "viewer"
-                     *         }
-                     *       ],
-                     *       "links": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["Shares"];
                 };
             };
@@ -4755,11 +3214,6 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                /**
-                 * @example {
-                 *       "days": 14
-                 *     }
-                 */
                 "application/json": components["schemas"]["MakeLinkRequest"];
             };
         };
@@ -4769,36 +3223,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "owner": {
-                     *         "username": "tina",
-                     *         "name": ""
-                     *       },
-                     *       "people": [
-                     *         {
-                     *           "username": "ben",
-                     *           "name": "",
-                     *           "role": "editor"
-                     *         }
-                     *       ],
-                     *       "groups": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *           "name": "Robotics 1",
-                     *           "role": "viewer"
-                     *         }
-                     *       ],
-                     *       "links": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000006",
-                     *           "url": "http://bt.example.org/shared/3f2504e04f8941d39a0c.Zm9y",
-                     *           "expires_at": "2026-02-17T10:15:00Z",
-                     *           "created_at": "2026-02-03T10:15:00Z"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Shares"];
                 };
             };
@@ -4897,11 +3321,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "name": "tina"
-                 *     }
-                 */
                 "application/json": components["schemas"]["TransferRequest"];
             };
         };
@@ -4911,36 +3330,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "owner": {
-                     *         "username": "ben",
-                     *         "name": ""
-                     *       },
-                     *       "people": [
-                     *         {
-                     *           "username": "tina",
-                     *           "name": "",
-                     *           "role": "editor"
-                     *         }
-                     *       ],
-                     *       "groups": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000004",
-                     *           "name": "Robotics 1",
-                     *           "role": "viewer"
-                     *         }
-                     *       ],
-                     *       "links": [
-                     *         {
-                     *           "id": "3f2504e0-4f89-41d3-9a0c-000000000006",
-                     *           "url": "http://bt.example.org/shared/3f2504e04f8941d39a0c.Zm9y",
-                     *           "expires_at": "2026-02-17T10:15:00Z",
-                     *           "created_at": "2026-02-03T10:15:00Z"
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Shares"];
                 };
             };
@@ -4975,101 +3364,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "name": "Patrol",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "walled_room",
-                     *       "revision": 4,
-                     *       "size": 1134,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Patrol",
-                     *         "description": "",
-                     *         "main_tree": "MainTree",
-                     *         "tick_hz": 20,
-                     *         "universe": "walled_room",
-                     *         "on_finish": "stop",
-                     *         "on_error": "stop",
-                     *         "license": "Apache-2.0",
-                     *         "maintainer": {
-                     *           "name": "",
-                     *           "email": ""
-                     *         }
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 2,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 4,
-                     *           "size": 293,
-                     *           "sha256": "6c994ca051a0e8ea46ad59af3bd621cfd726c5fdf2df7808389ea0d22e18c571",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Patrol\",\n  \"description\": \"\",\n  \"main_tree\": \"MainTree\",\n  \"tick_hz\": 20,\n  \"universe\": \"walled_room\",\n  \"on_finish\": \"stop\",\n  \"on_error\": \"stop\",\n  \"license\": \"Apache-2.0\",\n  \"maintainer\": {\n    \"name\": \"\",\n    \"email\": \"\"\n  }\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -5104,19 +3398,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example <?xml version="1.0" encoding="UTF-8"?>
-                     *     <root BTCPP_format="4" main_tree_to_execute="MainTree">
-                     *       <BehaviorTree ID="MainTree">
-                     *         <Forward speed="0.3" _bts_id="n1"/>
-                     *       </BehaviorTree>
-                     *       <TreeNodesModel>
-                     *         <Action ID="Forward">
-                     *           <input_port name="speed" type="double" default="0.2">in m/s</input_port>
-                     *         </Action>
-                     *       </TreeNodesModel>
-                     *     </root>
-                     */
                     "text/xml": string;
                 };
             };
@@ -5155,90 +3436,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000002",
-                     *       "name": "Untitled",
-                     *       "description": "",
-                     *       "main_tree": "MainTree",
-                     *       "universe": "empty",
-                     *       "revision": 1,
-                     *       "size": 915,
-                     *       "created_at": "2026-02-03T10:15:00Z",
-                     *       "updated_at": "2026-02-03T10:15:00Z",
-                     *       "archived_at": null,
-                     *       "deleted_at": null,
-                     *       "root_diagram": {
-                     *         "format": "bt-studio/diagram",
-                     *         "version": 1,
-                     *         "id": "MainTree",
-                     *         "root": "n1",
-                     *         "nodes": {
-                     *           "n1": {
-                     *             "type": "Forward",
-                     *             "name": "",
-                     *             "ports": {
-                     *               "speed": "0.3"
-                     *             },
-                     *             "children": [],
-                     *             "x": 0,
-                     *             "y": 0
-                     *           }
-                     *         }
-                     *       },
-                     *       "role": "owner",
-                     *       "owner": "tina",
-                     *       "settings": {
-                     *         "format": "bt-studio/project",
-                     *         "version": 1,
-                     *         "name": "Untitled"
-                     *       },
-                     *       "files": [
-                     *         {
-                     *           "path": "actions/Forward.py",
-                     *           "revision": 1,
-                     *           "size": 577,
-                     *           "sha256": "dee0f8b19997c09418baeddb088a98582f6ee328135dc8132029c3da554501b1",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "\"\"\"Drives ahead.\"\"\"\n\nfrom geometry_msgs.msg import Twist\nfrom py_trees.behaviour import Behaviour\nfrom py_trees.common import Status\nfrom tree_gardener.ports import Port\n\n\nclass Forward(Behaviour):\n    \"\"\"Drives ahead at a speed.\"\"\"\n\n    INPUT_PORTS = {\"speed\": Port(float, 0.2, description=\"in m/s\")}\n\n    def setup(self, **kwargs):\n        self.publisher = kwargs[\"node\"].create_publisher(Twist, \"cmd_vel\", 10)\n\n    def update(self):\n        twist = Twist()\n        twist.linear.x = self.get_input(\"speed\")\n        self.publisher.publish(twist)\n        return Status.RUNNING\n"
-                     *         },
-                     *         {
-                     *           "path": "project.json",
-                     *           "revision": 1,
-                     *           "size": 74,
-                     *           "sha256": "cc51757975cbf0e84dab1d012b44885ab91dceea8dd259ce7d07a2fca4805f1f",
-                     *           "updated_at": "2026-02-03T10:15:00Z",
-                     *           "content": "{\n  \"format\": \"bt-studio/project\",\n  \"version\": 1,\n  \"name\": \"Untitled\"\n}\n"
-                     *         }
-                     *       ],
-                     *       "actions": [
-                     *         {
-                     *           "name": "Forward",
-                     *           "path": "actions/Forward.py",
-                     *           "doc": "Drives ahead at a speed.",
-                     *           "kind": "action",
-                     *           "open": false,
-                     *           "line": 9,
-                     *           "ports": [
-                     *             {
-                     *               "name": "speed",
-                     *               "direction": "input",
-                     *               "type": "double",
-                     *               "default": "0.2",
-                     *               "required": false,
-                     *               "description": "in m/s"
-                     *             }
-                     *           ],
-                     *           "imports": [
-                     *             "geometry_msgs.msg",
-                     *             "py_trees.behaviour"
-                     *           ],
-                     *           "diagnostics": []
-                     *         }
-                     *       ],
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ProjectDetail"];
                 };
             };
@@ -5262,12 +3459,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "filename": "actions/Forward.py",
-                 *       "source": "import os\nx=1\n"
-                 *     }
-                 */
                 "application/json": components["schemas"]["SourceRequest"];
             };
         };
@@ -5277,11 +3468,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "source": "import os\n\nx = 1\n"
-                     *     }
-                     */
                     "application/json": components["schemas"]["Formatted"];
                 };
             };
@@ -5305,12 +3491,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "filename": "actions/Forward.py",
-                 *       "source": "import os\nx=1\n"
-                 *     }
-                 */
                 "application/json": components["schemas"]["SourceRequest"];
             };
         };
@@ -5320,41 +3500,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "findings": [
-                     *         {
-                     *           "code": "F401",
-                     *           "severity": "warning",
-                     *           "message": "`os` imported but unused",
-                     *           "start": {
-                     *             "line": 1,
-                     *             "column": 8
-                     *           },
-                     *           "end": {
-                     *             "line": 1,
-                     *             "column": 10
-                     *           },
-                     *           "fix": {
-                     *             "message": "Remove unused import: `os`",
-                     *             "edits": [
-                     *               {
-                     *                 "start": {
-                     *                   "line": 1,
-                     *                   "column": 1
-                     *                 },
-                     *                 "end": {
-                     *                   "line": 2,
-                     *                   "column": 1
-                     *                 },
-                     *                 "content": ""
-                     *               }
-                     *             ]
-                     *           }
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["Findings"];
                 };
             };
@@ -5386,18 +3531,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "id": "3f2504e0-4f89-41d3-9a0c-000000000007",
-                     *       "project_id": "3f2504e0-4f89-41d3-9a0c-000000000001",
-                     *       "state": "starting",
-                     *       "control_url": "/ws/sessions/3f2504e0-4f89-41d3-9a0c-000000000007/control",
-                     *       "stream_url": "/ws/sessions/3f2504e0-4f89-41d3-9a0c-000000000007/stream",
-                     *       "error": "",
-                     *       "position": null,
-                     *       "created_at": "2026-02-03T10:15:00Z"
-                     *     }
-                     */
                     "application/json": components["schemas"]["Session"];
                 };
             };
@@ -5451,12 +3584,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "diagram": "{\"format\": \"bt-studio/diagram\", \"version\": 1, \"id\": \"MainTree\", \"root\": \"n1\", \"nodes\": {\"n1\": {\"type\": \"Forward\", \"name\": \"\", \"ports\": {\"speed\": \"0.3\"}, \"children\": [], \"x\": 0, \"y\": 0}}}",
-                 *       "xml": "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"MainTree\">\n    <Forward speed=\"0.6\" _bts_id=\"n1\"/>\n  </BehaviorTree>\n</root>\n"
-                 *     }
-                 */
                 "application/json": components["schemas"]["ReadTreeRequest"];
             };
         };
@@ -5466,21 +3593,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "xml": "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"MainTree\">\n    <Forward speed=\"0.6\" _bts_id=\"n1\"/>\n  </BehaviorTree>\n</root>\n",
-                     *       "ranges": [
-                     *         {
-                     *           "node": "n1",
-                     *           "start": 59,
-                     *           "open_end": 94,
-                     *           "end": 94
-                     *         }
-                     *       ],
-                     *       "diagram": "{\n  \"format\": \"bt-studio/diagram\",\n  \"version\": 1,\n  \"id\": \"MainTree\",\n  \"root\": \"n1\",\n  \"nodes\": {\n    \"n1\": {\"type\": \"Forward\", \"ports\": {\"speed\": \"0.6\"}}\n  },\n  \"drafts\": [],\n  \"layout\": \"vertical\"\n}\n",
-                     *       "diagnostics": []
-                     *     }
-                     */
                     "application/json": components["schemas"]["ReadTreeDone"];
                 };
             };
@@ -5504,11 +3616,6 @@ export interface operations {
         };
         requestBody: {
             content: {
-                /**
-                 * @example {
-                 *       "diagram": "{\"format\": \"bt-studio/diagram\", \"version\": 1, \"id\": \"MainTree\", \"root\": \"n1\", \"nodes\": {\"n1\": {\"type\": \"Forward\", \"name\": \"\", \"ports\": {\"speed\": \"0.3\"}, \"children\": [], \"x\": 0, \"y\": 0}}}"
-                 *     }
-                 */
                 "application/json": components["schemas"]["WriteTreeRequest"];
             };
         };
@@ -5518,19 +3625,6 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    /**
-                     * @example {
-                     *       "xml": "<root BTCPP_format=\"4\">\n  <BehaviorTree ID=\"MainTree\">\n    <Forward speed=\"0.3\" _bts_id=\"n1\"/>\n  </BehaviorTree>\n</root>\n",
-                     *       "ranges": [
-                     *         {
-                     *           "node": "n1",
-                     *           "start": 59,
-                     *           "open_end": 94,
-                     *           "end": 94
-                     *         }
-                     *       ]
-                     *     }
-                     */
                     "application/json": components["schemas"]["TreeText"];
                 };
             };

@@ -21,7 +21,9 @@ from executor.robots.sensors import (
     Positive,
     Sensor,
     Strict,
+    Topic,
 )
+from executor.robots.urdf import MOVING
 from executor.universes.document import DocumentError, Located, Problem, read_yaml
 from executor.universes.loader import validate
 
@@ -37,6 +39,7 @@ __all__ = [
     "Camera",
     "Drive",
     "Imu",
+    "JointDrive",
     "Lidar",
     "RobotConfig",
     "RobotError",
@@ -75,6 +78,20 @@ class Drive(Strict):
     timeout_s: Positive = 0.6
 
 
+class JointDrive(Strict):
+    """A motor that holds a joint at the position that came last on `topic` (`std_msgs/Float64`).
+
+    Positions are in rad, of a prismatic joint in m, and kept within the limits of the URDF; `max_rate` is in
+    rad/s or m/s, `torque` in Nm or N.
+    """
+
+    joint: str
+    topic: Topic
+    max_rate: Positive = 1.0
+    torque: Positive = 2.0
+    start: float = Field(default=0.0, allow_inf_nan=False)
+
+
 class _Document(Strict):
     format: Literal["bt-studio/robot"]
     version: Literal[1]
@@ -82,6 +99,7 @@ class _Document(Strict):
     description: str = ""
     urdf: str
     drive: Drive
+    joints: tuple[JointDrive, ...] = Field(default=(), max_length=20)
     wheels: tuple[str, ...] = ()
     friction: dict[str, NotNegative] = Field(default_factory=dict)
     skid: dict[str, Part] = Field(default_factory=dict)
@@ -95,6 +113,7 @@ class RobotConfig:
     Args:
         wheels: links whose contact is no collision: wheels and casters.
         friction: friction by link, where it is not 0.8.
+        joints: other joints that have a motor.
         skid: what is left of it along y by link, from 0 to 1: wheels that turn by skidding slide sideways.
     """
 
@@ -112,6 +131,7 @@ class RobotConfig:
     imus: tuple[Imu, ...] = ()
     bumpers: tuple[Bumper, ...] = ()
     batteries: tuple[Battery, ...] = ()
+    joints: tuple[JointDrive, ...] = ()
 
 
 def robot_ids() -> tuple[str, ...]:
@@ -158,6 +178,7 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
         urdf=urdf,
         meshes=meshes,
         drive=document.drive,
+        joints=document.joints,
         wheels=document.wheels,
         friction=document.friction,
         skid=document.skid,
@@ -192,8 +213,16 @@ def _check_names(robot_id: str, located: Located, document: _Document, urdf: Urd
     joints: list[tuple[tuple[str | int, ...], str]] = [
         *((("drive", "left", i), name) for i, name in enumerate(drive.left)),
         *((("drive", "right", i), name) for i, name in enumerate(drive.right)),
+        *((("joints", i, "joint"), joint.joint) for i, joint in enumerate(document.joints)),
     ]
     problems = _missing("link", links, urdf.links, located) + _missing("joint", joints, urdf.joints, located)
+    wheels = (*drive.left, *drive.right)
+    for i, driven in enumerate(document.joints):
+        joint = urdf.joints.get(driven.joint)
+        if joint is not None and (joint.kind not in MOVING or driven.joint in wheels):
+            why = "is a wheel's" if driven.joint in wheels else f"is {joint.kind}"
+            text = f"the joint {driven.joint!r} {why}: no motor can hold it somewhere"
+            problems.append(Problem(text, *located.place(("joints", i, "joint")), "BTR003"))
     if problems:
         raise RobotError(problems, f"{robot_id}/robot.yaml")
 

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 _GREY: Final = (0.6, 0.6, 0.6, 1.0)
+MOVING: Final = ("revolute", "continuous", "prismatic")
+"""Kinds of joints that are simulated."""
 Rgba = tuple[float, float, float, float]
 
 
@@ -62,7 +64,7 @@ class Link:
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint; `axis` in the joint's frame, `origin` in the parent's."""
+    """A joint; `axis` in the joint's frame, `origin` in the parent's, `limits` in rad or m."""
 
     name: str
     kind: str
@@ -70,6 +72,7 @@ class Joint:
     child: str
     origin: Pose
     axis: tuple[float, float, float]
+    limits: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -223,11 +226,16 @@ def _joint(element: etree._Element) -> Joint:
     parent, child = element.find("parent"), element.find("child")
     if parent is None or child is None:
         raise _WrongError("a joint needs a parent and a child", element)
+    kind, limit = element.get("type", "fixed"), element.find("limit")
+    limits = None
+    if limit is not None and kind in ("revolute", "prismatic"):
+        limits = tuple(_numbers(limit, key, "0", count=1)[0] for key in ("lower", "upper"))
     return Joint(
         element.get("name", ""),
-        element.get("type", "fixed"),
+        kind,
         parent.get("link", ""),
         child.get("link", ""),
         _origin(element),
         (axis[0], axis[1], axis[2]),
+        None if limits is None else (limits[0], limits[1]),
     )

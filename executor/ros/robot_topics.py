@@ -8,7 +8,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, Imu, JointState, LaserScan
-from std_msgs.msg import Bool, String
+from std_msgs.msg import Bool, Float64, String
 
 from executor.ros import messages
 from executor.ros.feed import Feed
@@ -50,6 +50,12 @@ class RobotTopics:
         self._prefix = "" if index == 0 else f"/{robot_id}"
         self._frames = "" if index == 0 else f"{robot_id}/"
         self._commands = node.create_subscription(Twist, f"{self._prefix}/cmd_vel", _ignore, _RELIABLE)
+        self._joints = {
+            drive.joint: node.create_subscription(
+                Float64, self._prefix + self._name(drive.joint, drive.topic), _ignore, _RELIABLE
+            )
+            for drive in self._config.joints
+        }
         self.feeds: list[Feed] = []
         self._add_motion()
         for lidar in self._config.lidars:
@@ -65,11 +71,13 @@ class RobotTopics:
         self._describe()
 
     def poll(self) -> bool:
-        """Takes the commands that arrived; the last one counts. Tells whether it was one to obey."""
-        twist = None
-        while (taken := take(self._commands)) is not None:
-            twist = taken
-        return twist is None or self._robot().command(twist.linear.x, twist.angular.z)
+        """Takes the commands that arrived; the last one of each topic counts. Tells whether it obeyed all."""
+        robot, twist = self._robot(), _last(self._commands)
+        obeyed = twist is None or robot.command(twist.linear.x, twist.angular.z)
+        for joint, subscription in self._joints.items():
+            wanted = _last(subscription)
+            obeyed &= wanted is None or robot.command_joint(joint, wanted.data)
+        return obeyed
 
     def moving_transforms(self, now_s: float) -> list[Any]:
         """Returns where the robot is by its odometry, and where its moving links are."""
@@ -204,6 +212,13 @@ def take(subscription: Any) -> Any:
     with subscription.handle:
         taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
     return None if taken is None else taken[0]
+
+
+def _last(subscription: Any) -> Any:
+    last = None
+    while (taken := take(subscription)) is not None:
+        last = taken
+    return last
 
 
 def _ignore(message: object) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from executor.robots.links import read_links
 from executor.robots.prepare import physical_urdf
+from executor.robots.urdf import MOVING
 from executor.universes.document import DocumentError, Problem
 from executor.world.kinematics import add_links, link_pose
 from executor.world.placement import put_at_rest
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
     from executor.world.engine import Bullet
     from executor.world.objects import Kind, SceneObjects
 
-MOVING = ("revolute", "continuous", "prismatic")
 Links = tuple["Urdf", dict[str, "Mesh"]]
 
 

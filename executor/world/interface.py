@@ -67,8 +67,11 @@ class Robot(Protocol):
     def stop(self) -> None:
         """Wants no motion any more."""
 
+    def command_joint(self, joint: str, position: float) -> bool:
+        """Sets where a joint with a motor is wanted, in rad or m; refuses (False) what is no number."""
+
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Angle in rad and rate in rad/s of each wheel joint."""
+        """Position in rad or m and rate of each joint that has a motor, the wheels' first."""
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Measures now."""

@@ -45,6 +45,7 @@ class _Saved:
     noise: Mapping[str, Any]
     senses: object
 
+    motors: object
 
 class BulletRobot:
     """A robot with a differential drive, made from its configuration."""
@@ -70,6 +71,7 @@ class BulletRobot:
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
         self._wheel_links = {self._links[name] for name in config.wheels}
         self._inertial = self._inertial_inverse()
+        self._motors = JointMotors(bullet, self.uid, config, self._joints)
         self._applied: tuple[float, float] | None = None
         self._at = self.pose[:2]
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
@@ -120,10 +122,15 @@ class BulletRobot:
         self._drive.command(0.0, 0.0, self._clock_s)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Angle and rate of each wheel joint."""
+        """Position and rate of each joint that has a motor, the wheels' first."""
+    def command_joint(self, joint: str, position: float) -> bool:
+        """Sets where a joint with a motor is wanted; refuses what is no number."""
+        return self._motors.command(joint, position)
+
         names = (*self.config.drive.left, *self.config.drive.right)
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
-        return {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
+        wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
+        return wheels | self._motors.states() if self._motors else wheels
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Measures now."""
@@ -155,6 +162,8 @@ class BulletRobot:
             self._apply(rates)
 
     def measure(self, now_s: float, dt_s: float) -> None:
+        if self._motors and self._senses.has_power:
+            self._motors.control()
         """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
@@ -188,7 +197,15 @@ class BulletRobot:
     def save(self) -> object:
         """Returns what the physics server does not keep itself."""
         noise, senses = self._noise.bit_generator.state, self._senses.save()
-        return _Saved(self._drive.state, copy.copy(self._counter), self.distance_m, self._at, noise, senses)
+        return _Saved(
+            self._drive.state,
+            copy.copy(self._counter),
+            self.distance_m,
+            self._at,
+            noise,
+            senses,
+            self._motors.save(),
+        )
 
     def restore(self, saved: object, now_s: float) -> None:
         """Takes back what `save` gave."""
@@ -203,6 +220,7 @@ class BulletRobot:
         drive = self.config.drive
         half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
         linear, turn = saved.drive.linear, saved.drive.angular * half_track
+        self._motors.restore(saved.motors)
         rates = ((linear - turn) / radius, (linear + turn) / radius)
         self._apply(rates if self._senses.has_power else (0.0, 0.0))
 

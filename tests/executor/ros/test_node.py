@@ -1,6 +1,7 @@
 """The world's topics, heard by another node of this process: types, rates, frames, QoS, values."""
 
 import math
+import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,6 +14,7 @@ from rclpy.node import Node
 from rclpy.qos import ReliabilityPolicy, qos_profile_sensor_data
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import CameraInfo, Image, JointState, LaserScan
+from std_msgs.msg import Float64
 
 from executor.render import make_renderer
 from executor.ros.environment import has_tf
@@ -25,8 +27,8 @@ from executor.world.sensors import Sensors
 class Rig:
     """A world on ROS, and a listener."""
 
-    def __init__(self, context: Context) -> None:
-        self.world = BulletWorld(load_builtin("walled_room"))
+    def __init__(self, context: Context, robot: str | None = None) -> None:
+        self.world = BulletWorld(load_builtin("walled_room"), robot=robot)
         self.drawn = 0
         self.sensors = Sensors(self.world, self._renderer)
         self.node = WorldNode(self.world, context)
@@ -164,6 +166,32 @@ def test_tf_is_published_where_its_messages_are_installed(rig: Rig) -> None:
         rig.listen(TFMessage, "/tf")
         transform = rig.run(0.2)["/tf"][-1].transforms[0]
         assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_link")
+
+
+def test_a_joint_goes_where_its_topic_says_and_tf_follows(context: Context) -> None:
+    rig = Rig(context, "lookout")
+    rig.listen(JointState, "/joint_states")
+    if has_tf():
+        from tf2_msgs.msg import TFMessage
+
+        rig.listen(TFMessage, "/tf")
+    publisher = rig.listener.create_publisher(Float64, "/camera/pan/command", 10)
+    while not publisher.get_subscription_count():
+        time.sleep(0.01)
+    publisher.publish(Float64(data=0.7))
+    publisher.publish(Float64(data=math.nan))
+    heard = rig.run(0.2)
+    assert rig.node.refused_commands == 1
+    publisher.publish(Float64(data=0.7))
+    heard = rig.run(1.0)
+    state = heard["/joint_states"][-1]
+    assert dict(zip(state.name, state.position, strict=True))["pan_joint"] == pytest.approx(0.7, abs=0.005)
+    if has_tf():
+        frames = {t.child_frame_id: t for t in heard["/tf"][-1].transforms}
+        assert frames["pan_link"].header.frame_id == "base_link"
+        turn = frames["pan_link"].transform.rotation
+        assert 2 * math.atan2(turn.z, turn.w) == pytest.approx(0.7, abs=0.005)
+    rig.close()
 
 
 def test_a_restart_publishes_from_zero(rig: Rig) -> None:

@@ -1,5 +1,6 @@
 import type { Transport } from '@codemirror/lsp-client';
 import { socketUrl } from '@/api/http';
+import { withoutOutdated } from './answers';
 
 export const CLOSED = { noProject: 4404, idle: 4408, tooMany: 4429, unavailable: 4503 } as const;
 
@@ -28,7 +29,8 @@ export function openSocket(
     on.open(transport);
   };
   socket.onmessage = ({ data }: MessageEvent<string>) => {
-    for (const handler of handlers) handler(data);
+    const message = withoutOutdated(data);
+    for (const handler of handlers) handler(message);
   };
   socket.onclose = ({ code, reason }) => {
     on.closed(code, reason);

@@ -1,4 +1,5 @@
-# One running robot: manager, world and application. It has no network of its own (docs/explanation/deployment.md).
+# One running robot: manager, world and application. The same image holds what reads a user's Python for the editor.
+# It has no network of its own (docs/explanation/deployment.md).
 # Build with BuildKit from the root of the repository: docker build -f docker/executor.Dockerfile -t bt-studio-executor .
 # Secret, optional and not left in the image: ca (a CA bundle).
 
@@ -30,6 +31,11 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
     if [ -s /run/secrets/ca.crt ]; then export SSL_CERT_FILE=/run/secrets/ca.crt; fi; \
     cd /opt/bt-studio && ln -s /build/tools/bin/uv .venv/bin/uv && \
     .venv/bin/python -m executor.ros.build_tf2_msgs && .venv/bin/python -c 'import tf2_msgs.msg' && rm .venv/bin/uv
+# What a language server is shown: the engine, and stubs of ROS messages.
+COPY backend/__init__.py /build/backend/__init__.py
+COPY backend/language/__init__.py backend/language/library.py backend/language/message_stubs.py /build/backend/language/
+RUN /opt/bt-studio/.venv/bin/python -m backend.language.library \
+      /opt/bt-studio/.venv/lib/python3.11/site-packages /opt/bt-studio /opt/bt-studio/library
 
 FROM python
 RUN apt-get update -q && DEBIAN_FRONTEND=noninteractive \
@@ -37,6 +43,7 @@ RUN apt-get update -q && DEBIAN_FRONTEND=noninteractive \
 RUN useradd --uid 10001 --no-create-home --home-dir /tmp --shell /usr/sbin/nologin robot
 WORKDIR /opt/bt-studio
 COPY --from=packages /opt/bt-studio/.venv .venv
+COPY --from=packages /opt/bt-studio/library library
 COPY tree_gardener tree_gardener
 COPY translator translator
 COPY executor executor

@@ -27,10 +27,9 @@ from backend.config.problems import NotFoundError
 from backend.config.sockets import ID, Call, Closed
 from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
 from backend.language.errors import UnavailableError
-from backend.language.folder import Folder, Sync
 from backend.language.framing import FramingError, Unframer, framed
 from backend.language.messages import for_page, for_server
-from backend.language.servers import Server, launcher
+from backend.language.places import launcher
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.notices import notices_of
@@ -39,6 +38,8 @@ if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
 
     from backend.accounts.models import User
+    from backend.language.folder import Sync
+    from backend.language.servers import Server
 
 log = logging.getLogger(__name__)
 
@@ -75,25 +76,18 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
 
 
 async def _serve(page: Page, following: Following) -> Closed | None:
-    folder = Folder(page.project_id)
     starting = launcher()
-    await sync_to_async(_contents)(page)  # nobody starts a server on a project that is not theirs
-    await sync_to_async(folder.prepare)()
-    await _follow_once(page, folder)
-    server = await starting.start(folder)
-    relay = Relay(page, folder, server)
+    # Nobody starts a server on a project that is not theirs.
+    contents = await sync_to_async(_contents)(page)
+    server = await starting.start(page.project_id, page.user, contents)
     try:
-        return await relay.run(following)
+        return await Relay(page, server).run(following)
     finally:
         await server.stop()
 
 
 def _contents(page: Page) -> dict[str, bytes]:
     return queries.contents(queries.project(page.project_id, user=page.user, need=Need.WRITE))
-
-
-async def _follow_once(page: Page, folder: Folder) -> Sync:
-    return await sync_to_async(lambda: folder.sync(_contents(page)))()
 
 
 class Page(NamedTuple):
@@ -108,11 +102,10 @@ class Page(NamedTuple):
 class Relay:
     """One page and its server."""
 
-    def __init__(self, page: Page, folder: Folder, server: Server) -> None:
+    def __init__(self, page: Page, server: Server) -> None:
         self._page = page
-        self._folder = folder
         self._server = server
-        self._addresses = Addresses(str(folder.files))
+        self._addresses = Addresses(server.root)
         self._writing = asyncio.Lock()
         self._last_heard_s = time.monotonic()
 
@@ -146,7 +139,7 @@ class Relay:
                 continue
             except (ValueError, RecursionError):
                 return Closed(1003, "A message is not JSON.")
-            passed, answer = for_server(message, f"file://{self._folder.files}")
+            passed, answer = for_server(message, f"file://{self._server.root}")
             if answer is not None:
                 await self._tell(answer)
             if passed is not None and not await self._write(passed):
@@ -169,10 +162,14 @@ class Relay:
         while True:
             await following()
             try:
-                changes = await _follow_once(self._page, self._folder)
+                contents = await sync_to_async(_contents)(self._page)
             except NotFoundError:
-                await sync_to_async(self._folder.remove)()
+                await self._server.forget()
                 return Closed(NO_SUCH_PROJECT, "The project was deleted.")
+            try:
+                changes = await self._server.sync(contents)
+            except OSError:
+                return Closed(ENDED, "The language server has ended.")
             await self._write(self._watched(changes))
 
     def _watched(self, changes: Sync) -> dict[str, Any]:

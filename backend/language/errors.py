@@ -15,3 +15,11 @@ class PythonRefusedError(StudioError):
     status = 422
     code = "python_refused"
     title = "The Python cannot be read"
+
+
+class CheckerUnavailableError(StudioError):
+    """Nothing can format or check Python here, or not now."""
+
+    status = 503
+    code = "python_help_unavailable"
+    title = "Python cannot be checked"

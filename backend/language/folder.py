@@ -10,7 +10,6 @@ The layout:
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import shutil
 import sys
@@ -23,17 +22,14 @@ from uuid import uuid4
 
 from backend.config.environment import REPOSITORY, environment
 from backend.language import message_stubs
+from backend.language.library import configuration, make_library
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from uuid import UUID
 
-ENGINE: Final = ("tree_gardener",)
 SUFFIXES: Final = (".py", ".pyi")
 _lock: Final = Lock()
-
-# `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
-_TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,12 +50,13 @@ class Folder:
 
     def prepare(self) -> None:
         """Makes the folder with its configuration."""
-        self.files.mkdir(parents=True, exist_ok=True)
-        _write(self.home / "pyrefly.toml", _configuration(self.files, library()).encode())
+        (self.files / "actions").mkdir(parents=True, exist_ok=True)
+        text = configuration(str(self.files), str(library()), sys.executable)
+        _write(self.home / "pyrefly.toml", text.encode())
 
     def sync(self, contents: Mapping[str, bytes]) -> Sync:
         """Makes the folder hold exactly the Python among these files."""
-        wanted = {path: data for path, data in contents.items() if path.endswith(SUFFIXES)}
+        wanted = python_of(contents)
         created: list[str] = []
         changed: list[str] = []
         deleted: list[str] = []
@@ -85,6 +82,11 @@ class Folder:
         return {p.relative_to(self.files).as_posix() for p in self.files.rglob("*") if p.is_file()}
 
 
+def python_of(contents: Mapping[str, bytes]) -> dict[str, bytes]:
+    """The Python among a project's files."""
+    return {path: data for path, data in contents.items() if path.endswith(SUFFIXES)}
+
+
 def library() -> Path:
     """The folder of what every project can import; made when it is missing."""
     with _lock:
@@ -104,28 +106,11 @@ def _library_key(site_packages: Path) -> str:
 
 def _make_library(site_packages: Path, folder: Path) -> None:
     partial = folder.with_name(f"{folder.name}.{uuid4().hex}")
-    partial.mkdir(parents=True)
-    message_stubs.write_message_stubs(site_packages, partial)
-    for package in ENGINE:
-        (partial / package).symlink_to(REPOSITORY / package, target_is_directory=True)
-    (partial / "tree_tools.py").write_text(_TREE_TOOLS)
+    make_library(site_packages, REPOSITORY, partial)
     try:
         partial.rename(folder)
     except OSError:  # another server was faster
         shutil.rmtree(partial)
-
-
-def _configuration(files: Path, shared: Path) -> str:
-    # Neighbours are imported as `actions.<Name>` or by their bare name, as the engine's loader has it.
-    search = [str(files), str(files / "actions"), str(shared)]
-    (files / "actions").mkdir(exist_ok=True)
-    values = {
-        "project-includes": [f"{files}/**/*.py"],
-        "search-path": search,
-        "python-interpreter-path": sys.executable,
-    }
-    # JSON's strings and lists are TOML's.
-    return "".join(f"{name} = {json.dumps(value)}\n" for name, value in values.items())
 
 
 def _write(path: Path, data: bytes) -> None:

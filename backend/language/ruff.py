@@ -1,7 +1,7 @@
 """Formatting and findings of ruff: bounded, without the user's configuration, on text alone.
 
-Ruff parses and runs nothing of the source, so this is done beside the web server on localhost and on a
-team's server alike; a source that makes it slow is given up after some seconds.
+On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). A
+source that makes it slow is given up after some seconds.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
@@ -23,32 +24,35 @@ RULES: Final = "F,B,E7,E9,W605,PLE,RUF100"
 IGNORED: Final = "F821,F405,F811,B027"
 _MAX_FINDINGS: Final = 200
 
+# Arguments and source to exit status and output; a status of None: it took too long.
+Run = Callable[[list[str], str], tuple[int | None, str]]
 
-def format_source(source: str, filename: str) -> str:
+
+def format_source(source: str, filename: str, run: Run) -> str:
     """The source as `ruff format` writes it.
 
     Raises:
         PythonRefusedError: it does not parse, is too long, or takes too long.
     """
-    run = _run(["format", "--line-length", str(LINE_LENGTH)], source, filename)
-    if run.returncode != 0:
+    status, output = _run(run, ["format", "--line-length", str(LINE_LENGTH)], source, filename)
+    if status != 0:
         raise PythonRefusedError(
             "The file has a syntax error, so it is not formatted.",
             hint="Correct it first; the editor marks the place.",
-            diagnostics=[each for each in findings(source, filename) if each["severity"] == "error"],
+            diagnostics=[each for each in findings(source, filename, run) if each["severity"] == "error"],
         )
-    return run.stdout
+    return output
 
 
-def findings(source: str, filename: str) -> list[dict[str, Any]]:
+def findings(source: str, filename: str, run: Run) -> list[dict[str, Any]]:
     """What ruff says about the source, each with the edits that would mend it.
 
     Lines count from 1; columns from 1, in code points.
     """
     options = ["--output-format", "json", "--select", RULES, "--ignore", IGNORED, "--line-length", "110"]
-    run = _run(["check", "--exit-zero", "--no-fix", *options], source, filename)
+    _, output = _run(run, ["check", "--exit-zero", "--no-fix", *options], source, filename)
     try:
-        found = json.loads(run.stdout or "[]")
+        found = json.loads(output or "[]")
     except ValueError as error:
         raise PythonRefusedError("The checker gave no answer.", hint="Try again.") from error
     return [_finding(each) for each in found[:_MAX_FINDINGS]]
@@ -82,14 +86,21 @@ def _place(location: dict[str, int]) -> dict[str, int]:
     return {"line": location["row"], "column": location["column"]}
 
 
-def _run(arguments: list[str], source: str, filename: str) -> subprocess.CompletedProcess[str]:
+def _run(run: Run, arguments: list[str], source: str, filename: str) -> tuple[int, str]:
     if len(source.encode()) > MAX_SOURCE_BYTES:
         raise PythonRefusedError("The file is too long to be formatted or checked.", hint="Split it.")
-    command = [str(Path(sys.executable).with_name("ruff")), *arguments]
     options = ["--isolated", "--no-cache", "--target-version", "py311", "--stdin-filename", filename, "-"]
+    status, output = run(arguments + options, source)
+    if status is None:
+        raise PythonRefusedError("The formatter did not answer.", hint="Try again.")
+    return status, output
+
+
+def run_beside(arguments: list[str], source: str) -> tuple[int | None, str]:
+    """Runs ruff as a child of this process."""
     try:
-        return subprocess.run(
-            command + options,
+        done = subprocess.run(
+            [str(Path(sys.executable).with_name("ruff")), *arguments],
             input=source,
             capture_output=True,
             encoding="utf-8",
@@ -98,5 +109,6 @@ def _run(arguments: list[str], source: str, filename: str) -> subprocess.Complet
             cwd="/",
             env={"PATH": os.defpath, "LANG": "C.UTF-8", "RAYON_NUM_THREADS": "1"},
         )
-    except (OSError, subprocess.TimeoutExpired) as error:
-        raise PythonRefusedError("The formatter did not answer.", hint="Try again.") from error
+    except (OSError, subprocess.TimeoutExpired):
+        return None, ""
+    return done.returncode, done.stdout

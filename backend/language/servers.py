@@ -1,8 +1,8 @@
 """Starting language servers: the contract, and the child process that localhost uses.
 
-On a team server a language server interprets files of people who do not know each other, so it belongs
-into a container of the executor image, without network, under limits; `Launcher` is where that goes. A
-server with accounts that has no such launcher offers no language server, and says so.
+Where sessions run in containers, language servers do, too (`containers.py`), since there they interpret
+files of people who do not know each other. A server with accounts that has no containers offers none, and
+says so.
 """
 
 from __future__ import annotations
@@ -17,11 +17,14 @@ from typing import TYPE_CHECKING, Final, Protocol
 
 import psutil
 
-from backend.config.environment import environment
 from backend.language.errors import UnavailableError
+from backend.language.folder import Folder, Sync
 
 if TYPE_CHECKING:
-    from backend.language.folder import Folder
+    from collections.abc import Mapping
+    from uuid import UUID
+
+    from backend.accounts.models import User
 
 # Address space, not memory: it is a bound on runaways, the watch below is the limit proper.
 ADDRESS_SPACE_BYTES: Final = 8 * 1024**3
@@ -30,7 +33,14 @@ _CHUNK_BYTES: Final = 64 * 1024
 
 
 class Server(Protocol):
-    """A running language server: bytes in, bytes out."""
+    """A running language server: bytes in, bytes out, and the files that it reads."""
+
+    @property
+    def root(self) -> str:
+        """The absolute path of the project's files, as the server sees them."""
+
+    async def sync(self, contents: Mapping[str, bytes]) -> Sync:
+        """Makes it read exactly the Python among these files."""
 
     async def write(self, data: bytes) -> None:
         """Hands bytes over; returns when the server takes them."""
@@ -44,12 +54,15 @@ class Server(Protocol):
     async def stop(self) -> None:
         """Ends it; ending twice is no error."""
 
+    async def forget(self) -> None:
+        """Removes its files; for a project that was deleted."""
+
 
 class Launcher(Protocol):
     """Starts language servers."""
 
-    async def start(self, folder: Folder) -> Server:
-        """Starts one on the files of a project.
+    async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
+        """Starts one on the files of a project, for one of its users.
 
         Raises:
             UnavailableError: there is none here, or it cannot be started.
@@ -59,8 +72,18 @@ class Launcher(Protocol):
 class ProcessServer:
     """A child process."""
 
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
+    def __init__(self, process: asyncio.subprocess.Process, folder: Folder) -> None:
         self._process = process
+        self._folder = folder
+
+    @property
+    def root(self) -> str:
+        """Where the project's folder is."""
+        return str(self._folder.files)
+
+    async def sync(self, contents: Mapping[str, bytes]) -> Sync:
+        """Brings the folder in step."""
+        return await asyncio.to_thread(self._folder.sync, contents)
 
     async def write(self, data: bytes) -> None:
         """Hands bytes over."""
@@ -91,6 +114,10 @@ class ProcessServer:
                 self._process.kill()
             await self._process.wait()
 
+    async def forget(self) -> None:
+        """Takes the folder away."""
+        await asyncio.to_thread(self._folder.remove)
+
 
 class ProcessLauncher:
     """Starts `pyrefly lsp` as a child, with one thread, low priority, and nothing of our environment.
@@ -101,8 +128,11 @@ class ProcessLauncher:
     def __init__(self, command: tuple[str, ...] = ()) -> None:
         self._command = command or (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
 
-    async def start(self, folder: Folder) -> Server:
+    async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
         """Starts the child."""
+        folder = Folder(project_id)
+        await asyncio.to_thread(folder.prepare)
+        await asyncio.to_thread(folder.sync, contents)
         try:
             process = await asyncio.create_subprocess_exec(
                 *self._command,
@@ -118,15 +148,4 @@ class ProcessLauncher:
         with contextlib.suppress(OSError, ValueError):
             resource.prlimit(process.pid, resource.RLIMIT_AS, (ADDRESS_SPACE_BYTES, ADDRESS_SPACE_BYTES))
             os.setpriority(os.PRIO_PROCESS, process.pid, 5)
-        return ProcessServer(process)
-
-
-def launcher() -> Launcher:
-    """The launcher of this server.
-
-    Raises:
-        UnavailableError: this server has none.
-    """
-    if getattr(environment(), "mode", "local") == "team":
-        raise UnavailableError("This server offers no Python help yet: it needs a container of its own.")
-    return ProcessLauncher()
+        return ProcessServer(process, folder)

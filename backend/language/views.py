@@ -8,9 +8,10 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import parsed
+from backend.config.api import parsed, user_of
 from backend.language import ruff
 from backend.language import serializers as s
+from backend.language.places import checker
 
 if TYPE_CHECKING:
     from rest_framework.request import Request
@@ -27,7 +28,8 @@ class Format(APIView):
     )
     def post(self, request: Request) -> Response:
         """The source in the usual style; 422 when it does not parse."""
-        return Response({"source": ruff.format_source(**parsed(s.SourceSerializer, request.data))})
+        given = parsed(s.SourceSerializer, request.data)
+        return Response({"source": ruff.format_source(**given, run=checker(user_of(request)))})
 
 
 class Lint(APIView):
@@ -41,4 +43,5 @@ class Lint(APIView):
     )
     def post(self, request: Request) -> Response:
         """What is likely wrong, with the edits that mend it."""
-        return Response({"findings": ruff.findings(**parsed(s.SourceSerializer, request.data))})
+        given = parsed(s.SourceSerializer, request.data)
+        return Response({"findings": ruff.findings(**given, run=checker(user_of(request)))})

@@ -38,6 +38,7 @@ RUN = (401, 403, 404, 200, 200, 200)
 CHECK = (401, 403, 404, 200, 200, 200)
 NOT_OWNED = (401, 403, 404, 404, 404, 404)  # a session, group or invitation of somebody else
 PERSONAL = (401, 403, 200, 200, 200, 200)
+CONTAINED = (401, 403, 503, 503, 503, 503)  # this server has no containers to read Python in
 OPEN = (401, 200, 200, 200, 200, 200)
 NEW = (401, 403, 201, 201, 201, 201)
 BROKEN = (401, 422, 404, 422, 422, 422)  # the empty project has no root to translate
@@ -96,8 +97,8 @@ POLICY = {
     ("post", "/api/v1/actions/inspect"): (401, 403, 200, 200, 200, 200),
     ("post", "/api/v1/trees/xml"): PERSONAL,
     ("post", "/api/v1/trees/diagram"): PERSONAL,
-    ("post", "/api/v1/python/format"): PERSONAL,
-    ("post", "/api/v1/python/lint"): PERSONAL,
+    ("post", "/api/v1/python/format"): CONTAINED,
+    ("post", "/api/v1/python/lint"): CONTAINED,
     ("get", "/api/v1/catalog/behaviours"): OPEN,
     ("get", "/api/v1/catalog/nodes"): OPEN,
     ("get", "/api/v1/catalog/universes"): OPEN,

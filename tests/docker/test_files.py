@@ -54,4 +54,6 @@ def test_the_images_leave_out_packages_that_are_in_the_lock(name):
     assert ("\nros-rclpy==" in left) == (name == "executor")
     assert ("\ndjango==" in left) == (name == "web")
     assert ("\nuvicorn==" in left) == (name == "web")
+    # What reads users' Python is not where the database's password is.
+    assert ("\npyrefly==" in left) == ("\nruff==" in left) == (name == "executor")
     assert left.count("--hash=sha256:") > 100

@@ -3,6 +3,7 @@
 good      takes its socket from the gate and listens
 failing   ends with status 3
 never     runs, and never comes to the gate
+tools     is `executor.tools`, as a child of this process
 liar      shows a wrong token at the gate, and ends
 """
 
@@ -10,7 +11,10 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import socketserver
+import subprocess
+import sys
 import threading
 import time
 from datetime import UTC, datetime
@@ -19,6 +23,8 @@ from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 from executor.gate import fetch_listener
+
+REPOSITORY = Path(__file__).parents[2]
 
 
 class FakeDocker(socketserver.ThreadingUnixStreamServer):
@@ -29,6 +35,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
     def __init__(self, path, gate_folder):
         self.containers = {}
         self.listeners = {}
+        self.children = {}
         self.requests = []
         self.processes = {}
         self._gate = gate_folder / "gate.sock"
@@ -41,7 +48,11 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         threading.Thread(target=self._run, args=(name, container), daemon=True).start()
 
     def end(self, name, status, *, out_of_memory=False, at=None):
+        if name in self.listeners:
+            self.listeners.pop(name).close()
         finished = datetime.fromtimestamp(at or time.time(), UTC).isoformat()
+        if name not in self.containers:
+            return  # removed in the meantime
         self.containers[name]["State"] = {
             "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
         }  # fmt: skip
@@ -57,10 +68,19 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
             with contextlib.suppress(OSError):
                 self.listeners[name] = fetch_listener(self._gate, session, "wrong" + token)
             self.end(name, 1)
+        elif kind == "tools":
+            door = [str(self._gate) if part.endswith("/gate.sock") else part for part in command]
+            environment |= {"PATH": os.environ["PATH"]}
+            program = [sys.executable, *container["Entrypoint"][1:], *door]
+            child = self.children[name] = subprocess.Popen(program, env=environment, cwd=REPOSITORY)
+            self.end(name, child.wait())
         elif kind == "good":
             self.listeners[name] = fetch_listener(self._gate, session, token)
 
     def close(self):
+        for child in self.children.values():
+            child.kill()
+            child.wait()
         self.shutdown()
         self.server_close()
         for listener in self.listeners.values():
@@ -114,6 +134,8 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _act_on(self, docker, name, verb):
         if self.command == "DELETE":
+            if name in docker.children:
+                docker.children[name].kill()
             del docker.containers[name]
             return 204, b""
         if verb == "json":

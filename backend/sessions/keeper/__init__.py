@@ -8,5 +8,6 @@ so that what has root's power over the host can be read in one sitting:
     plan        what an executor's container may do, and its limits
     gate        how an executor without a network is reached
     service     start, look, stop, and what has run too long
-    server      the four requests that the web server may make
+    tools       containers that read users' files for the editor
+    server      the five requests that the web server may make
 """

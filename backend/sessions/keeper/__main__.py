@@ -18,6 +18,7 @@ from backend.sessions.keeper.gate import Gate
 from backend.sessions.keeper.plan import GATE_FOLDER, read_plan
 from backend.sessions.keeper.server import KeeperServer
 from backend.sessions.keeper.service import Keeper
+from backend.sessions.keeper.tools import ToolsKeeper
 from backend.sessions.keeper.unix_http import ask
 
 log = logging.getLogger("keeper")
@@ -51,7 +52,9 @@ def _serve(folder: Path) -> None:
     max_sessions = int(os.environ.get("BT_STUDIO_MAX_SESSIONS") or 20)
     gate = Gate(gate_folder, folder / "sessions")
     keeper = Keeper(docker, gate, plan, max_sessions=max_sessions)
-    server = KeeperServer(folder / "keeper.sock", keeper)
+    max_tools = int(os.environ.get("BT_STUDIO_MAX_TOOLS") or 20)
+    tools = ToolsKeeper(docker, gate, plan, max_tools=max_tools)
+    server = KeeperServer(folder / "keeper.sock", keeper, tools)
     for target in (gate.serve, server.serve_forever):
         threading.Thread(target=target, daemon=True).start()
     ended = threading.Event()
@@ -62,6 +65,7 @@ def _serve(folder: Path) -> None:
         try:
             keeper.end_crowded()
             keeper.tidy(time.time())
+            tools.tidy(time.time())
         except KeeperError as error:
             log.warning("%s", error.detail)
     server.shutdown()

@@ -1,18 +1,20 @@
-"""What an executor's container may do. Everything is decided here, by the keeper's own settings."""
+"""What an executor's and a tools' container may do. The keeper's own settings decide it all."""
 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 PREFIX: Final = "BT_STUDIO_SESSION_"
+TOOLS_PREFIX: Final = "BT_STUDIO_TOOLS_"
 TOKEN_VARIABLE: Final = "BT_STUDIO_MANAGER_TOKEN"  # noqa: S105 - the name, not the token
 GATE_FOLDER: Final = "/run/bt-studio"
 SESSION_LABEL: Final = "org.bt-studio.session"
+TOOLS_LABEL: Final = "org.bt-studio.tools"
 STACK_LABEL: Final = "org.bt-studio.stack"
 USER: Final = "10001:10001"
 PORT: Final = 7163
@@ -21,7 +23,7 @@ MEBIBYTE: Final = 1024 * 1024
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What one session may use; each is the variable `BT_STUDIO_SESSION_<NAME>`.
+    """What one container may use; each is a variable, such as `BT_STUDIO_SESSION_<NAME>`.
 
     Attributes:
         cpus: processor cores.
@@ -39,16 +41,15 @@ class Limits:
     shm_mb: float = 256
     hours: float = 12
 
-    @classmethod
-    def from_environment(cls, environment: Mapping[str, str]) -> Limits:
-        """Reads the limits.
+    def overridden(self, environment: Mapping[str, str], prefix: str = PREFIX) -> Limits:
+        """These limits, but for those that the environment sets.
 
         Raises:
             ValueError: a variable is no positive number; the text names it.
         """
         given = {}
-        for field in fields(cls):
-            name = PREFIX + field.name.upper()
+        for field in fields(self):
+            name = prefix + field.name.upper()
             if text := environment.get(name, "").strip():
                 try:
                     given[field.name] = float(text)
@@ -56,7 +57,11 @@ class Limits:
                     raise ValueError(f"{name}: {text!r} is not a number") from None
                 if not 0 < given[field.name] < 1e6:
                     raise ValueError(f"{name}: {text!r} is not between 0 and a million")
-        return cls(**given)
+        return replace(self, **given)
+
+
+# The language servers of one user's open editors take some 200 MB each.
+TOOLS_LIMITS: Final = Limits(cpus=1, memory_mb=1536, pids=128, disk_mb=128, shm_mb=1, hours=24)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +73,7 @@ class Plan:
         gate_source: the volume, or the folder of the host, with the gate's socket.
         stack: tells the containers of this keeper from those of another.
         grace_s: how long a session lives without clients.
+        tools_grace_s: how long a user's tools stay when no editor is open.
     """
 
     image: str
@@ -75,35 +81,51 @@ class Plan:
     stack: str
     grace_s: float = 300
     limits: Limits = Limits()
+    tools_grace_s: float = 600
+    tools_limits: Limits = TOOLS_LIMITS
 
     def container_name(self, session_id: str) -> str:
         """The name of a session's container."""
         return f"{self.stack}-session-{session_id}"
 
-    def labels(self, session_id: str) -> dict[str, str]:
-        """What its container is found by."""
-        return {STACK_LABEL: self.stack, SESSION_LABEL: session_id}
+    def tools_name(self, tools_id: str) -> str:
+        """The name of the container with a user's tools."""
+        return f"{self.stack}-tools-{tools_id}"
 
     def container(self, session_id: str, token: str, domain_id: int) -> dict[str, Any]:
         """The container of a session, as Docker's API takes it."""
         limits = self.limits
+        command = [
+            *("--host", "127.0.0.1", "--port", str(PORT), "--token-env", TOKEN_VARIABLE),
+            *("--gate", f"{GATE_FOLDER}/gate.sock", "--session", session_id),
+            *("--domain-id", str(domain_id), "--grace", str(self.grace_s)),
+        ]
+        environment = [
+            # An application that takes too much is told so before the kernel ends the whole session.
+            f"BT_STUDIO_APPLICATION_MEMORY_MB={max(64, int(limits.memory_mb * 0.6))}",
+            f"BT_STUDIO_APPLICATION_FILE_MB={max(1, int(limits.disk_mb))}",
+            f"BT_STUDIO_APPLICATION_PROCESSES={max(8, int(limits.pids / 4))}",
+        ]
+        made = self._confined(token, limits, {SESSION_LABEL: session_id})
+        return made | {"Cmd": command, "Env": made["Env"] + environment}
+
+    def tools(self, tools_id: str, token: str) -> dict[str, Any]:
+        """The container that reads one user's files for the editor."""
+        command = [
+            *("--gate", f"{GATE_FOLDER}/gate.sock", "--session", tools_id),
+            *("--token-env", TOKEN_VARIABLE, "--grace", str(self.tools_grace_s)),
+        ]
+        made = self._confined(token, self.tools_limits, {TOOLS_LABEL: tools_id})
+        return made | {"Entrypoint": ["python", "-m", "executor.tools"], "Cmd": command}
+
+    def _confined(self, token: str, limits: Limits, labels: dict[str, str]) -> dict[str, Any]:
+        """What every container has in common: no network, no privileges, nothing to write to but memory."""
         memory = int(limits.memory_mb * MEBIBYTE)
         return {
             "Image": self.image,
             "User": USER,
-            "Cmd": [
-                *("--host", "127.0.0.1", "--port", str(PORT), "--token-env", TOKEN_VARIABLE),
-                *("--gate", f"{GATE_FOLDER}/gate.sock", "--session", session_id),
-                *("--domain-id", str(domain_id), "--grace", str(self.grace_s)),
-            ],
-            "Env": [
-                f"{TOKEN_VARIABLE}={token}",
-                # An application that takes too much is told so before the kernel ends the whole session.
-                f"BT_STUDIO_APPLICATION_MEMORY_MB={max(64, int(limits.memory_mb * 0.6))}",
-                f"BT_STUDIO_APPLICATION_FILE_MB={max(1, int(limits.disk_mb))}",
-                f"BT_STUDIO_APPLICATION_PROCESSES={max(8, int(limits.pids / 4))}",
-            ],
-            "Labels": self.labels(session_id),
+            "Env": [f"{TOKEN_VARIABLE}={token}"],
+            "Labels": {STACK_LABEL: self.stack} | labels,
             "Healthcheck": {"Test": ["NONE"]},  # the keeper itself looks
             "HostConfig": {
                 "NetworkMode": "none",
@@ -141,14 +163,19 @@ def read_plan(environment: Mapping[str, str] = os.environ, *, gate_source: str, 
     Raises:
         ValueError: a variable has a value that cannot be used; the text names it.
     """
-    try:
-        grace_s = float(environment.get("BT_STUDIO_SESSION_GRACE_S") or 300)
-    except ValueError:
-        raise ValueError("BT_STUDIO_SESSION_GRACE_S is not a number") from None
     return Plan(
         image=environment.get("BT_STUDIO_EXECUTOR_IMAGE") or "bt-studio-executor:latest",
         gate_source=gate_source,
         stack=stack,
-        grace_s=grace_s,
-        limits=Limits.from_environment(environment),
+        grace_s=_seconds(environment, "BT_STUDIO_SESSION_GRACE_S", 300),
+        limits=Limits().overridden(environment),
+        tools_grace_s=_seconds(environment, "BT_STUDIO_TOOLS_GRACE_S", 600),
+        tools_limits=TOOLS_LIMITS.overridden(environment, TOOLS_PREFIX),
     )
+
+
+def _seconds(environment: Mapping[str, str], name: str, default: float) -> float:
+    try:
+        return float(environment.get(name) or default)
+    except ValueError:
+        raise ValueError(f"{name} is not a number") from None

@@ -5,6 +5,7 @@ GET    /sessions                every executor
 POST   /sessions                {session, token, domain_id, timeout_s}: starts one
 GET    /sessions/<id>           whether it runs
 DELETE /sessions/<id>?timeout_s=5   ends it
+POST   /tools                   {tools, token, timeout_s}: where a user's tools listen; starts them if need be
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from backend.sessions.keeper.service import Keeper
+    from backend.sessions.keeper.tools import ToolsKeeper
 
 log = logging.getLogger(__name__)
 
@@ -38,9 +40,10 @@ class KeeperServer(socketserver.ThreadingUnixStreamServer):
 
     daemon_threads = True
 
-    def __init__(self, path: Path, keeper: Keeper) -> None:
+    def __init__(self, path: Path, keeper: Keeper, tools: ToolsKeeper) -> None:
         super().__init__(str(path), _Handler, bind_and_activate=False)
         self.keeper = keeper
+        self.tools = tools
         self.socket.close()
         self.socket = listen_at(path)
 
@@ -69,26 +72,29 @@ class _Handler(BaseHTTPRequestHandler):
         return 200, keeper.look(self._session_id())
 
     def _post(self) -> tuple[int, object]:
+        if self.path == "/tools":
+            return self._post_tools(self._body())
         if self.path != "/sessions":
             raise KeeperError(404, "not_found", "There is no such address.")
         body = self._body()
-        session_id, token = body.get("session"), body.get("token")
         domain_id: Any = body.get("domain_id")
-        timeout_s: Any = body.get("timeout_s", 30)
         is_valid = (
-            isinstance(session_id, str)
-            and SESSION_ID.fullmatch(session_id)
-            and isinstance(token, str)
-            and TOKEN.fullmatch(token)
-            and type(domain_id) is int
+            type(domain_id) is int
             and 0 <= domain_id <= 101
-            and isinstance(timeout_s, int | float)
-            and 0 < timeout_s <= MAX_TIMEOUT_S
+            and _names(body, "session")
             and set(body) <= {"session", "token", "domain_id", "timeout_s"}
         )
         if not is_valid:
             raise KeeperError(400, "bad_request", "A start names session, token, domain_id and timeout_s.")
-        return 201, self.server.keeper.start(str(session_id), str(token), int(domain_id), float(timeout_s))
+        return 201, self.server.keeper.start(
+            body["session"], body["token"], domain_id, float(body.get("timeout_s", 30))
+        )
+
+    def _post_tools(self, body: dict[str, Any]) -> tuple[int, object]:
+        if not _names(body, "tools") or not set(body) <= {"tools", "token", "timeout_s"}:
+            raise KeeperError(400, "bad_request", "Asking for tools names tools, token and timeout_s.")
+        timeout_s = float(body.get("timeout_s", 30))
+        return 200, self.server.tools.open(body["tools"], body["token"], timeout_s)
 
     def _delete(self) -> tuple[int, object]:
         asked = parse_qs(urlsplit(self.path).query).get("timeout_s", ["5"])[0]
@@ -140,3 +146,16 @@ class _Handler(BaseHTTPRequestHandler):
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 - the base class's name
         """Requests are no news."""
+
+
+def _names(body: dict[str, Any], what: str) -> bool:
+    """Whether a body has an id, a token and a time that can be meant."""
+    made_id, token, timeout_s = body.get(what), body.get("token"), body.get("timeout_s", 30)
+    return (
+        isinstance(made_id, str)
+        and SESSION_ID.fullmatch(made_id) is not None
+        and isinstance(token, str)
+        and TOKEN.fullmatch(token) is not None
+        and isinstance(timeout_s, int | float)
+        and 0 < timeout_s <= MAX_TIMEOUT_S
+    )

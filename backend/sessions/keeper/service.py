@@ -57,7 +57,9 @@ class Keeper:
                 raise KeeperError(429, "host_full", f"All {self._max_sessions} places are taken.")
             self._starting.add(session_id)
         try:
-            self._start(session_id, token, domain_id, timeout_s)
+            name = self._plan.container_name(session_id)
+            config = self._plan.container(session_id, token, domain_id)
+            bring_up(self._docker, self._gate, name, session_id, config, token, timeout_s)
         except BaseException:
             self._clear(session_id)
             raise
@@ -65,21 +67,6 @@ class Keeper:
             with self._lock:
                 self._starting.discard(session_id)
         return {"socket": str(self._gate.path(session_id))}
-
-    def _start(self, session_id: str, token: str, domain_id: int, timeout_s: float) -> None:
-        name = self._plan.container_name(session_id)
-        arrived = self._gate.expect(session_id, token)
-        self._docker.create(name, self._plan.container(session_id, token, domain_id))
-        self._docker.start(name)
-        deadline = time.monotonic() + timeout_s
-        while not arrived.wait(LOOK_EVERY_S):
-            state = (self._docker.inspect(name) or {}).get("State", {})
-            if not state.get("Running"):
-                reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
-                raise KeeperError(502, "executor_failed", reason, self._docker.log(name, LOG_LINES))
-            if time.monotonic() > deadline:
-                reason = f"The executor did not report that it is ready within {timeout_s:g} s."
-                raise KeeperError(504, "executor_slow", reason, self._docker.log(name, LOG_LINES))
 
     def look(self, session_id: str) -> dict[str, Any]:
         """Whether an executor runs, and how it ended."""
@@ -159,6 +146,28 @@ class Keeper:
                 return False
         found = self._docker.inspect(self._plan.container_name(one["session"]))
         return found is not None and ended_at(found["State"]) < now_s - KEPT_AFTER_END_S
+
+
+def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows at the gate
+    docker: Docker, gate: Gate, name: str, gate_id: str, config: dict[str, Any], token: str, timeout_s: float
+) -> None:
+    """Starts a container, and returns when it has taken its socket from the gate.
+
+    Raises:
+        KeeperError: it ended, or took too long; what is left of it is for the caller to clear.
+    """
+    arrived = gate.expect(gate_id, token)
+    docker.create(name, config)
+    docker.start(name)
+    deadline = time.monotonic() + timeout_s
+    while not arrived.wait(LOOK_EVERY_S):
+        state = (docker.inspect(name) or {}).get("State", {})
+        if not state.get("Running"):
+            reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
+            raise KeeperError(502, "executor_failed", reason, docker.log(name, LOG_LINES))
+        if time.monotonic() > deadline:
+            reason = f"The executor did not report that it is ready within {timeout_s:g} s."
+            raise KeeperError(504, "executor_slow", reason, docker.log(name, LOG_LINES))
 
 
 def ended_at(state: dict[str, Any]) -> float:

@@ -11,6 +11,8 @@ returns, a JSON object that the caller stores and hands back, also after a resta
     stop(state)      ends the executor and all that it started, politely at first. Returns when
                      nothing is left; stopping what has ended is no error.
     explain(state)   why an executor ended, where more is known than its status; else "".
+    open_tools(id, token)  where a user's tools listen (`executor.tools`), as the path of a unix socket;
+                     starts them if need be. LaunchError where a launcher has no containers for them.
     survives_server  whether executors outlive the web server. Where they do, two more are owed:
     running()        the ids of all sessions whose executors run, known to the database or not.
     state_of(id)     the state of a session of which only the id is known.
@@ -23,6 +25,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, Final
+
+from backend.sessions.errors import LaunchError
 
 State = Mapping[str, Any]
 UNKNOWN_EXIT: Final = -1
@@ -78,6 +82,10 @@ class Launcher:
     def explain(self, state: State) -> str:
         """Tells why an executor ended."""
         return ""
+
+    def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
+        """Tells where a user's tools listen."""
+        raise LaunchError("Without containers there are none for users' files.")
 
     def running(self) -> list[str]:
         """Names the sessions whose executors run."""

@@ -45,11 +45,15 @@ class DockerLauncher(Launcher):
             "timeout_s": spec.start_timeout_s,
         }
         status, answer = self._ask("POST", "/sessions", body, timeout_s=spec.start_timeout_s + MARGIN_S)
-        if status == FULL:
-            raise HostFullError(_detail(answer))
-        if status >= 400:
-            raise LaunchError(_detail(answer), hint=str(answer.get("log", "")))
+        _raise_for(status, answer)
         return Started(f"unix:{answer['socket']}", {"session": spec.session_id})
+
+    def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
+        """Where a user's tools listen, in a container that is started if need be."""
+        body = {"tools": tools_id, "token": token, "timeout_s": timeout_s}
+        status, answer = self._ask("POST", "/tools", body, timeout_s=timeout_s + MARGIN_S)
+        _raise_for(status, answer)
+        return str(answer["socket"])
 
     def poll(self, state: State) -> int | None:
         """What the keeper says; while it cannot be asked, executors are taken to run."""
@@ -102,6 +106,13 @@ class DockerLauncher(Launcher):
             raise LaunchError(f"The keeper of the executors does not answer: {error}.") from error
         answer = read_json(data)
         return status, answer if isinstance(answer, dict) else {}
+
+
+def _raise_for(status: int, answer: dict[str, Any]) -> None:
+    if status == FULL:
+        raise HostFullError(_detail(answer))
+    if status >= 400:
+        raise LaunchError(_detail(answer), hint=str(answer.get("log", "")))
 
 
 def _detail(answer: dict[str, Any]) -> str:

@@ -30,7 +30,8 @@ def test_findings_come_with_the_edits_that_mend_them(api):
 def test_a_configuration_beside_it_has_no_say(tmp_path, monkeypatch):
     (tmp_path / "ruff.toml").write_text("[format]\nquote-style = 'single'\n")
     monkeypatch.chdir(tmp_path)
-    assert ruff.format_source("x = 'a'\n", str(tmp_path / "Go.py")) == 'x = "a"\n'
+    formatted = ruff.format_source("x = 'a'\n", str(tmp_path / "Go.py"), ruff.run_beside)
+    assert formatted == 'x = "a"\n'
 
 
 @pytest.mark.parametrize("path", ["python/format", "python/lint"])

@@ -13,6 +13,7 @@ from backend.sessions.keeper.gate import Gate
 from backend.sessions.keeper.plan import Limits, Plan
 from backend.sessions.keeper.server import KeeperServer
 from backend.sessions.keeper.service import Keeper
+from backend.sessions.keeper.tools import ToolsKeeper
 from backend.sessions.launchers.docker import DockerLauncher
 from tests.fakes.docker import FakeDocker, gate_of
 
@@ -25,8 +26,10 @@ class Host:
         self.gate = Gate(gate_of(folder), self.folder / "sessions")
         self.docker = FakeDocker(folder / "docker.sock", gate_of(folder))
         plan = Plan(image, "gate", "stack", limits=Limits(memory_mb=512, hours=2))
-        self.keeper = Keeper(Docker(str(folder / "docker.sock")), self.gate, plan, max_sessions=max_sessions)
-        self.server = KeeperServer(self.folder / "keeper.sock", self.keeper)
+        engine = Docker(str(folder / "docker.sock"))
+        self.keeper = Keeper(engine, self.gate, plan, max_sessions=max_sessions)
+        self.tools = ToolsKeeper(engine, self.gate, plan, max_tools=max_sessions)
+        self.server = KeeperServer(self.folder / "keeper.sock", self.keeper, self.tools)
         self.launcher = DockerLauncher(self.folder)
         self._threads = [
             threading.Thread(target=target, daemon=True)

@@ -1,0 +1,103 @@
+"""Language servers in their users' containers: files and bytes go there, and nothing is read here."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import TYPE_CHECKING, Any
+
+from websockets.exceptions import ConnectionClosed
+
+from backend.language import tools
+from backend.language.errors import UnavailableError
+from backend.language.folder import Sync, python_of
+from backend.language.library import configuration
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from uuid import UUID
+
+    from websockets.asyncio.client import ClientConnection
+
+    from backend.accounts.models import User
+    from backend.language.servers import Server
+
+
+class ContainerServer:
+    """A language server behind a socket of `executor.tools`."""
+
+    def __init__(self, connection: ClientConnection, home: str) -> None:
+        self._connection = connection
+        self._home = home
+        self._sent: dict[str, bytes] = {}
+        self._memory_bytes = 0
+
+    @property
+    def root(self) -> str:
+        """The folder inside the container."""
+        return f"{self._home}/files"
+
+    async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
+        """Sends the first files, on which the server is started."""
+        await self._send_files({"pyrefly.toml": configuration(self.root, library, python)})
+        await self.sync(contents)
+
+    async def sync(self, contents: Mapping[str, bytes]) -> Sync:
+        """Sends what has changed since the last time."""
+        before, wanted = self._sent, python_of(contents)
+        self._sent = now = {path: hashlib.sha256(data).digest() for path, data in wanted.items()}
+        changed = {path for path in now.keys() & before.keys() if now[path] != before[path]}
+        created, deleted = now.keys() - before.keys(), before.keys() - now.keys()
+        files: dict[str, str | None] = {f"files/{path}": None for path in deleted}
+        files |= {f"files/{path}": wanted[path].decode(errors="replace") for path in created | changed}
+        await self._send_files(files)
+        return Sync(tuple(sorted(created)), tuple(sorted(changed)), tuple(sorted(deleted)))
+
+    async def _send_files(self, files: Mapping[str, str | None]) -> None:
+        await self._send(json.dumps({"files": files}))
+
+    async def _send(self, data: str | bytes) -> None:
+        try:
+            await self._connection.send(data)
+        except ConnectionClosed as error:
+            raise BrokenPipeError("the language server has ended") from error
+
+    async def write(self, data: bytes) -> None:
+        """Hands bytes over."""
+        await self._send(data)
+
+    async def read(self) -> bytes:
+        """The next bytes; what is told besides is noted."""
+        try:
+            while isinstance(message := await self._connection.recv(), str):
+                self._memory_bytes = int(json.loads(message)["memory_bytes"])
+        except ConnectionClosed:
+            return b""
+        return message
+
+    def memory_bytes(self) -> int:
+        """What was told last, a second ago at most."""
+        return self._memory_bytes
+
+    async def stop(self) -> None:
+        """Closes the socket, at which the server ends and its folder goes."""
+        await self._connection.close()
+
+    async def forget(self) -> None:
+        """Nothing is kept anyway."""
+
+
+class ContainerLauncher:
+    """Starts language servers where a user's tools are."""
+
+    async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
+        """Opens a socket to the tools, and sends the files."""
+        connection = await tools.open_editor(user)
+        try:
+            told: dict[str, Any] = json.loads(await connection.recv())
+            server = ContainerServer(connection, str(told["home"]))
+            await server.begin(contents, str(told["library"]), str(told["python"]))
+        except (OSError, ConnectionClosed, ValueError, KeyError) as error:
+            await connection.close()
+            raise UnavailableError("The language server cannot be started.") from error
+        return server

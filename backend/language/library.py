@@ -1,0 +1,43 @@
+"""What all Python of a project can import, for a language server: the engine, and stubs of ROS messages.
+
+On localhost the folder is made beside the data (`folder.py`); for containers it is made with their image:
+`python -m backend.language.library SITE_PACKAGES REPOSITORY FOLDER`.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Final
+
+from backend.language import message_stubs
+
+ENGINE: Final = ("tree_gardener",)
+# `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
+_TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
+
+
+def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
+    """Fills a new folder."""
+    folder.mkdir(parents=True)
+    message_stubs.write_message_stubs(site_packages, folder)
+    for package in ENGINE:
+        (folder / package).symlink_to(repository / package, target_is_directory=True)
+    (folder / "tree_tools.py").write_text(_TREE_TOOLS)
+
+
+def configuration(files: str, library: str, python: str) -> str:
+    """The language server's `pyrefly.toml`: where the project's files are, and what they can import."""
+    values = {
+        "project-includes": [f"{files}/**/*.py"],
+        # Neighbours are imported as `actions.<Name>` or by their bare name, as the engine's loader has it.
+        "search-path": [files, f"{files}/actions", library],
+        "python-interpreter-path": python,
+    }
+    # JSON's strings and lists are TOML's.
+    return "".join(f"{name} = {json.dumps(value)}\n" for name, value in values.items())
+
+
+if __name__ == "__main__":
+    make_library(*(Path(argument) for argument in sys.argv[1:4]))

@@ -1,0 +1,43 @@
+"""Where help with Python comes from: a child process on localhost, a container where there are containers."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from backend.config.environment import environment
+from backend.language import ruff, tools
+from backend.language.containers import ContainerLauncher
+from backend.language.errors import CheckerUnavailableError, UnavailableError
+from backend.language.servers import Launcher, ProcessLauncher
+
+if TYPE_CHECKING:
+    from backend.accounts.models import User
+
+_MISSING = "This server has no containers, and without them it offers no help with Python."
+
+
+def launcher() -> Launcher:
+    """What starts language servers here.
+
+    Raises:
+        UnavailableError: nothing does.
+    """
+    if environment().launcher == "docker":
+        return ContainerLauncher()
+    if environment().mode == "team":
+        raise UnavailableError(_MISSING)
+    return ProcessLauncher()
+
+
+def checker(user: User) -> ruff.Run:
+    """What runs ruff here.
+
+    Raises:
+        CheckerUnavailableError: nothing does.
+    """
+    if environment().launcher == "docker":
+        return partial(tools.run_ruff, user)
+    if environment().mode == "team":
+        raise CheckerUnavailableError(_MISSING)
+    return ruff.run_beside

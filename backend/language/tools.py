@@ -1,0 +1,113 @@
+"""How the web server reaches a user's tools: a container of their own that reads files for the editor.
+
+The container is `executor.tools`, started by the launcher of the sessions. Its id and token follow from the
+user, so that every web server finds the same one, and nothing is stored.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import json
+import time
+from typing import TYPE_CHECKING, Any, Final
+from uuid import UUID, uuid5
+
+from asgiref.sync import sync_to_async
+from django.conf import settings
+from websockets.asyncio.client import ClientConnection, unix_connect
+from websockets.exceptions import InvalidHandshake, WebSocketException
+from websockets.sync.client import unix_connect as sync_unix_connect
+
+from backend.config.environment import environment
+from backend.language.errors import CheckerUnavailableError, UnavailableError
+from backend.sessions.actions import launcher
+from backend.sessions.errors import HostFullError, LaunchError
+
+if TYPE_CHECKING:
+    from backend.accounts.models import User
+
+_NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
+ANSWER_S: Final = 15.0
+# Tools that end just now are found ended a moment later.
+_ATTEMPTS: Final = 3
+_PAUSE_S: Final = 0.3
+_MAX_BYTES: Final = 16 << 20
+_paths: Final[dict[str, str]] = {}
+
+
+def tools_id(user: User) -> str:
+    """The id of a user's tools."""
+    return str(uuid5(_NAMESPACE, str(user.pk)))
+
+
+def token(made_id: str) -> str:
+    """The secret between web server and tools."""
+    return hmac.new(settings.SECRET_KEY.encode(), f"tools {made_id}".encode(), hashlib.sha256).hexdigest()
+
+
+def _path(made_id: str, *, is_known_good: bool) -> str:
+    """Where the tools listen; the launcher is asked unless they were there a moment ago."""
+    if not is_known_good or made_id not in _paths:
+        limit_s = environment().session_start_timeout_s
+        _paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
+    return _paths[made_id]
+
+
+def _options(made_id: str) -> dict[str, Any]:
+    headers = {"Authorization": f"Bearer {token(made_id)}"}
+    return {
+        "additional_headers": headers,
+        "compression": None,
+        "max_size": _MAX_BYTES,
+        "open_timeout": ANSWER_S,
+    }
+
+
+async def open_editor(user: User) -> ClientConnection:
+    """Opens the socket of one editor.
+
+    Raises:
+        UnavailableError: the tools cannot be started, or do not answer.
+    """
+    made_id = tools_id(user)
+    problem: Exception = TimeoutError()
+    for attempt in range(_ATTEMPTS):
+        try:
+            path = await sync_to_async(_path, thread_sensitive=False)(made_id, is_known_good=attempt == 0)
+            return await unix_connect(
+                path, "ws://localhost/language", ping_interval=None, **_options(made_id)
+            )
+        except HostFullError as error:
+            raise UnavailableError("Too many people edit Python on this server just now.") from error
+        except LaunchError as error:
+            raise UnavailableError(f"The language server cannot be started: {error.detail}") from error
+        except (OSError, InvalidHandshake) as error:
+            problem = error
+            await sync_to_async(time.sleep, thread_sensitive=False)(_PAUSE_S * attempt)
+    raise UnavailableError("The language server does not answer.") from problem
+
+
+def run_ruff(user: User, arguments: list[str], source: str) -> tuple[int | None, str]:
+    """Runs ruff in a user's tools; returns status and output, None as status when it took too long.
+
+    Raises:
+        CheckerUnavailableError: the tools cannot be started, or do not answer.
+    """
+    made_id = tools_id(user)
+    problem: Exception = TimeoutError()
+    for attempt in range(_ATTEMPTS):
+        try:
+            path = _path(made_id, is_known_good=attempt == 0)
+            with sync_unix_connect(path, "ws://localhost/ruff", **_options(made_id)) as socket:
+                socket.send(json.dumps({"arguments": arguments, "source": source}))
+                answer = json.loads(socket.recv(timeout=ANSWER_S))
+                return answer["status"], answer["output"]
+        except LaunchError as error:
+            raise CheckerUnavailableError(error.detail) from error
+        except HostFullError as error:
+            raise CheckerUnavailableError("Too many people edit Python on this server just now.") from error
+        except (OSError, WebSocketException) as error:
+            problem = error
+            time.sleep(_PAUSE_S * attempt)
+    raise CheckerUnavailableError("The formatter does not answer.") from problem

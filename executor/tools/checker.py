@@ -1,0 +1,44 @@
+"""One run of ruff on a text: bounded in time, and with no configuration but its arguments."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from websockets.asyncio.server import ServerConnection
+
+__all__ = ["run_ruff", "serve_checker"]
+
+TIMEOUT_S: Final = 5.0
+PROGRAM: Final = str(Path(sys.executable).with_name("ruff"))
+
+
+async def serve_checker(connection: ServerConnection) -> None:
+    """Takes `{arguments, source}`, answers `{status, output}`; a status of null: it took too long."""
+    asked = json.loads(await connection.recv())
+    await connection.send(json.dumps(await run_ruff(asked["arguments"], asked["source"])))
+
+
+async def run_ruff(arguments: list[str], source: str, program: str = PROGRAM) -> dict[str, Any]:
+    """Runs the program on a source."""
+    process = await asyncio.create_subprocess_exec(
+        program,
+        *arguments,
+        stdin=asyncio.subprocess.PIPE,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.DEVNULL,
+        cwd="/",
+        env={"PATH": os.defpath, "LANG": "C.UTF-8", "RAYON_NUM_THREADS": "1"},
+    )
+    try:
+        output, _ = await asyncio.wait_for(process.communicate(source.encode()), TIMEOUT_S)
+    except TimeoutError:
+        process.kill()
+        await process.wait()
+        return {"status": None, "output": ""}
+    return {"status": process.returncode, "output": output.decode()}

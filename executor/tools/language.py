@@ -1,0 +1,136 @@
+"""One open editor: a folder with its project's Python, and a language server on it.
+
+We begin with `{home, library, python}`, which the web server needs to know for the configuration that it
+writes. Then it sends
+
+    {"files": {path: text, or null to remove}}   as text; the first starts the language server
+    what the editor says                         as bytes, handed on as they are
+
+and gets the language server's bytes, and now and then `{"memory_bytes": n}` as text. Order is kept: a file
+that was sent before some bytes is there when the language server reads them. The connection ends when either
+side does, with a reason if the folder has no room.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import os
+import sys
+from pathlib import Path, PurePosixPath
+from typing import TYPE_CHECKING, Final
+
+import psutil
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from websockets.asyncio.server import ServerConnection
+
+__all__ = ["LIBRARY", "put_files", "serve_editor"]
+
+# What every project can import; made when the image is built.
+LIBRARY: Final = "/opt/bt-studio/library"
+COMMAND: Final = (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
+STOP_S: Final = 2.0
+WATCH_S: Final = 1.0
+NO_ROOM: Final = 1011
+_CHUNK_BYTES: Final = 64 * 1024
+
+
+async def serve_editor(connection: ServerConnection, home: Path, command: tuple[str, ...] = COMMAND) -> None:
+    """Serves one editor in an empty folder of its own, until either side ends."""
+    told = {"home": str(home), "library": LIBRARY, "python": sys.executable}
+    await connection.send(json.dumps(told))
+    try:
+        put_files(home, json.loads(await connection.recv())["files"])
+    except OSError as error:
+        await connection.close(NO_ROOM, _reason(error))
+        return
+    process = await asyncio.create_subprocess_exec(
+        *command,
+        cwd=home,
+        env={"PATH": os.defpath, "HOME": str(home), "LANG": "C.UTF-8"},
+        stdin=asyncio.subprocess.PIPE,
+        stdout=asyncio.subprocess.PIPE,
+        stderr=asyncio.subprocess.DEVNULL,
+    )
+    try:
+        await _relay(connection, process, home)
+    finally:
+        await _end(process)
+
+
+async def _relay(connection: ServerConnection, process: asyncio.subprocess.Process, home: Path) -> None:
+    steps = (_inward(connection, process, home), _outward(connection, process), _watch(connection, process))
+    tasks = [asyncio.create_task(step) for step in steps]
+    try:
+        await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _inward(connection: ServerConnection, process: asyncio.subprocess.Process, home: Path) -> None:
+    assert process.stdin is not None  # noqa: S101 - for the type checker
+    async for message in connection:
+        if isinstance(message, bytes):
+            process.stdin.write(message)
+            await process.stdin.drain()
+            continue
+        try:
+            put_files(home, json.loads(message)["files"])
+        except OSError as error:
+            await connection.close(NO_ROOM, _reason(error))
+            return
+
+
+async def _outward(connection: ServerConnection, process: asyncio.subprocess.Process) -> None:
+    assert process.stdout is not None  # noqa: S101 - for the type checker
+    while data := await process.stdout.read(_CHUNK_BYTES):
+        await connection.send(data)
+
+
+async def _watch(connection: ServerConnection, process: asyncio.subprocess.Process) -> None:
+    while True:
+        await asyncio.sleep(WATCH_S)
+        with contextlib.suppress(psutil.Error):
+            held = int(psutil.Process(process.pid).memory_info().rss)
+            await connection.send(json.dumps({"memory_bytes": held}))
+
+
+async def _end(process: asyncio.subprocess.Process) -> None:
+    assert process.stdin is not None  # noqa: S101 - for the type checker
+    process.stdin.close()
+    try:
+        await asyncio.wait_for(process.wait(), STOP_S)
+    except TimeoutError:
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+        await process.wait()
+
+
+def put_files(home: Path, files: Mapping[str, str | None]) -> None:
+    """Writes and removes files below a folder.
+
+    Raises:
+        OSError: a path leads out of it, or there is no room.
+    """
+    for path, text in files.items():
+        parts = PurePosixPath(path).parts
+        if not parts or path.startswith("/") or ".." in parts:
+            raise PermissionError(f"{path!r} is no place in the folder")
+        target = home.joinpath(*parts)
+        if text is None:
+            target.unlink(missing_ok=True)
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        partial = target.with_name(f".{target.name}.partial")
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(target)
+
+
+def _reason(error: OSError) -> str:
+    return (error.strerror or str(error))[:100]

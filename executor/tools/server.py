@@ -1,0 +1,90 @@
+"""The socket of the tools: `/language` for an open editor, `/ruff` for one run of the checker."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hmac
+import tempfile
+from http import HTTPStatus
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from websockets.asyncio.server import ServerConnection, unix_serve
+from websockets.exceptions import ConnectionClosed
+
+from executor.tools.checker import serve_checker
+from executor.tools.language import serve_editor
+
+if TYPE_CHECKING:
+    import socket
+
+    from websockets.http11 import Request, Response
+
+__all__ = ["ToolsServer"]
+
+MAX_MESSAGE_BYTES: Final = 300 << 20  # all Python of the largest project, once
+MAX_CLIENTS: Final = 16
+HEARTBEAT_S: Final = 15.0
+
+
+class ToolsServer:
+    """Serves the editors of one user.
+
+    Args:
+        listener: the unix socket to listen at.
+        token: clients must send it as `Authorization: Bearer`.
+        grace_s: how long it stays without clients.
+    """
+
+    def __init__(self, listener: socket.socket, token: str, *, grace_s: float) -> None:
+        self._listener = listener
+        self._expected = f"Bearer {token}".encode()
+        self._grace_s = grace_s
+        self._clients = 0
+        self._ended = asyncio.Event()
+        self._timer: asyncio.TimerHandle | None = None
+
+    async def run(self) -> None:
+        """Serves until `end`, or until nobody has come for the time of grace."""
+        with tempfile.TemporaryDirectory(prefix="bt-studio-tools-") as folder:
+            self._root = Path(folder)
+            options = {"process_request": self._check, "max_size": MAX_MESSAGE_BYTES, "compression": None}
+            options |= {"ping_interval": HEARTBEAT_S, "ping_timeout": HEARTBEAT_S}
+            async with unix_serve(self._serve, sock=self._listener, **options):  # type: ignore[arg-type]
+                self._wait_for_clients()
+                await self._ended.wait()
+
+    def end(self) -> None:
+        """Has `run` return."""
+        self._ended.set()
+
+    def _wait_for_clients(self) -> None:
+        self._timer = asyncio.get_running_loop().call_later(self._grace_s, self.end)
+
+    def _check(self, connection: ServerConnection, request: Request) -> Response | None:
+        given = request.headers.get("Authorization", "").encode()
+        if not hmac.compare_digest(given, self._expected):
+            return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
+        if request.path not in {"/language", "/ruff"}:
+            return connection.respond(HTTPStatus.NOT_FOUND, "There are /language and /ruff.\n")
+        if self._clients >= MAX_CLIENTS:
+            return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many editors.\n")
+        return None
+
+    async def _serve(self, connection: ServerConnection) -> None:
+        assert connection.request is not None  # noqa: S101 - the handshake is over
+        self._clients += 1
+        if self._timer is not None:
+            self._timer.cancel()
+        try:
+            with contextlib.suppress(ConnectionClosed):
+                if connection.request.path == "/ruff":
+                    await serve_checker(connection)
+                else:
+                    with tempfile.TemporaryDirectory(dir=self._root) as home:
+                        await serve_editor(connection, Path(home))
+        finally:
+            self._clients -= 1
+            if not self._clients:
+                self._wait_for_clients()

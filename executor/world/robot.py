@@ -12,6 +12,7 @@ import numpy as np
 from executor.robots.prepare import physical_urdf
 from executor.world.collision import Collision, CollisionCounter
 from executor.world.drive import DifferentialDrive, DriveState, Odometry
+from executor.world.joints import JointMotors
 from executor.world.kinematics import add_links, link_pose, sensor_placements
 from executor.world.lidar import LidarCaster
 from executor.world.senses import Senses
@@ -44,8 +45,8 @@ class _Saved:
     at: tuple[float, float]
     noise: Mapping[str, Any]
     senses: object
-
     motors: object
+
 
 class BulletRobot:
     """A robot with a differential drive, made from its configuration."""
@@ -69,9 +70,9 @@ class BulletRobot:
         self._senses = Senses(config, (seed, index), self._pose_of)
         self._joints, self._links = self._index_links()
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
+        self._motors = JointMotors(bullet, self.uid, config, self._joints)
         self._wheel_links = {self._links[name] for name in config.wheels}
         self._inertial = self._inertial_inverse()
-        self._motors = JointMotors(bullet, self.uid, config, self._joints)
         self._applied: tuple[float, float] | None = None
         self._at = self.pose[:2]
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
@@ -121,12 +122,12 @@ class BulletRobot:
         """Wants no motion any more."""
         self._drive.command(0.0, 0.0, self._clock_s)
 
-    def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Position and rate of each joint that has a motor, the wheels' first."""
     def command_joint(self, joint: str, position: float) -> bool:
         """Sets where a joint with a motor is wanted; refuses what is no number."""
         return self._motors.command(joint, position)
 
+    def joint_states(self) -> dict[str, tuple[float, float]]:
+        """Position and rate of each joint that has a motor, the wheels' first."""
         names = (*self.config.drive.left, *self.config.drive.right)
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
         wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
@@ -160,10 +161,10 @@ class BulletRobot:
         rates = self._drive.wheel_rates(now_s, dt_s) if self._senses.has_power else (0.0, 0.0)
         if rates != self._applied:
             self._apply(rates)
-
-    def measure(self, now_s: float, dt_s: float) -> None:
         if self._motors and self._senses.has_power:
             self._motors.control()
+
+    def measure(self, now_s: float, dt_s: float) -> None:
         """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
@@ -217,10 +218,10 @@ class BulletRobot:
         self.distance_m, self._at = saved.distance_m, saved.at
         self._noise.bit_generator.state = saved.noise
         self._senses.restore(saved.senses)
+        self._motors.restore(saved.motors)
         drive = self.config.drive
         half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
         linear, turn = saved.drive.linear, saved.drive.angular * half_track
-        self._motors.restore(saved.motors)
         rates = ((linear - turn) / radius, (linear + turn) / radius)
         self._apply(rates if self._senses.has_power else (0.0, 0.0))
 

@@ -1,0 +1,260 @@
+import type { Op } from './ops';
+import { sameValue } from './ops';
+import { rounded, turned } from './geometry';
+import {
+  isObject,
+  thingOf,
+  valueAt,
+  type ActorThing,
+  type Json,
+  type JsonObject,
+  type Path,
+  type Point,
+  type Pose,
+  type Section,
+  type Thing,
+  type Universe,
+} from './types';
+
+/** A change of a universe, and what is selected after it. */
+export interface Edit {
+  readonly ops: readonly Op[];
+  readonly select?: readonly string[];
+}
+
+const placeOf = ({ section, index }: Thing): Path => [section, index];
+
+/** The robot that a document has without naming one must be written before it can be changed. */
+function written(universe: Universe, things: readonly Thing[]): Op[] {
+  const isImplied = things.some(({ section }) => section === 'robots') && !('robots' in universe.raw);
+  return isImplied ? [{ kind: 'set', path: ['robots'], value: [IMPLIED_ROBOT] }] : [];
+}
+
+const IMPLIED_ROBOT: JsonObject = { id: 'robot', model: 'turtle2', pose: [0, 0, 0, 0, 0, 0] };
+
+const found = (universe: Universe, keys: readonly string[]): Thing[] =>
+  keys.map((key) => thingOf(universe, key)).filter((thing) => thing !== undefined);
+
+/** Puts things elsewhere: by key, a pose, or a way for people. */
+export function place(universe: Universe, places: ReadonlyMap<string, Pose | readonly Point[]>): Edit {
+  const things = found(universe, [...places.keys()]);
+  const ops = things.flatMap((thing): Op[] => {
+    const where = places.get(thing.key);
+    if (where === undefined) return [];
+    const field = thing.section === 'actors' ? 'path' : 'pose';
+    const value = tidy(where as Json);
+    return [{ kind: 'set', path: [...placeOf(thing), field], value }];
+  });
+  return { ops: [...written(universe, things), ...ops] };
+}
+
+/** Numbers as one writes them: tenths of a millimetre are the last that count. */
+function tidy(value: Json): Json {
+  if (Array.isArray(value)) return (value as Json[]).map(tidy);
+  return typeof value === 'number' ? rounded(value) : value;
+}
+
+/** Moves things by metres along x, y and z; people stay on the ground. */
+export function move(
+  universe: Universe,
+  keys: readonly string[],
+  [dx, dy, dz]: readonly [number, number, number],
+): Edit {
+  const places = new Map(
+    found(universe, keys).map((thing): [string, Pose | readonly Point[]] => {
+      if (thing.section === 'actors') return [thing.key, thing.path.map(([x, y]): Point => [x + dx, y + dy])];
+      const [x, y, z, ...angles] = thing.pose;
+      return [thing.key, [x + dx, y + dy, z + dz, ...angles]];
+    }),
+  );
+  return place(universe, places);
+}
+
+/** Turns things together about an upright axis through a point, by rad. */
+export function turn(universe: Universe, keys: readonly string[], angle: number, pivot: Point): Edit {
+  const places = new Map(
+    found(universe, keys).map((thing): [string, Pose | readonly Point[]] => {
+      if (thing.section === 'actors')
+        return [thing.key, thing.path.map((point) => turned(point, angle, pivot))];
+      const [x, y, z, roll, pitch, yaw] = thing.pose;
+      return [thing.key, [...turned([x, y], angle, pivot), z, roll, pitch, wrapped(yaw + angle)]];
+    }),
+  );
+  return place(universe, places);
+}
+
+/** Between -pi and pi, as one reads it. */
+const wrapped = (angle: number): number => {
+  const turn = ((((angle + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
+  return Math.abs(turn + Math.PI) < 1e-9 ? Math.PI : turn;
+};
+
+/** Sets a field of a thing; undefined takes it out, so that the default counts. */
+export function setField(universe: Universe, key: string, field: string, value: Json | undefined): Edit {
+  const [thing] = found(universe, [key]);
+  if (!thing) return { ops: [] };
+  const path = [...placeOf(thing), field];
+  const now = valueAt(universe.raw, path);
+  const next = value === undefined ? undefined : tidy(value);
+  if (sameValue(now, next)) return { ops: [] };
+  const op: Op = next === undefined ? { kind: 'unset', path } : { kind: 'set', path, value: next };
+  return { ops: [...written(universe, [thing]), op] };
+}
+
+export function setFieldOfAll(universe: Universe, keys: readonly string[], field: string, value: Json): Edit {
+  return { ops: keys.flatMap((key) => setField(universe, key, field, value).ops) };
+}
+
+/** Sets something of the world itself: its name, ground, lights, view. */
+export function setWorld(universe: Universe, path: Path, value: Json): Edit {
+  if (sameValue(valueAt(universe.raw, path), value)) return { ops: [] };
+  const [top] = path;
+  const isLight = top === 'lights' && !('lights' in universe.raw);
+  const before: Op[] = isLight
+    ? [
+        {
+          kind: 'set',
+          path: ['lights'],
+          value: universe.lights.map((light) => ({ ...light })) as unknown as Json,
+        },
+      ]
+    : [];
+  // A mapping that is not there yet is written with what is set in it.
+  const isNew =
+    path.length === 2 &&
+    typeof top === 'string' &&
+    !isLight &&
+    !isObject(universe.raw[top]) &&
+    top !== 'lights';
+  const op: Op = isNew
+    ? { kind: 'set', path: [top], value: { [String(path[1])]: tidy(value) } }
+    : { kind: 'set', path, value: tidy(value) };
+  return { ops: [...before, op] };
+}
+
+/** An id that nothing bears yet: the wish itself, or with a number. */
+export function freeId(universe: Universe, wish: string): string {
+  const taken = new Set(['ground', ...universe.things.map(({ id }) => id)]);
+  if (!taken.has(wish)) return wish;
+  const stem = wish.replace(/_\d+$/, '');
+  for (let count = 2; ; count += 1) if (!taken.has(`${stem}_${count}`)) return `${stem}_${count}`;
+}
+
+const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
+
+/** Why a thing cannot be called so; null where it can. */
+export function idProblem(universe: Universe, key: string, id: string): 'name' | 'sameId' | 'tooLong' | null {
+  if (!ID.test(id)) return 'name';
+  if (id.length > 80) return 'tooLong';
+  const isTaken = id === 'ground' || universe.things.some((thing) => thing.id === id && thing.key !== key);
+  return isTaken ? 'sameId' : null;
+}
+
+/** Adds things to the end of a section. */
+export function add(universe: Universe, section: Section, things: readonly JsonObject[]): Edit {
+  const select = things.map(({ id }) => String(id));
+  if (things.length === 0) return { ops: [] };
+  const implied = section === 'robots' ? written(universe, universe.things) : [];
+  const list = implied.length > 0 ? [IMPLIED_ROBOT] : universe.raw[section];
+  const op: Op = Array.isArray(list)
+    ? { kind: 'insert', path: [section], index: list.length, values: things }
+    : { kind: 'set', path: [section], value: things };
+  return { ops: [...implied, op], select };
+}
+
+/** What a section's item says, as a value of its own. */
+export const valueOf = (universe: Universe, thing: Thing): JsonObject => {
+  const value = valueAt(universe.raw, placeOf(thing));
+  return isObject(value) ? value : IMPLIED_ROBOT;
+};
+
+/** Copies things, so many metres beside themselves. */
+export function duplicate(universe: Universe, keys: readonly string[], [dx, dy]: Point): Edit {
+  const ids: string[] = [];
+  const added = new Map<Section, JsonObject[]>();
+  for (const thing of found(universe, keys)) {
+    const taken = { ...universe, things: [...universe.things, ...ids.map((id) => ({ ...thing, id }))] };
+    const id = freeId(taken, thing.id || 'thing');
+    ids.push(id);
+    const copy = { ...valueOf(universe, thing), id, ...shifted(thing, dx, dy) };
+    added.set(thing.section, [...(added.get(thing.section) ?? []), copy]);
+  }
+  const ops = [...added].flatMap(([section, things]) => add(universe, section, things).ops);
+  return { ops, select: ids };
+}
+
+function shifted(thing: Thing, dx: number, dy: number): JsonObject {
+  if (thing.section === 'actors') {
+    return { path: thing.path.map(([x, y]) => [rounded(x + dx), rounded(y + dy)]) };
+  }
+  const [x, y, ...rest] = thing.pose;
+  return { pose: [rounded(x + dx), rounded(y + dy), ...rest] };
+}
+
+/** Deletes things, and what `random` says of them. */
+export function remove(universe: Universe, keys: readonly string[]): Edit {
+  const things = found(universe, keys);
+  const ids = new Set(things.map(({ id }) => id));
+  const ops = (['models', 'actors', 'robots'] as const).flatMap((section): Op[] => {
+    const indexes = things.filter((thing) => thing.section === section).map(({ index }) => index);
+    return indexes.length > 0 ? [{ kind: 'remove', path: [section], indexes }] : [];
+  });
+  return {
+    ops: [...written(universe, things), ...ops, ...withoutRandom(universe, (id) => ids.has(id))],
+    select: [],
+  };
+}
+
+const randomId = (key: string): string => key.split('.')[0] ?? '';
+
+function withoutRandom(universe: Universe, isGone: (id: string) => boolean): Op[] {
+  const { random } = universe.raw;
+  if (!isObject(random)) return [];
+  const gone = Object.keys(random).filter((key) => isGone(randomId(key)));
+  if (gone.length > 0 && gone.length === Object.keys(random).length)
+    return [{ kind: 'unset', path: ['random'] }];
+  return gone.map((key) => ({ kind: 'unset', path: ['random', key] }));
+}
+
+/** Gives a thing another id, also where `random` names it. */
+export function rename(universe: Universe, key: string, id: string): Edit {
+  const [thing] = found(universe, [key]);
+  if (!thing || thing.id === id || idProblem(universe, key, id) !== null) return { ops: [] };
+  const { ops } = setField(universe, key, 'id', id);
+  const { random } = universe.raw;
+  const names = isObject(random) ? Object.keys(random).filter((name) => randomId(name) === thing.id) : [];
+  if (names.length === 0 || !isObject(random)) return { ops, select: [id] };
+  const renamed = Object.entries(random).map(([name, range]) => [
+    names.includes(name) ? name.replace(thing.id, id) : name,
+    range,
+  ]);
+  const op: Op = { kind: 'set', path: ['random'], value: Object.fromEntries(renamed) as JsonObject };
+  return { ops: [...ops, op], select: [id] };
+}
+
+/** Puts one point of a person's way elsewhere. */
+export function setWaypoint(universe: Universe, key: string, at: number, point: Point): Edit {
+  const actor = actorOf(universe, key);
+  if (!actor || at >= actor.path.length) return { ops: [] };
+  return place(universe, new Map([[key, actor.path.map((own, index) => (index === at ? point : own))]]));
+}
+
+/** Adds a point to a person's way, after the one that is named. */
+export function addWaypoint(universe: Universe, key: string, after: number, point: Point): Edit {
+  const actor = actorOf(universe, key);
+  if (!actor) return { ops: [] };
+  const value: Json = [rounded(point[0]), rounded(point[1])];
+  return { ops: [{ kind: 'insert', path: [...placeOf(actor), 'path'], index: after + 1, values: [value] }] };
+}
+
+/** Takes a point out of a person's way; the last one stays. */
+export function removeWaypoint(universe: Universe, key: string, at: number): Edit {
+  const actor = actorOf(universe, key);
+  if (!actor || actor.path.length < 2 || at >= actor.path.length) return { ops: [] };
+  return { ops: [{ kind: 'remove', path: [...placeOf(actor), 'path'], indexes: [at] }] };
+}
+
+function actorOf(universe: Universe, key: string): ActorThing | null {
+  const [thing] = found(universe, [key]);
+  return thing?.section === 'actors' ? thing : null;
+}

@@ -1,0 +1,49 @@
+import { isObject, type Json, type JsonObject, type Path } from './types';
+
+/** A small change of a document. Indexes of `remove` count in the list as it was before. */
+export type Op =
+  | { readonly kind: 'set'; readonly path: Path; readonly value: Json }
+  | { readonly kind: 'unset'; readonly path: Path }
+  | { readonly kind: 'insert'; readonly path: Path; readonly index: number; readonly values: readonly Json[] }
+  | { readonly kind: 'remove'; readonly path: Path; readonly indexes: readonly number[] };
+
+/** What a document says after the changes, one after the other. */
+export function applyOps(raw: JsonObject, ops: readonly Op[]): JsonObject {
+  return ops.reduce<JsonObject>((value, op) => applied(value, op.path, op) as JsonObject, raw);
+}
+
+function applied(value: Json | undefined, path: Path, op: Op): Json {
+  const [step, ...rest] = path;
+  if (step === undefined) return changed(value, op);
+  if (Array.isArray(value)) {
+    return (value as Json[]).map((part, index) => (index === step ? applied(part, rest, op) : part));
+  }
+  const map = isObject(value) ? value : {};
+  if (rest.length === 0 && op.kind === 'unset') {
+    const { [step]: _gone, ...others } = map;
+    return others;
+  }
+  return { ...map, [step]: applied(map[step], rest, op) };
+}
+
+function changed(value: Json | undefined, op: Op): Json {
+  if (op.kind === 'set') return op.value;
+  const list = Array.isArray(value) ? (value as Json[]) : [];
+  if (op.kind === 'insert') return [...list.slice(0, op.index), ...op.values, ...list.slice(op.index)];
+  if (op.kind === 'remove') return list.filter((_, index) => !op.indexes.includes(index));
+  return value ?? null;
+}
+
+/** Whether two values say the same; the order of keys says nothing. */
+export function sameValue(a: Json | undefined, b: Json | undefined): boolean {
+  if (Array.isArray(a) || Array.isArray(b)) {
+    if (!Array.isArray(a) || !Array.isArray(b) || a.length !== b.length) return false;
+    return (a as Json[]).every((part, index) => sameValue(part, (b as Json[])[index]));
+  }
+  if (!isObject(a) || !isObject(b)) return a === b;
+  const keys = Object.keys(a);
+  return (
+    keys.length === Object.keys(b).length &&
+    keys.every((key) => Object.hasOwn(b, key) && sameValue(a[key], b[key]))
+  );
+}

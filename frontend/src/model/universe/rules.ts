@@ -1,0 +1,116 @@
+import { checkSchema, type Issue } from './schema';
+import {
+  FILES,
+  isObject,
+  SECTIONS,
+  SIZE_MEANING,
+  type Json,
+  type JsonObject,
+  type Path,
+  type Shape,
+} from './types';
+import schema from '@/generated/universe.schema.json';
+
+const AXES = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'];
+const RANDOM_KEY = /^(?<id>[\w-]+)\.(?:pose\.(?<axis>\w+)|(?<field>mass|friction|speed))$/;
+
+/** What `random` may vary, by section. */
+const VARIABLE: Readonly<Record<string, readonly string[]>> = {
+  models: ['pose', 'mass', 'friction'],
+  actors: ['speed'],
+  robots: ['pose'],
+};
+
+/**
+ * Everything wrong with a document: first what its schema says, which the simulator's own model is
+ * written as, then what no schema can say (executor/universes/model.py).
+ */
+export function checkUniverse(raw: Json): Issue[] {
+  const found = checkSchema(raw, schema);
+  if (!isObject(raw)) return found;
+  const models = Array.isArray(raw['models']) ? (raw['models'] as Json[]) : [];
+  const own = models.flatMap((model, index) => (isObject(model) ? checkModel(model, ['models', index]) : []));
+  return [...found, ...own, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
+}
+
+function checkModel(model: JsonObject, path: Path): Issue[] {
+  const shape = model['shape'];
+  if (typeof shape !== 'string' || !Object.hasOwn(SIZE_MEANING, shape)) return [];
+  const found = [...checkFile(model, shape as Shape, path), ...checkSize(model, shape as Shape, path)];
+  const isHeavy = typeof model['mass'] === 'number' && model['mass'] > 0;
+  if (isHeavy && shape === 'plane') found.push({ path: [...path, 'mass'], kind: 'planeMass', params: {} });
+  else if (isHeavy && model['solid'] === false) {
+    found.push({ path: [...path, 'mass'], kind: 'ghostMass', params: {} });
+  }
+  return found;
+}
+
+function checkFile(model: JsonObject, shape: Shape, path: Path): Issue[] {
+  const file = typeof model['file'] === 'string' ? model['file'] : '';
+  const wanted = FILES[shape];
+  if (!wanted) return file ? [{ path: [...path, 'file'], kind: 'noFile', params: { shape } }] : [];
+  if (!file) return [{ path, kind: 'needsFile', params: { shape } }];
+  return wanted.test(file) ? [] : [{ path: [...path, 'file'], kind: 'wrongFile', params: { shape } }];
+}
+
+function checkSize(model: JsonObject, shape: Shape, path: Path): Issue[] {
+  const size = Array.isArray(model['size']) ? (model['size'] as Json[]) : [];
+  const meaning = SIZE_MEANING[shape];
+  if (size.length === meaning.length || (size.length === 0 && shape === 'mesh')) return [];
+  const at = 'size' in model ? [...path, 'size'] : path;
+  return [
+    { path: at, kind: meaning.length === 0 ? 'noSize' : 'size', params: { shape, count: meaning.length } },
+  ];
+}
+
+function checkLights(raw: JsonObject): Issue[] {
+  const lights = Array.isArray(raw['lights']) ? (raw['lights'] as Json[]) : [];
+  return lights.flatMap((light, index) => {
+    const direction = isObject(light) ? light['direction'] : undefined;
+    if (!Array.isArray(direction) || direction.length !== 3 || direction.some((part) => part !== 0))
+      return [];
+    return [{ path: ['lights', index, 'direction'], kind: 'noDirection', params: {} }];
+  });
+}
+
+function* idsOf(raw: JsonObject): Generator<{ id: string; section: string; path: Path }> {
+  for (const section of SECTIONS) {
+    const things = raw[section] ?? (section === 'robots' ? [{}] : []);
+    if (!Array.isArray(things)) continue;
+    for (const [index, thing] of (things as Json[]).entries()) {
+      const id = isObject(thing) ? (thing['id'] ?? (section === 'robots' ? 'robot' : null)) : null;
+      if (typeof id === 'string') yield { id, section, path: [section, index, 'id'] };
+    }
+  }
+}
+
+function checkIds(raw: JsonObject): Issue[] {
+  const seen = new Set(['ground']);
+  const found: Issue[] = [];
+  for (const { id, path } of idsOf(raw)) {
+    if (seen.has(id)) found.push({ path, kind: id === 'ground' ? 'groundId' : 'sameId', params: { id } });
+    seen.add(id);
+  }
+  return found;
+}
+
+function checkRandom(raw: JsonObject): Issue[] {
+  if (!isObject(raw['random'])) return [];
+  const sections = new Map([...idsOf(raw)].map(({ id, section }) => [id, section]));
+  return Object.entries(raw['random']).flatMap(([key, range]): Issue[] => {
+    const path = ['random', key];
+    const match = RANDOM_KEY.exec(key)?.groups;
+    const section = match ? sections.get(match['id'] ?? '') : undefined;
+    const axis = match?.['axis'];
+    if (!section || (axis !== undefined && !AXES.includes(axis))) {
+      return [{ path, kind: 'randomName', params: { key } }];
+    }
+    const wanted = axis === undefined ? (match?.['field'] ?? '') : 'pose';
+    if (!VARIABLE[section]?.includes(wanted)) {
+      return [{ path, kind: 'randomField', params: { id: match?.['id'] ?? '', field: wanted } }];
+    }
+    const [low, high] = Array.isArray(range) ? (range as Json[]) : [];
+    const isUpsideDown = typeof low === 'number' && typeof high === 'number' && low > high;
+    return isUpsideDown ? [{ path, kind: 'randomRange', params: { key } }] : [];
+  });
+}

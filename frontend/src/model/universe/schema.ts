@@ -1,0 +1,103 @@
+import { similarNames } from '../similar';
+import { isObject, type Json, type JsonObject, type Path } from './types';
+
+/** Something wrong with a document; `kind` names a text of `universe:problem`, `params` fill it in. */
+export interface Issue {
+  readonly path: Path;
+  readonly kind: string;
+  readonly params: Readonly<Record<string, string | number>>;
+}
+
+type Schema = Readonly<Record<string, unknown>>;
+
+const issue = (path: Path, kind: string, params: Issue['params'] = {}): Issue => ({ path, kind, params });
+
+/** What of a JSON Schema our generated one uses, and no more. */
+export function checkSchema(value: Json, root: Schema, schema: Schema = root, path: Path = []): Issue[] {
+  const reference = schema['$ref'];
+  if (typeof reference === 'string') return checkSchema(value, root, definition(root, reference), path);
+  if ('const' in schema && value !== schema['const']) {
+    return [issue(path, 'constant', { expected: String(schema['const']) })];
+  }
+  const choices = schema['enum'];
+  if (Array.isArray(choices)) {
+    if (choices.includes(value)) return [];
+    return [issue(path, 'choice', { choices: choices.join(', ') })];
+  }
+  switch (schema['type']) {
+    case 'object':
+      return isObject(value) ? checkObject(value, root, schema, path) : [issue(path, 'object')];
+    case 'array':
+      return Array.isArray(value) ? checkArray(value, root, schema, path) : [issue(path, 'list')];
+    case 'string':
+      return checkString(value, schema, path);
+    case 'boolean':
+      return typeof value === 'boolean' ? [] : [issue(path, 'boolean')];
+    default:
+      return checkNumber(value, schema, path);
+  }
+}
+
+function definition(root: Schema, reference: string): Schema {
+  const name = reference.replace('#/$defs/', '');
+  return (root['$defs'] as Record<string, Schema>)[name] ?? {};
+}
+
+function checkObject(value: JsonObject, root: Schema, schema: Schema, path: Path): Issue[] {
+  const known = (schema['properties'] ?? {}) as Record<string, Schema>;
+  const others = schema['additionalProperties'];
+  const found: Issue[] = [];
+  for (const name of (schema['required'] ?? []) as string[]) {
+    if (!Object.hasOwn(value, name)) found.push(issue(path, 'missing', { name }));
+  }
+  for (const [name, part] of Object.entries(value)) {
+    const at = [...path, name];
+    const own = Object.hasOwn(known, name) ? known[name] : undefined;
+    if (own) found.push(...checkSchema(part, root, own, at));
+    else if (others && typeof others === 'object') {
+      found.push(...checkSchema(part, root, others as Schema, at));
+    } else {
+      const [near] = similarNames(name, Object.keys(known), 1);
+      found.push(issue(at, near ? 'unknownNear' : 'unknown', { name, ...(near ? { near } : {}) }));
+    }
+  }
+  return found;
+}
+
+function checkArray(value: readonly Json[], root: Schema, schema: Schema, path: Path): Issue[] {
+  const least = (schema['minItems'] as number | undefined) ?? 0;
+  const most = (schema['maxItems'] as number | undefined) ?? Infinity;
+  if (value.length < least || value.length > most) {
+    if (least === most) return [issue(path, 'exactly', { count: least })];
+    return [value.length < least ? issue(path, 'atLeast', { least }) : issue(path, 'atMost', { most })];
+  }
+  const prefix = (schema['prefixItems'] ?? []) as Schema[];
+  const items = schema['items'] as Schema | undefined;
+  return value.flatMap((part, index) => {
+    const own = prefix[index] ?? items;
+    return own ? checkSchema(part, root, own, [...path, index]) : [];
+  });
+}
+
+function checkString(value: Json, schema: Schema, path: Path): Issue[] {
+  if (typeof value !== 'string') return [issue(path, 'text')];
+  const most = (schema['maxLength'] as number | undefined) ?? Infinity;
+  if (value.length > most) return [issue(path, 'tooLong', { most })];
+  if (value.length < ((schema['minLength'] as number | undefined) ?? 0)) return [issue(path, 'empty')];
+  const pattern = schema['pattern'] as string | undefined;
+  if (pattern === undefined || new RegExp(pattern).test(value)) return [];
+  if (pattern.startsWith('^#')) return [issue(path, 'color')];
+  return [issue(path, pattern.startsWith('^/') ? 'topic' : 'name')];
+}
+
+function checkNumber(value: Json, schema: Schema, path: Path): Issue[] {
+  if (typeof value !== 'number' || !Number.isFinite(value)) return [issue(path, 'number')];
+  const low = schema['minimum'] as number | undefined;
+  const above = schema['exclusiveMinimum'] as number | undefined;
+  const high = (schema['maximum'] as number | undefined) ?? Infinity;
+  if (above !== undefined && value <= above) return [issue(path, 'above', { above })];
+  if ((low !== undefined && value < low) || value > high) {
+    return [issue(path, 'range', { low: low ?? above ?? '−∞', high })];
+  }
+  return [];
+}

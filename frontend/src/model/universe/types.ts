@@ -1,0 +1,104 @@
+/** Universe documents: worlds as YAML. SI units; poses are [x, y, z, roll, pitch, yaw], world frame. */
+
+export type Json = string | number | boolean | null | readonly Json[] | { readonly [key: string]: Json };
+export type JsonObject = { readonly [key: string]: Json };
+export type Path = readonly (string | number)[];
+
+export type Point = readonly [number, number];
+export type Vector = readonly [number, number, number];
+export type Pose = readonly [number, number, number, number, number, number];
+
+export type Shape = 'box' | 'cylinder' | 'sphere' | 'plane' | 'mesh' | 'urdf' | 'sdf';
+
+/** What the numbers of `size` are, by shape: names of texts. */
+export const SIZE_MEANING: Readonly<Record<Shape, readonly string[]>> = {
+  box: ['x', 'y', 'z'],
+  cylinder: ['radius', 'length'],
+  sphere: ['radius'],
+  plane: ['x', 'y'],
+  mesh: ['scaleX', 'scaleY', 'scaleZ'],
+  urdf: [],
+  sdf: [],
+};
+
+/** How the name of the file of a shape ends, where it has one. */
+export const FILES: Readonly<Partial<Record<Shape, RegExp>>> = {
+  mesh: /\.(stl|obj|dae|ply|glb)$/i,
+  urdf: /\.(urdf|xacro)$/i,
+  sdf: /\.sdf$/i,
+};
+
+export type Section = 'models' | 'actors' | 'robots';
+export const SECTIONS: readonly Section[] = ['models', 'actors', 'robots'];
+
+interface Placed {
+  /** Its id, or that with a mark where two things bear the same. */
+  readonly key: string;
+  readonly id: string;
+  readonly section: Section;
+  readonly index: number;
+}
+
+export interface ModelThing extends Placed {
+  readonly section: 'models';
+  readonly shape: Shape;
+  readonly size: readonly number[];
+  readonly file: string;
+  readonly pose: Pose;
+  readonly color: string;
+  readonly mass: number;
+  readonly friction: number;
+  readonly restitution: number;
+  readonly solid: boolean;
+}
+
+export interface ActorThing extends Placed {
+  readonly section: 'actors';
+  readonly color: string;
+  readonly path: readonly Point[];
+  readonly speed: number;
+  readonly loop: boolean;
+  readonly start_m: number;
+}
+
+export interface RobotThing extends Placed {
+  readonly section: 'robots';
+  readonly model: string;
+  readonly pose: Pose;
+}
+
+export type Thing = ModelThing | ActorThing | RobotThing;
+
+export interface Light {
+  readonly direction: Vector;
+  readonly intensity: number;
+}
+
+/** What of a document can be shown; the defaults stand where it says nothing, or something impossible. */
+export interface Universe {
+  /** The document's own value. */
+  readonly raw: JsonObject;
+  readonly name: string;
+  readonly description: string;
+  readonly ground: { readonly color: string; readonly friction: number };
+  readonly things: readonly Thing[];
+  readonly lights: readonly Light[];
+  readonly view: { readonly eye: Vector; readonly target: Vector };
+  readonly random: Readonly<Record<string, readonly [number, number]>>;
+}
+
+export const isObject = (value: unknown): value is JsonObject =>
+  typeof value === 'object' && value !== null && !Array.isArray(value);
+
+export const thingOf = (universe: Universe, key: string): Thing | undefined =>
+  universe.things.find((thing) => thing.key === key);
+
+/** The part of a document at a path; undefined where there is none. */
+export function valueAt(value: Json | undefined, path: Path): Json | undefined {
+  let at: unknown = value;
+  for (const step of path) {
+    if (typeof at !== 'object' || at === null || !Object.hasOwn(at, step)) return undefined;
+    at = (at as Record<string | number, unknown>)[step];
+  }
+  return at as Json | undefined;
+}

@@ -1,0 +1,35 @@
+import { isObject, type Json, type JsonObject } from './types';
+
+/** Words that YAML 1.1 takes for something other than text. */
+const WORDS = /^(y|n|yes|no|on|off|true|false|null|nan|inf)$/i;
+const PLAIN = /^[A-Za-z_/][\w./-]*$/;
+
+/** A value on one line, as our own universes are written. */
+export function inline(value: Json): string {
+  if (Array.isArray(value)) return `[${(value as Json[]).map(inline).join(', ')}]`;
+  if (isObject(value)) {
+    const pairs = Object.entries(value).map(([key, part]) => `${keyText(key)}: ${inline(part)}`);
+    return `{${pairs.join(', ')}}`;
+  }
+  if (typeof value === 'string')
+    return PLAIN.test(value) && !WORDS.test(value) ? value : JSON.stringify(value);
+  return String(value);
+}
+
+export const keyText = (key: string): string => inline(key);
+
+/** A key and its value in a block mapping: things one a line, the rest on the key's own line. */
+export function blockPair(key: string, value: Json, indent: string): string {
+  const isListOfThings = Array.isArray(value) && value.length > 0 && (value as Json[]).every(isObject);
+  if (!isListOfThings) return `${indent}${keyText(key)}: ${inline(value)}`;
+  const items = (value as Json[]).map((item) => `${indent}  - ${inline(item)}`);
+  return [`${indent}${keyText(key)}:`, ...items].join('\n');
+}
+
+/** An item of a block sequence, on one line or a line a key. */
+export function blockItem(value: Json, indent: string, isLong: boolean): string {
+  if (!isLong || !isObject(value)) return `${indent}- ${inline(value)}`;
+  return Object.entries(value as JsonObject)
+    .map(([key, part], index) => `${indent}${index === 0 ? '- ' : '  '}${keyText(key)}: ${inline(part)}`)
+    .join('\n');
+}

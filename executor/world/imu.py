@@ -5,19 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from executor.world.noise import generator_at
-from executor.world.transforms import Pose, rotation
+from executor.world.transforms import rotate
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from executor.robots.config import Imu
+    from executor.world.transforms import Pose, Vector
 
-    Vector = NDArray[np.float64]
-
-GRAVITY = (0.0, 0.0, -9.81)
+GRAVITY = 9.81
 
 
 @dataclass(frozen=True)
@@ -40,24 +35,31 @@ class ImuModel:
     def __init__(self, config: Imu, seed: tuple[int, ...]) -> None:
         self._config = config
         self._seed = seed
-        self.velocity: tuple[float, float, float] | None = None
-        self._felt: Vector = -np.array(GRAVITY)
+        self.velocity: Vector | None = None
+        self._felt: Vector = (0.0, 0.0, GRAVITY)
 
     def observe(self, velocity: Vector, dt_s: float) -> None:
         """Takes the velocity of the sensor in the world frame, `dt_s` after the last one."""
-        if self.velocity is not None and dt_s > 0:
-            self._felt = (velocity - np.array(self.velocity)) / dt_s - np.array(GRAVITY)
-        self.velocity = (float(velocity[0]), float(velocity[1]), float(velocity[2]))
+        old = self.velocity
+        if old is not None and dt_s > 0:
+            x, y, z = ((now - before) / dt_s for now, before in zip(velocity, old, strict=True))
+            self._felt = (x, y, z + GRAVITY)
+        self.velocity = velocity
 
     def reading(self, time_s: float, pose: Pose, rate: Vector) -> ImuReading:
         """Returns the measurement at a pose, with a turning rate in the world frame."""
         config = self._config
-        into_own = rotation(pose[3:]).T
-        noise = generator_at(time_s, self._seed)
-        turning = into_own @ rate + noise.normal(0.0, 1.0, 3) * config.rate_noise
-        felt = into_own @ self._felt + noise.normal(0.0, 1.0, 3) * config.acceleration_noise
-        return ImuReading(time_s, pose[3:], _triple(turning), _triple(felt))
+        into_own = (-pose[3], -pose[4], -pose[5], pose[6])
+        noise = generator_at(time_s, self._seed).normal(0.0, 1.0, 6).tolist()
+        turning, felt = rotate(into_own, rate), rotate(into_own, self._felt)
+        return ImuReading(
+            time_s,
+            pose[3:],
+            _noisy(turning, noise[:3], config.rate_noise),
+            _noisy(felt, noise[3:], config.acceleration_noise),
+        )
 
 
-def _triple(vector: Vector) -> tuple[float, float, float]:
-    return float(vector[0]), float(vector[1]), float(vector[2])
+def _noisy(vector: Vector, noise: list[float], deviation: float) -> Vector:
+    x, y, z = (value + deviation * error for value, error in zip(vector, noise, strict=True))
+    return x, y, z

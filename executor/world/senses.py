@@ -5,17 +5,13 @@ from __future__ import annotations
 import copy
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from executor.world.battery import BatteryModel
 from executor.world.bumper import Bumper
 from executor.world.imu import ImuModel
-from executor.world.transforms import Pose, compose, inverse
+from executor.world.transforms import Pose, Vector, compose, inverse
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    from numpy.typing import NDArray
 
     from executor.robots.config import Battery, Imu, RobotConfig
     from executor.world.battery import BatteryReading
@@ -24,15 +20,15 @@ if TYPE_CHECKING:
 
 
 class Senses:
-    """The inner sensors of one robot; `pose_of` says where a link is now."""
+    """The inner sensors of one robot; `pose_of` says where a link is now, or where it is with a root."""
 
-    def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[[str], Pose]) -> None:
+    def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:
         self._config = config
         self._pose_of = pose_of
         self._imus = {imu.name: ImuModel(imu, (*seed, 1000 + i)) for i, imu in enumerate(config.imus)}
         self._batteries = {battery.name: BatteryModel(battery) for battery in config.batteries}
         self._bumper = Bumper()
-        self._rate: NDArray[np.float64] = np.zeros(3)
+        self._rate: Vector = (0.0, 0.0, 0.0)
 
     @property
     def has_power(self) -> bool:
@@ -44,14 +40,15 @@ class Senses:
         """Tells whether anybody wants to know velocities."""
         return bool(self._imus)
 
-    def move(
-        self, center: NDArray[np.float64], linear: NDArray[np.float64], rate: NDArray[np.float64], dt_s: float
-    ) -> None:
-        """Takes the velocity of the root's centre of mass and its turning rate, in the world frame."""
+    def move(self, root: Pose, center: Vector, linear: Vector, rate: Vector, dt_s: float) -> None:
+        """Takes the pose of the root, the velocity of its centre of mass, and its turning rate."""
         self._rate = rate
+        (vx, vy, vz), (wx, wy, wz) = linear, rate
         for imu in self._config.imus:
-            arm = np.array(self._pose_of(imu.link)[:3]) - center
-            self._imus[imu.name].observe(linear + np.cross(rate, arm), dt_s)
+            at = self._pose_of(imu.link, root)
+            x, y, z = at[0] - center[0], at[1] - center[1], at[2] - center[2]
+            velocity = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
+            self._imus[imu.name].observe(velocity, dt_s)
 
     def drain(self, effort: float, dt_s: float) -> None:
         """Takes what driving costs."""

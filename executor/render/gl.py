@@ -86,8 +86,10 @@ class GlRenderer:
         self._context.clear(depth=1.0)
         count = stock.choose(stock.pieces.seen(self._placed, view, width, height))
         self._paint(stock, count, _upside_down(view, width, height), view)
-        picture: NDArray[np.uint8] = cv2.cvtColor(self._targets.read(width, height), cv2.COLOR_RGBA2RGB)
-        return smoothed(picture) if smooth and self._is_software else picture
+        picture = self._targets.read(width, height)
+        if smooth and self._is_software:
+            picture = smoothed(picture)
+        return np.asarray(cv2.cvtColor(picture, cv2.COLOR_RGBA2RGB), np.uint8)
 
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int

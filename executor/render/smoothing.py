@@ -8,7 +8,7 @@ each pixel it covers. The work is proportional to the edges, not to the pixels.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import cv2
 import numpy as np
@@ -19,35 +19,47 @@ if TYPE_CHECKING:
     Indices = NDArray[np.intp]
 
 CONTRAST: Final = 12
-LEAST_SHARE: Final = 0.04
+LEAST_WEIGHT: Final = 11
+"""In 256ths: less of its neighbour in a pixel is not seen."""
+_EVEN: Final = np.uint32(0x00FF00FF)
+_ODD: Final = np.uint32(0xFF00FF00)
+_HALF: Final = np.uint32(0x00800080)
+_EIGHT: Final = np.uint32(8)
 
 
 def smoothed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Smooths an RGB picture in place, and returns it."""
+    """Smooths an RGBA picture in place, and returns it."""
     height, width = picture.shape[:2]
-    gray = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY)
+    gray = cv2.cvtColor(picture, cv2.COLOR_RGBA2GRAY)
     # Edges below a pixel, and to its right. None at the rim, so that looking beyond it finds nothing.
     below, beside = np.zeros((height, width), bool), np.zeros((height, width), bool)
     np.greater(cv2.absdiff(gray[:-1], gray[1:]), CONTRAST, out=below[:-1])
     np.greater(cv2.absdiff(gray[:, :-1], gray[:, 1:]), CONTRAST, out=beside[:, :-1])
-    pixels = _Pixels(picture.reshape(-1, 3), np.asarray(gray, np.uint8).reshape(-1))
+    pixels = _Pixels(picture.reshape(-1).view(np.uint32), np.asarray(gray, np.uint8).reshape(-1))
 
     rows = np.flatnonzero(below)
-    new_line = (np.diff(rows, prepend=-2) != 1) | (rows % width == 0)
-    pixels.smooth(rows, new_line, beside.reshape(-1), along=1, across=width)
+    pixels.smooth(rows, _new_lines(rows, width), beside.reshape(-1), along=1, across=width)
 
-    columns = np.flatnonzero(cv2.transpose(beside.view(np.uint8)).reshape(-1))
-    new_line = (np.diff(columns, prepend=-2) != 1) | (columns % height == 0)
+    columns = np.flatnonzero(cv2.transpose(beside.view(np.uint8)).view(bool))
     x, y = np.divmod(columns, height)
+    new_line = _new_lines(columns, height)
     pixels.smooth(y * width + x, new_line, below.reshape(-1), along=width, across=1)
     return picture
 
 
+def _new_lines(edges: Indices, length: int) -> NDArray[np.bool_]:
+    """Tells where an edge does not go on the one before, in lines of a length."""
+    new = np.ones(len(edges), bool)
+    np.not_equal(edges[1:] - edges[:-1], 1, out=new[1:])
+    new |= edges % length == 0
+    return new
+
+
 @dataclass(frozen=True)
 class _Pixels:
-    """A picture, row by row: colours, and how bright they were before anything was smoothed."""
+    """A picture, row by row: colours of four bytes, and how bright they were before anything was smoothed."""
 
-    colors: NDArray[np.uint8]
+    colors: NDArray[np.uint32]
     brightness: NDArray[np.uint8]
 
     def smooth(
@@ -74,23 +86,39 @@ class _Pixels:
         new_line[1:] |= is_darker[1:] != is_darker[:-1]
         starts = np.flatnonzero(new_line)
         lengths = np.diff(starts, append=len(edges))
-        first, last = edges[starts], edges[starts + lengths - 1]
+        starts, lengths = _picked(lengths > 1, starts, lengths)
+        first, last = edges.take(starts), edges.take(starts + lengths - 1)
         # +1: the run steps to this side there, -1: to the other side, 0: it does not, or both.
-        at_start = steps[first - along].astype(np.int8) - steps[first - along + across]
-        at_end = steps[last].astype(np.int8) - steps[np.minimum(last + across, len(steps) - 1)]
-        bent = (lengths > 1) & ((at_start != 0) | (at_end != 0))
-        starts, lengths, at_start, at_end = starts[bent], lengths[bent], at_start[bent], at_end[bent]
+        step = steps.view(np.int8)
+        at_start = step.take(first - along) - step.take(first - along + across)
+        at_end = step.take(last) - step.take(last + across, mode="clip")
+        starts, lengths, at_start, at_end = _picked(
+            (at_start | at_end) != 0, starts, lengths, at_start, at_end
+        )
         if not len(starts):
             return
-        ends = np.cumsum(lengths)
-        place = np.arange(ends[-1]) - np.repeat(ends - lengths, lengths)
-        pixels = edges[np.repeat(starts, lengths) + place]
-        way = (2 * place + 1).astype(np.float32) / np.repeat(lengths, lengths)
-        rise = np.where(way < 1, np.repeat(at_start, lengths), np.repeat(at_end, lengths)) * np.abs(1 - way)
-        share = np.abs(rise) * np.float32(0.5)
-        told = share > LEAST_SHARE
-        pixels, share, is_here = pixels[told], share[told, None], rise[told] > 0
-        mixed, other = np.where(is_here, pixels, pixels + across), np.where(is_here, pixels + across, pixels)
-        own = self.colors.take(mixed, axis=0).astype(np.float32)
-        own += (self.colors.take(other, axis=0) - own) * share
-        self.colors[mixed] = (own + 0.5).astype(np.uint8)
+        run = np.repeat(np.arange(len(starts)), lengths)
+        place = np.arange(len(run)) - (np.cumsum(lengths) - lengths).take(run)
+        length = lengths.take(run)
+        # From the middle of the run to its ends a pixel has ever more of its neighbour, half of it at most.
+        off = length - 2 * place - 1
+        side = np.where(off > 0, at_start.take(run), at_end.take(run))
+        weight = np.abs(off) * 128 // length
+        pixels = starts.take(run) + place
+        pixels, side, weight = _picked((side != 0) & (weight >= LEAST_WEIGHT), pixels, side, weight)
+        here = edges.take(pixels)
+        there = here + across
+        is_here = side > 0
+        self._mix(np.where(is_here, here, there), np.where(is_here, there, here), weight.astype(np.uint32))
+
+    def _mix(self, pixels: Indices, others: Indices, weight: NDArray[np.uint32]) -> None:
+        """Puts 256ths of other pixels into pixels, two bytes of a colour at a time."""
+        own, other, rest = self.colors.take(pixels), self.colors.take(others), np.uint32(256) - weight
+        even = ((own & _EVEN) * rest + (other & _EVEN) * weight + _HALF) >> _EIGHT
+        odd = ((own >> _EIGHT) & _EVEN) * rest + ((other >> _EIGHT) & _EVEN) * weight + _HALF
+        self.colors[pixels] = (even & _EVEN) | (odd & _ODD)
+
+
+def _picked(which: NDArray[np.bool_], *columns: NDArray[Any]) -> list[NDArray[Any]]:
+    rows = np.flatnonzero(which)
+    return [column.take(rows) for column in columns]

@@ -6,6 +6,7 @@ import array
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, TransformStamped
 from nav_msgs.msg import Odometry as OdometryMessage
@@ -18,7 +19,6 @@ from executor.world.transforms import from_xyz_rpy
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from executor.robots.config import Camera, Imu, Lidar
@@ -67,8 +67,7 @@ def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float, prefix: str 
     message.height, message.width = int(pixels.shape[0]), int(pixels.shape[1])
     message.encoding = "rgb8"
     message.step = message.width * 3
-    # An array of the right type is taken over as it is; bytes or a list are copied one by one.
-    message.data = array.array("B", pixels.tobytes())
+    message.data = _data(pixels)
     return message
 
 
@@ -80,7 +79,7 @@ def depth_image(camera: Camera, metres: NDArray[np.float32], time_s: float, pref
     message.height, message.width = int(metres.shape[0]), int(metres.shape[1])
     message.encoding = "32FC1"
     message.step = message.width * 4
-    message.data = array.array("B", metres.astype("<f4").tobytes())
+    message.data = _data(metres.astype("<f4", copy=False))
     return message
 
 
@@ -180,6 +179,13 @@ def joint_state(states: Mapping[str, tuple[float, float]], time_s: float) -> Joi
 def optical_frame(camera: Camera) -> str:
     """Names the frame of a camera whose z looks ahead, as REP-103 asks of pictures."""
     return camera.link.removesuffix("_link") + "_optical_frame"
+
+
+def _data(pixels: NDArray[Any]) -> array.array[int]:
+    """An array of the right type is taken over as it is; bytes or a list are copied one by one."""
+    data = array.array("B")
+    data.frombytes(np.ascontiguousarray(pixels))  # type: ignore[arg-type]  # its bytes, copied once
+    return data
 
 
 def _diagonal(*values: float) -> list[float]:

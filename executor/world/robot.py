@@ -67,6 +67,7 @@ class BulletRobot:
         self._noise = np.random.default_rng([seed, index])
         self._drive = DifferentialDrive(config.drive, self._noise)
         self._counter = CollisionCounter()
+        self._carriers: dict[str, tuple[str, Pose]] = {}
         self._senses = Senses(config, (seed, index), self._pose_of)
         self._joints, self._links = self._index_links()
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
@@ -168,8 +169,9 @@ class BulletRobot:
         """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
-        self._feel(dt_s)
-        x, y, _ = self.pose
+        base = self.base_pose
+        self._feel(base, dt_s)
+        x, y = base[:2]
         moved = math.dist((x, y), self._at)
         if moved > 1e-5:  # the solver's own trembling is no travel
             self.distance_m += moved
@@ -238,20 +240,28 @@ class BulletRobot:
         urdf = self.config.urdf
         return [(object_id, link_pose(urdf, base, link, positions)) for link, object_id in ids.items()]
 
-    def _pose_of(self, link: str) -> Pose:
-        return link_pose(self.config.urdf, self.base_pose, link, self._positions())
+    def _pose_of(self, link: str, base: Pose | None = None) -> Pose:
+        carrier, offset = self._carriers.get(link) or self._find_carrier(link)
+        base = base or self.base_pose
+        if carrier != self.config.urdf.root:
+            base = link_pose(self.config.urdf, base, carrier, self._positions())
+        return compose(base, offset)
+
+    def _find_carrier(self, link: str) -> tuple[str, Pose]:
+        found = self._carriers[link] = self.config.urdf.rigid_parent(link)
+        return found
 
     def _positions(self) -> dict[str, float]:
         return {name: state[0] for name, state in self.joint_states().items()}
 
-    def _feel(self, dt_s: float) -> None:
+    def _feel(self, base: Pose, dt_s: float) -> None:
         drive, odometry = self.config.drive, self._drive.state.odometry
         effort = abs(odometry.linear) / drive.max_linear + abs(odometry.angular) / drive.max_angular
         self._senses.drain(effort, dt_s)
         if self._senses.has_imu:
             center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
             linear, rate = self._bullet.getBaseVelocity(self.uid)
-            self._senses.move(np.array(center), np.array(linear), np.array(rate), dt_s)
+            self._senses.move(base, center, linear, rate, dt_s)
 
     def _wheel_angles(self) -> tuple[float, float]:
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)

@@ -11,19 +11,16 @@ import asyncio
 import logging
 import os
 import random
-import shutil
 import signal
 import socket
 import sys
-import tempfile
 from collections import deque
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import msgspec
 
-from executor.archive import ArchiveError, unpack
 from executor.confine import die_with_parent
 from executor.events import (
     EndSession,
@@ -37,10 +34,9 @@ from executor.events import (
     Tell,
     TimePassed,
     Unpack,
-    Unpacked,
 )
+from executor.folders import Folders
 from executor.gate import fetch_listener
-from executor.launching.reader import read_launch_files
 from executor.processes import Limits, Program
 from executor.protocol import About, Session
 from executor.ram.server import RamServer
@@ -48,14 +44,12 @@ from executor.ros.environment import ros_environment
 from executor.server import SessionServer
 from executor.shared_memory import remove_abandoned_segments
 from executor.supervisor import Supervisor
-from executor.universes.document import DocumentError
 
 __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
 
 _log = logging.getLogger(__name__)
 
 VERSION: Final = "0.1.0"
-KEPT_FOLDERS: Final = 3
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Who shares out the work on a small picture spends more on sharing, and sessions have but one machine.
@@ -128,31 +122,6 @@ def session_programs(domain_id: int) -> dict[Kind, Program]:
     }
 
 
-@dataclass
-class _Folders:
-    """Where archives are unpacked; the oldest are removed."""
-
-    root: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="bt-studio-")))
-    kept: deque[Path] = field(default_factory=deque)
-
-    def unpack(self, effect: Unpack) -> Unpacked:
-        folder = self.root / str(effect.token)
-        folder.mkdir()
-        self.kept.append(folder)
-        if len(self.kept) > KEPT_FOLDERS:
-            shutil.rmtree(self.kept.popleft(), ignore_errors=True)
-        try:
-            unpack(effect.archive_base64, folder)
-            return Unpacked(effect.token, str(folder), plan=read_launch_files(folder))
-        except ArchiveError as error:
-            return Unpacked(effect.token, error=str(error))
-        except DocumentError as error:
-            return Unpacked(effect.token, str(folder), problem=(error.file, error.problems[0]))
-
-    def remove(self) -> None:
-        shutil.rmtree(self.root, ignore_errors=True)
-
-
 class Manager:
     """One session with its sockets and processes; `run` it on an event loop."""
 
@@ -176,7 +145,7 @@ class Manager:
             if settings.is_ram
             else SessionServer(self.session, self.take, token=settings.token)
         )
-        self._folders = _Folders()
+        self._folders = Folders(is_alone=settings.is_closed_off)
         self._events: deque[Event] = deque()
         self._is_handling = False
         self._timer: asyncio.TimerHandle | None = None

@@ -78,7 +78,7 @@ class Stack:
                 time.sleep(0.1)
 
     def down(self) -> None:
-        for name in self.sessions():
+        for name in self.sessions() + self.tools():
             self.engine.run("rm", "-f", name)
         self.compose("down", "-v", "-t", "5")
 
@@ -92,8 +92,20 @@ class Stack:
 
     def sessions(self) -> list[str]:
         """The names of the executors' containers that run."""
-        label = f"label=org.bt-studio.stack={self.name}"
-        return self.engine.run("ps", "--filter", label, "--format", "{{.Names}}").stdout.split()
+        return self._made("session")
+
+    def tools(self) -> list[str]:
+        """The names of the containers with users' tools that run."""
+        return self._made("tools")
+
+    def _made(self, kind: str) -> list[str]:
+        filters = (
+            "--filter",
+            f"label=org.bt-studio.stack={self.name}",
+            "--filter",
+            f"label=org.bt-studio.{kind}",
+        )
+        return self.engine.run("ps", *filters, "--format", "{{.Names}}").stdout.split()
 
     def studio(self, *arguments: str, **options: object):
         """Runs `bt-studio` in the web container."""
@@ -173,6 +185,16 @@ class User:
 
     async def open_session(self, session: dict[str, str], *, stream: bool = True) -> RelayedClient:
         return await self.client_of(session).open(stream=stream)
+
+    def open_language(self, project: str) -> connect:
+        """The socket of an editor of Python."""
+        return connect(
+            f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/language",
+            additional_headers={"Cookie": self.cookies},
+            origin=self._base,
+            proxy=None,
+            open_timeout=60,
+        )
 
     def client_of(self, session: dict[str, str]) -> RelayedClient:
         return RelayedClient(self._base, session["id"], self.cookies)

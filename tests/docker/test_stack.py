@@ -187,21 +187,74 @@ async def test_user_code_finds_no_way_out(stack, ann, ben, projects):
     assert found["managers"] == 1
 
 
-@pytest.mark.parametrize(
-    "body", [FORK_BOMB, MEMORY_HOG, DISK_FILLER], ids=["fork bomb", "memory hog", "disk filler"]
-)
-async def test_who_takes_too_much_ends_alone(ann, ben, projects, body):
+GREEDY = {
+    "fork bomb": (FORK_BOMB, "processes"),
+    "memory hog": (MEMORY_HOG, "memory"),
+    "disk filler": (DISK_FILLER, "no room left"),
+}
+
+
+def reasons(client):
+    """What its user is told of how a run or its session ended."""
+    faults = [
+        " ".join(str(fault.get(key, "")) for key in ("message", "hint")) for fault in client.named("fault")
+    ]
+    return "\n".join([*faults, client.control.close_reason or ""])
+
+
+@pytest.mark.parametrize("kind", GREEDY)
+async def test_who_takes_too_much_ends_alone_and_is_told_why(ann, ben, projects, kind):
+    body, why = GREEDY[kind]
     async with started(ben, projects[FOLLOW]) as bystander, started(ann, projects[BUMP]) as greedy:
         await run(bystander, ben, projects[FOLLOW], "person_in_green")
         await run_app(greedy, hostile(ann, projects[BUMP], ACTION.format(body=body)))
         # Its manager ends the program, or, where that is starved, the keeper ends the session.
         await until(lambda: greedy.state != "application_running" or greedy.is_closed, 240)
+        print(f"{kind}: {reasons(greedy)}")
+        assert why in reasons(greedy)
         await ticks_on(bystander)
     # The next session is as good as new.
     ann.delete(f"sessions/{ann.post(f'projects/{projects[BUMP]}/session')['id']}")
     async with started(ann, projects[BUMP]) as again:
         await run(again, ann, projects[BUMP], "walled_room")
         await ticks_on(again)
+
+
+async def test_python_is_read_in_containers_of_its_users(stack, ann, ben, projects):
+    for user in (ann, ben):
+        formatted = user.post("python/format", {"source": "x = {  'a':1 }\n", "filename": "actions/Go.py"})
+        assert formatted == {"source": 'x = {"a": 1}\n'}
+    assert len(stack.tools()) == 2
+    format_ = "{{.HostConfig.NetworkMode}} {{.HostConfig.ReadonlyRootfs}} {{.Config.User}} {{len .Mounts}}"
+    for name in stack.tools():
+        inspected = stack.engine.run("inspect", "-f", format_, name).stdout.split()
+        assert inspected == ["none", "true", "10001:10001", "1"]
+    programs = stack.compose("exec", "-T", "web", "ls", "/opt/bt-studio/.venv/bin").stdout.split()
+    assert "uvicorn" in programs
+    assert not {"ruff", "pyrefly"} & set(programs)
+
+    go = "file:///project/actions/Go.py"
+    source = "from geometry_msgs.msg import Twist\nfrom actions.Turn import Turn\nTwist().linear."
+    async with ann.open_language(projects[BUMP]) as editor:
+
+        async def ask(number, method, **params):
+            message = {"jsonrpc": "2.0", "id": number, "method": method, "params": params}
+            await editor.send(json.dumps(message))
+            async with asyncio.timeout(120):
+                while (answer := json.loads(await editor.recv())).get("id") != number:
+                    pass
+            return answer["result"]
+
+        await ask(1, "initialize", rootUri="file:///project", capabilities={})
+        await editor.send(json.dumps({"jsonrpc": "2.0", "method": "initialized", "params": {}}))
+        document = {"uri": go, "languageId": "python", "version": 1, "text": source}
+        opened = {"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}}
+        await editor.send(json.dumps(opened))
+        position = {"line": 2, "character": 15}
+        items = await ask(2, "textDocument/completion", textDocument={"uri": go}, position=position)
+        assert [item["label"] for item in items["items"]][:3] == ["x", "y", "z"]
+        place = {"textDocument": {"uri": go}, "position": {"line": 1, "character": 28}}
+        assert (await ask(3, "textDocument/definition", **place))["uri"] == "file:///project/actions/Turn.py"
 
 
 async def test_a_killed_web_server_loses_no_project_and_no_running_robot(stack, ann, projects):

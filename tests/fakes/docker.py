@@ -107,7 +107,8 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_header("Content-Length", str(len(data)))
         self.send_header("Connection", "close")
         self.end_headers()
-        self.wfile.write(data)
+        if data:  # after an answer without a body the keeper has gone
+            self.wfile.write(data)
 
     def _act(self, path, query, body):
         docker = self.server

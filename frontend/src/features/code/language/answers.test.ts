@@ -3,7 +3,9 @@ import { withoutOutdated } from './answers';
 
 describe('answers of the language server', () => {
   it.each([-32_800, -32_801])('take an outrun question (%i) for one without an answer', (code) => {
-    const answer = withoutOutdated(JSON.stringify({ jsonrpc: '2.0', id: 3, error: { code, message: 'late' } }));
+    const answer = withoutOutdated(
+      JSON.stringify({ jsonrpc: '2.0', id: 3, error: { code, message: 'late' } }),
+    );
     expect(JSON.parse(answer)).toEqual({ jsonrpc: '2.0', id: 3, result: null });
   });
 

@@ -16,6 +16,12 @@ if TYPE_CHECKING:
 NODES: Final = REPOSITORY / "tree_gardener" / "catalog.json"
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"
 ROBOTS: Final = REPOSITORY / "executor" / "robots"
+OUTSIDE: Final = "none"
+OUTSIDE_NAME: Final = "No world: an outside ROS graph"
+OUTSIDE_DESCRIPTION: Final = (
+    "The program joins the ROS graph of this machine and drives a robot that is not simulated here: "
+    "a real one, Gazebo, or a bag that is played."
+)
 
 
 @lru_cache(maxsize=1)
@@ -27,8 +33,11 @@ def nodes() -> dict[str, Any]:
 
 @lru_cache(maxsize=1)
 def universes() -> list[dict[str, str]]:
-    """The built-in universes, by id."""
-    return [_entry("universes", path.stem, path) for path in sorted(UNIVERSES.glob("*.yaml"))]
+    """The built-in universes, by id, and last the outside graph in place of one."""
+    return [
+        *(_entry("universes", path.stem, path) for path in sorted(UNIVERSES.glob("*.yaml"))),
+        {"id": OUTSIDE, "name": OUTSIDE_NAME, "description": OUTSIDE_DESCRIPTION, "preview": ""},
+    ]
 
 
 @lru_cache(maxsize=1)

@@ -26,9 +26,9 @@ class NamedSerializer(serializers.Serializer[Any]):
 
 
 class EntrySerializer(NamedSerializer):
-    """A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels."""
+    """A universe or a robot; `preview` is the address of its picture, WebP of 480 by 270 pixels, or empty."""
 
-    preview = serializers.CharField()
+    preview = serializers.CharField(allow_blank=True)
 
 
 class EntryListSerializer(serializers.Serializer[Any]):

@@ -6,7 +6,8 @@ import json
 
 import pytest
 
-from backend.catalog.queries import NODES
+from backend.catalog.queries import NODES, OUTSIDE
+from backend.config.environment import REPOSITORY
 
 
 def test_the_nodes_are_those_of_the_one_table(api):
@@ -20,9 +21,25 @@ def test_universes_and_robots_have_an_id_and_a_name(api):
     assert "turtle2" in {entry["id"] for entry in api.get("catalog/robots")["items"]}
 
 
+@pytest.mark.parametrize("kind", ["universe", "robot"])
+def test_each_universe_and_robot_has_its_title_in_spanish_too(api, kind):
+    locales = REPOSITORY / "frontend" / "src" / "i18n" / "locales"
+    english, spanish = (
+        json.loads((locales / name / "worlds.json").read_text())[kind] for name in ("en", "es")
+    )
+    entries = {entry["id"]: entry for entry in api.get(f"catalog/{kind}s")["items"]}
+    assert set(english) == set(spanish) == set(entries)
+    for name, entry in entries.items():
+        assert english[name] == {"name": entry["name"], "description": entry["description"]}
+        assert spanish[name]["description"] not in ("", entry["description"])
+
+
 @pytest.mark.parametrize("kind", ["universes", "robots"])
 def test_each_universe_and_robot_has_a_picture(api, kind):
     for entry in api.get(f"catalog/{kind}")["items"]:
+        if entry["id"] == OUTSIDE:
+            assert entry["preview"] == ""
+            continue
         answer = api.client.get(entry["preview"])
         assert answer.status_code == 200
         assert answer["Content-Type"] == "image/webp"

@@ -50,7 +50,11 @@ function titleOf(universe: string): string {
 function WorldButton() {
   const { t } = useTranslation('frame');
   const own = useProjectStore((state) => state.settings?.universe ?? '');
+  const { t: title } = useTranslation('worlds');
   const once = useWorldChoice((state) => state.universe);
+  const id = once ?? own;
+  const isOwn = useProjectStore((state) => `universes/${id}.yaml` in state.files);
+  const plain = titleOf(id);
   return (
     <button
       type="button"
@@ -60,7 +64,7 @@ function WorldButton() {
       onClick={openWorlds}
     >
       <IconWorld size={14} aria-hidden="true" />
-      {titleOf(once ?? own)}
+      {isOwn || id === '' ? plain : title(`universe.${id}.name`, { defaultValue: plain })}
     </button>
   );
 }

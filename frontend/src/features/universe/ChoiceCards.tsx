@@ -1,6 +1,7 @@
-import { IconCheck, IconRobot, IconWorld } from '@tabler/icons-react';
+import { IconCheck, IconPlugConnected, IconRobot, IconWorld } from '@tabler/icons-react';
 import { useId } from 'react';
 import type { UniverseInfo } from '@/api/types';
+import { OUTSIDE } from './titles';
 import classes from './universe.module.css';
 
 interface ChoiceCardsProps {
@@ -16,7 +17,7 @@ export function ChoiceCards({ label, items, chosen, onChoose }: ChoiceCardsProps
   return (
     <div className={classes['cards']} role="radiogroup" aria-label={label}>
       {items.map(({ id, name: title, description, preview }) => {
-        const Icon = id === '' ? IconRobot : IconWorld;
+        const Icon = id === '' ? IconRobot : id === OUTSIDE ? IconPlugConnected : IconWorld;
         return (
           <label key={id} className={classes['card']} data-testid={`choice-${id || 'default'}`}>
             <input

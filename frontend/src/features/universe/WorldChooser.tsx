@@ -1,4 +1,5 @@
-import { Button, Group, Loader, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
+import { Alert, Button, Group, Loader, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
+import { IconInfoCircle } from '@tabler/icons-react';
 import { useQuery } from '@tanstack/react-query';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -7,6 +8,7 @@ import type { UniverseInfo } from '@/api/types';
 import { useProjectStore } from '@/store/project';
 import { useWorldChoice } from '@/store/run/world';
 import { ChoiceCards } from './ChoiceCards';
+import { OUTSIDE, titled } from './titles';
 import classes from './universe.module.css';
 import { closeWorlds } from './worlds';
 
@@ -19,6 +21,7 @@ type Scope = 'project' | 'once';
 /** Universe, robot and seed: for the project, or only as long as this page is open. */
 export function WorldChooser() {
   const { t } = useTranslation('universe');
+  const { t: title } = useTranslation('worlds');
   const settings = useProjectStore((state) => state.settings);
   const paths = useProjectStore((state) => state.files);
   const once = useWorldChoice();
@@ -35,12 +38,15 @@ export function WorldChooser() {
   const names = new Set(own);
   const places: UniverseInfo[] = [
     ...own.map((id) => ({ id, name: id, description: t('own') })),
-    ...(universes.data ?? []).filter(({ id }) => !names.has(id)),
+    ...(universes.data ?? [])
+      .filter(({ id }) => !names.has(id))
+      .map((info) => titled(title, 'universe', info)),
   ];
   const machines: UniverseInfo[] = [
     { id: OF_UNIVERSE, name: t('robotOfUniverse'), description: t('robotOfUniverseHint') },
-    ...(robots.data ?? []),
+    ...(robots.data ?? []).map((info) => titled(title, 'robot', info)),
   ];
+  const isOutside = universe === OUTSIDE && !names.has(OUTSIDE);
 
   const confirm = () => {
     const wanted = robot === OF_UNIVERSE ? null : robot;
@@ -60,10 +66,18 @@ export function WorldChooser() {
         {t('universe')}
       </Text>
       <ChoiceCards label={t('universe')} items={places} chosen={universe} onChoose={setUniverse} />
-      <Text size="sm" fw={600}>
-        {t('robot')}
-      </Text>
-      <ChoiceCards label={t('robot')} items={machines} chosen={robot} onChoose={setRobot} />
+      {isOutside ? (
+        <Alert variant="light" icon={<IconInfoCircle size={18} />} title={t('outside')} data-testid="outside">
+          {t('outsideHint')}
+        </Alert>
+      ) : (
+        <>
+          <Text size="sm" fw={600}>
+            {t('robot')}
+          </Text>
+          <ChoiceCards label={t('robot')} items={machines} chosen={robot} onChoose={setRobot} />
+        </>
+      )}
       <Group justify="space-between" align="flex-end" className={classes['decision']}>
         <Group align="flex-end">
           <NumberInput
@@ -72,6 +86,7 @@ export function WorldChooser() {
             description={t('seedHint')}
             inputWrapperOrder={['label', 'input', 'description']}
             data-testid="seed"
+            disabled={isOutside}
             min={0}
             max={2 ** 31 - 1}
             allowDecimal={false}

@@ -14,6 +14,7 @@ import {
 import { useReactFlow, useStore } from '@xyflow/react';
 import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
+import { ActionButton } from '@/ui/ActionButton';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/commands';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
@@ -128,6 +129,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           setEditor({ minimap: !minimap });
         }}
       />
+      <ActionButton action="view.xml" size={30} testId="toggle-xml" />
     </div>
   );
 });

@@ -14,6 +14,7 @@ const ROWS = [
   'project.takeAway',
   null,
   'run.resetWorld',
+  'view.xml',
   'view.shortcuts',
   'view.resetLayout',
 ] as const;

@@ -1,6 +1,7 @@
 import { spotlight } from '@mantine/spotlight';
 import {
   IconAdjustments,
+  IconCode,
   IconCommand,
   IconDeviceFloppy,
   IconDownload,
@@ -23,7 +24,7 @@ import { openShortcuts } from '@/features/onboarding/shortcutsDialog';
 import { openWorlds } from '@/features/universe/worlds';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
-import { openTab, showPanel } from './tabs';
+import { openTab, showPanel, togglePanel } from './tabs';
 
 /** The tree that was edited last, with the keyboard in it. */
 function goToTree(): void {
@@ -140,6 +141,15 @@ const rows: UserAction[] = [
     shortcut: '$mod+Shift+KeyM',
     inTextFields: true,
     run: () => showPanel('problems'),
+  },
+  {
+    id: 'view.xml',
+    group: 'view',
+    labelKey: 'frame:action.xml',
+    icon: IconCode,
+    shortcut: '$mod+Shift+KeyX',
+    inTextFields: true,
+    run: () => togglePanel('xml'),
   },
   {
     id: 'view.shortcuts',

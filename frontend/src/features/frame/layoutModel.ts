@@ -21,7 +21,8 @@ export type PanelId =
   | 'console'
   | 'problems'
   | 'timeline'
-  | 'topics';
+  | 'topics'
+  | 'xml';
 
 /** Each with the panel that it comes to stand beside. */
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
@@ -63,6 +64,18 @@ const global: NonNullable<IJsonModel['global']> = {
   tabSetMinHeight: 80,
   tabSetMinWidth: 120,
 };
+
+/** A panel that comes when it is called, and can be closed: the tree's XML beside its canvas. */
+export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void {
+  if (model.getNodeById(id)) {
+    model.doAction(Actions.deleteTab(id));
+    return;
+  }
+  const tab = { ...panel(id), enableClose: true };
+  const below = width === 'narrow' ? model.getNodeById('viewer3d')?.getParent() : undefined;
+  if (below) model.doAction(Actions.addTab(tab, below.getId(), DockLocation.CENTER, -1, true));
+  else model.doAction(Actions.addTab(tab, EDITORS, DockLocation.RIGHT, -1, true));
+}
 
 function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
   const view = hasWebGl ? 0 : 1;

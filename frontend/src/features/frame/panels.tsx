@@ -19,6 +19,7 @@ import type { DocumentTab } from './tabs';
 import { Waiting } from './Waiting';
 
 const Viewer3d = lazy(async () => ({ default: (await import('@/features/viewer/Viewer3d')).Viewer3d }));
+const XmlPanel = lazy(async () => ({ default: (await import('@/features/xml/XmlPanel')).XmlPanel }));
 const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
 
 const panels: Record<PanelId, () => ReactNode> = {
@@ -39,6 +40,11 @@ const panels: Record<PanelId, () => ReactNode> = {
   problems: () => <ProblemsPanel />,
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
+  xml: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <XmlPanel />
+    </Suspense>
+  ),
 };
 
 function documentOf(tab: DocumentTab): ReactNode {

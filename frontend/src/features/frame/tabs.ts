@@ -2,7 +2,7 @@ import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Mod
 import { create } from 'zustand';
 import { useProjectStore } from '@/store/project';
 import { focusDocument } from './focus';
-import { EDITORS, type FrameWidth, type PanelId } from './layoutModel';
+import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
 
 /** A document that is open in a tab. */
 export type DocumentTab = { kind: 'tree'; id: string } | { kind: 'file'; path: string };
@@ -63,6 +63,12 @@ export function showPanel(panel: PanelId): void {
   const { model } = useTabs.getState();
   const node = model?.getNodeById(panel);
   if (node instanceof TabNode && !node.isVisible()) model?.doAction(Actions.selectTab(panel));
+}
+
+/** Opens a panel beside the documents, or closes it. */
+export function togglePanel(panel: PanelId): void {
+  const { model, width } = useTabs.getState();
+  if (model && width) toggleBeside(model, width, panel);
 }
 
 export function openDocuments(model: Model): DocumentTab[] {

@@ -1,3 +1,4 @@
+export * from './become';
 export { edit, type Recipe } from './core';
 export * from './fields';
 export * from './structure';

@@ -1,0 +1,31 @@
+/** The text that its author sees, and the state of the tree that it was last in step with. */
+export interface KeptXml {
+  readonly text: string;
+  readonly agreed: { readonly text: string; readonly ids: readonly string[]; readonly diagram: string };
+}
+
+const key = (projectId: string, treeId: string) => `bts.xml.${projectId}.${treeId}`;
+
+/** Keeps a text in the browser: what does not parse yet, and comments, which a tree cannot hold. */
+export function keepXml(projectId: string, treeId: string, kept: KeptXml): void {
+  try {
+    localStorage.setItem(key(projectId, treeId), JSON.stringify(kept));
+  } catch {
+    // The browser's storage is full: the text lives as long as its panel.
+  }
+}
+
+export function keptXml(projectId: string, treeId: string): KeptXml | null {
+  const json = localStorage.getItem(key(projectId, treeId));
+  if (json === null) return null;
+  try {
+    const kept = JSON.parse(json) as KeptXml;
+    return typeof kept.text === 'string' && typeof kept.agreed.text === 'string' ? kept : null;
+  } catch {
+    return null;
+  }
+}
+
+export function forgetXml(projectId: string, treeId: string): void {
+  localStorage.removeItem(key(projectId, treeId));
+}

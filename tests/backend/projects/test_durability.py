@@ -13,7 +13,8 @@ import requests
 
 from tests.backend.disks import MEBIBYTE, small_disk
 from tests.backend.services import postgresql
-from tests.backend.serving import serving
+from tests.backend.serving import TIMEOUT_S, serving
+from tests.backend.zygote import zygote
 from tests.budget import count
 
 log = logging.getLogger(__name__)
@@ -24,8 +25,9 @@ WRITERS = 3
 class Storm:
     """Writers that save three files at a time, each save with one text, and note what was acknowledged."""
 
-    def __init__(self, server, projects, enough):
+    def __init__(self, server, name, projects, enough):
         self.server = server
+        self.name = name
         self.projects = projects
         self.acknowledged = {project: {} for project in projects}
         self.saves = 0
@@ -36,8 +38,8 @@ class Storm:
         threads = [threading.Thread(target=self.write, args=(project,)) for project in self.projects]
         for thread in threads:
             thread.start()
-        assert self.raging.wait(240)
-        self.server.process.kill()
+        assert self.raging.wait(TIMEOUT_S)
+        assert self.server.end(signal.SIGKILL) == -signal.SIGKILL
         for thread in threads:
             thread.join()
 
@@ -47,7 +49,7 @@ class Storm:
         address = f"{self.server.base}/api/v1/projects/{project}"
         revision = session.get(address).json()["revision"]
         for number in range(100_000):
-            text = f"{self.server.token} {number}"
+            text = f"{self.name} {number}"
             body = {
                 "files": [
                     {"path": p, "base_revision": revision if revision > 1 else 0, "content": text}
@@ -68,17 +70,17 @@ class Storm:
 
 def check(server, project, acknowledged):
     """Every acknowledged revision is there, whole; at most one more was written and not acknowledged."""
-    address = f"{server.base}/api/v1/projects/{project}"
-    newest = requests.get(address, headers=server.headers, timeout=120).json()
-    assert max(acknowledged, default=1) <= newest["revision"] <= max(acknowledged, default=1) + 1
-    now = {f["path"]: f["content"] for f in newest["files"]}
-    assert len({now.get(path) for path in FILES}) == 1
-    for revision, text in acknowledged.items():
-        for path in FILES:
-            found = requests.get(
-                f"{address}/revisions/{revision}/files/{path}", headers=server.headers, timeout=120
-            )
-            assert found.text == text
+    with requests.Session() as session:
+        session.headers.update(server.headers)
+        address = f"{server.base}/api/v1/projects/{project}"
+        newest = session.get(address, timeout=TIMEOUT_S).json()
+        assert max(acknowledged, default=1) <= newest["revision"] <= max(acknowledged, default=1) + 1
+        now = {f["path"]: f["content"] for f in newest["files"]}
+        assert len({now.get(path) for path in FILES}) == 1
+        for revision, text in acknowledged.items():
+            for path in FILES:
+                found = session.get(f"{address}/revisions/{revision}/files/{path}", timeout=TIMEOUT_S)
+                assert found.text == text
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
@@ -95,7 +97,10 @@ def database(request):
 def make_projects(server, number):
     made = [
         requests.post(
-            f"{server.base}/api/v1/projects", json={"name": f"P{n}"}, headers=server.headers, timeout=120
+            f"{server.base}/api/v1/projects",
+            json={"name": f"P{n}"},
+            headers=server.headers,
+            timeout=TIMEOUT_S,
         ).json()
         for n in range(number)
     ]
@@ -105,22 +110,20 @@ def make_projects(server, number):
 @pytest.mark.timeout(0)
 def test_no_acknowledged_save_is_lost_when_the_server_is_killed(tmp_path, database):
     kills = count("backend_kill_storm")
-    seed = 7
-    chance = random.Random(seed)  # noqa: S311
+    chance = random.Random(7)  # noqa: S311
     storm, saves = None, 0
-    for kill in range(kills + 1):
-        with serving(tmp_path, **database) as server:
-            if storm is not None:
-                for project, acknowledged in storm.acknowledged.items():
-                    check(server, project, acknowledged)
-                    saves += len(acknowledged)
-            if kill == kills:
-                break
-            if storm is None:
-                projects = make_projects(server, WRITERS)
-            storm = Storm(server, projects, chance.randint(5, 25))
-            storm.rage()
-            assert server.process.wait() == -signal.SIGKILL
+    with zygote(tmp_path, **database) as forking:
+        for kill in range(kills + 1):
+            with forking.serving() as server:
+                if storm is None:
+                    projects = make_projects(server, WRITERS)
+                else:
+                    for project, acknowledged in storm.acknowledged.items():
+                        check(server, project, acknowledged)
+                        saves += len(acknowledged)
+                if kill < kills:
+                    storm = Storm(server, str(kill), projects, chance.randint(5, 25))
+                    storm.rage()
     log.info("%d kills, %d acknowledged saves, %d files compared", kills, saves, saves * len(FILES))
     if not database:
         assert_sound(tmp_path)
@@ -140,7 +143,7 @@ def fill(server, project):
     while True:
         text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()  # noqa: S311
         body = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
-        answer = requests.post(address, json=body, headers=server.headers, timeout=120)
+        answer = requests.post(address, json=body, headers=server.headers, timeout=TIMEOUT_S)
         if answer.status_code != 200:
             return acknowledged, answer
         revision = answer.json()["revision"]
@@ -152,7 +155,7 @@ def written(server, project, revision):
     found = set()
     for path in FILES:
         address = f"{server.base}/api/v1/projects/{project}/revisions/{revision}/files/{path}"
-        answer = requests.get(address, headers=server.headers, timeout=120)
+        answer = requests.get(address, headers=server.headers, timeout=TIMEOUT_S)
         assert answer.text.startswith(path)
         found.add(answer.text.removeprefix(path))
     (text,) = found
@@ -175,6 +178,6 @@ def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
             newest = max(acknowledged)
             body = {"files": [{"path": p, "base_revision": newest, "content": "room again"} for p in FILES]}
             address = f"{server.base}/api/v1/projects/{project}/changes"
-            again = requests.post(address, json=body, headers=server.headers, timeout=120)
+            again = requests.post(address, json=body, headers=server.headers, timeout=TIMEOUT_S)
             assert again.json()["revision"] == newest + 1
         assert_sound(disk.folder)

@@ -63,12 +63,17 @@ base() {
   "$2" "$1"
 }
 
+# Several at once, since each mostly waits for downloads; the first that fails ends the script.
+together() {
+  local running=() one
+  for one in "$@"; do $one & running+=($!); done
+  for one in "${running[@]}"; do wait "$one"; done
+}
+
+image() { build -f "docker/$1.Dockerfile" -t "bt-studio-$1:$tag" .; say "bt-studio-$1:$tag is built"; }
+
 base debian:bookworm-slim make_debian
-base node:22-bookworm-slim make_node
-base postgres:15-bookworm make_postgres
-base redis:7-bookworm make_redis
-for image in executor web keeper; do
-  say "building bt-studio-$image:$tag …"
-  build -f "docker/$image.Dockerfile" -t "bt-studio-$image:$tag" .
-done
+together "base node:22-bookworm-slim make_node" "base postgres:15-bookworm make_postgres" "base redis:7-bookworm make_redis"
+say "building bt-studio-executor, -web and -keeper …"
+together "image executor" "image web" "image keeper"
 say "done"

@@ -67,7 +67,10 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
         url = settings.public_url + "/" if settings.is_team else link
 
         def on_ready() -> None:
-            print(f"BT Studio is at {url}\nCtrl+C ends it and every robot that runs.", flush=True)
+            robots = (
+                "; robots that run go on" if settings.launcher == "docker" else " and every robot that runs"
+            )
+            print(f"BT Studio is at {url}\nCtrl+C ends it{robots}.", flush=True)
             if ready_file:
                 write_ready_file(ready_file, url, port)
             threading.Thread(target=warm_up, daemon=True).start()

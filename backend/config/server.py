@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 GRACE_S: Final = 2
 GARBAGE_EVERY_S: Final = 24 * 3600
+DATABASE_PATIENCE_S: Final = 60.0
 MIGRATION_LOCK: Final = 0x62742D73747564
 
 
@@ -101,8 +102,32 @@ def migrate() -> None:
     django.setup()
     from django.core.management import call_command  # noqa: PLC0415
 
+    await_database()
     with _alone():
         call_command("migrate", verbosity=0, interactive=False)
+
+
+def await_database(patience_s: float = DATABASE_PATIENCE_S) -> None:
+    """Waits for a PostgreSQL that starts at the same time.
+
+    Raises:
+        ServeError: it does not come up, or refuses us.
+    """
+    from django.db import OperationalError, connection  # noqa: PLC0415
+
+    deadline = time.monotonic() + patience_s
+    while connection.vendor == "postgresql":
+        try:
+            connection.ensure_connection()
+            return
+        except OperationalError as error:
+            reason = str(error).strip().splitlines()[-1]
+            is_final = any(text in reason for text in ("authentication failed", "does not exist"))
+            if is_final or time.monotonic() > deadline:
+                raise ServeError(
+                    f"The database of BT_STUDIO_DATABASE_URL cannot be used: {reason}."
+                ) from error
+            time.sleep(0.2)
 
 
 @contextmanager

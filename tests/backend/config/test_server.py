@@ -11,8 +11,10 @@ import stat
 import psutil
 import pytest
 import requests
+from django.db import OperationalError
 from websockets.sync.client import connect
 
+from backend.config.server import ServeError, await_database
 from tests.backend.serving import serving, start
 
 
@@ -108,3 +110,33 @@ def test_a_data_folder_that_cannot_be_written_is_told(tmp_path):
     status, said = failed(start(tmp_path / "file", "--port", "0"))
     assert status == 1
     assert said.count("\n") == 1
+
+
+class Database:
+    """A PostgreSQL that refuses some connections."""
+
+    vendor = "postgresql"
+
+    def __init__(self, *refusals):
+        self.refusals = list(refusals)
+
+    def ensure_connection(self):
+        if self.refusals:
+            raise OperationalError(self.refusals.pop(0))
+
+
+def test_a_database_that_starts_at_the_same_time_is_waited_for(monkeypatch):
+    late = Database("connection failed: Connection refused", "FATAL:  the database system is starting up")
+    monkeypatch.setattr("django.db.connection", late)
+    await_database()
+    assert late.refusals == []
+
+
+@pytest.mark.parametrize(
+    ("patience_s", "refusal"),
+    [(60, 'FATAL:  password authentication failed for user "studio"'), (0, "Connection refused")],
+)
+def test_a_database_that_does_not_want_us_ends_the_start(monkeypatch, patience_s, refusal):
+    monkeypatch.setattr("django.db.connection", Database(refusal, refusal))
+    with pytest.raises(ServeError, match=f"BT_STUDIO_DATABASE_URL cannot be used: {refusal}"):
+        await_database(patience_s)

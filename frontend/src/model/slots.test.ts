@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { emptyDiagram, type Diagram } from './diagram';
 import { layoutTree, type Box } from './layout';
-import { isSamePlace, slotAt } from './slots';
+import { isSamePlace, slotFinder } from './slots';
 import { vocabulary } from './testing';
 
 const diagram = (layout: Diagram['layout']): Diagram => ({
@@ -24,7 +24,7 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
   const layout = layoutTree(tree, vocabulary);
   const at = (id: string) => layout.positions[id]!;
   const find = (x: number, y: number, moving?: string) =>
-    slotAt({ diagram: tree, layout, vocabulary, moving }, x, y);
+    slotFinder({ diagram: tree, layout, vocabulary, moving })(x, y);
 
   it('are between two siblings', () => {
     const [ax, ay] = centre(at('a'));

@@ -30,8 +30,18 @@ interface Field {
   readonly boxOf: (id: NodeId) => Box | undefined;
   readonly accepts: (id: NodeId) => boolean;
   readonly siblings: (id: NodeId) => readonly NodeId[];
-  readonly parents: readonly NodeId[];
+  readonly ids: readonly NodeId[];
+  readonly rows: readonly Row[];
   readonly diagram: Diagram;
+}
+
+/** The children of one parent, with as much around them as a hand may miss. */
+interface Row {
+  readonly parent: NodeId;
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
 }
 
 function indexAt(field: Field, siblings: readonly NodeId[], x: number): number {
@@ -87,36 +97,37 @@ function slotOnBlock(field: Field, id: NodeId, parent: NodeId | undefined, x: nu
   return side ? (beside ?? onto) : (onto ?? beside);
 }
 
-function rowDistance(field: Field, parent: NodeId, x: number, y: number): number {
-  const boxes = field
-    .siblings(parent)
-    .map(field.boxOf)
-    .filter((box) => box !== undefined);
-  if (boxes.length === 0) return Infinity;
-  const left = Math.min(...boxes.map((box) => box.x)) - REACH.along;
-  const right = Math.max(...boxes.map((box) => box.x + box.width)) + REACH.along;
-  const top = Math.min(...boxes.map((box) => box.y)) - REACH.across;
-  const bottom = Math.max(...boxes.map((box) => box.y + Math.min(box.height, 60))) + REACH.across;
+function rowOf(parent: NodeId, boxes: readonly Box[]): Row {
+  return {
+    parent,
+    left: Math.min(...boxes.map((box) => box.x)) - REACH.along,
+    right: Math.max(...boxes.map((box) => box.x + box.width)) + REACH.along,
+    top: Math.min(...boxes.map((box) => box.y)) - REACH.across,
+    bottom: Math.max(...boxes.map((box) => box.y + Math.min(box.height, 60))) + REACH.across,
+  };
+}
+
+function rowDistance({ left, right, top, bottom }: Row, x: number, y: number): number {
   if (x < left || x > right || y < top || y > bottom) return Infinity;
   return Math.abs(y - (top + bottom) / 2);
 }
 
-function findSlot(field: Field, ids: readonly NodeId[], x: number, y: number): Slot | null {
-  for (const id of ids) {
+function findSlot(field: Field, x: number, y: number): Slot | null {
+  for (const id of field.ids) {
     const box = field.boxOf(id);
     if (box && inside(box, x, y)) {
-      const parent = field.parents.find((each) => field.siblings(each).includes(id));
+      const parent = field.rows.find((row) => field.siblings(row.parent).includes(id))?.parent;
       return slotOnBlock(field, id, parent, x);
     }
   }
   let best: NodeId | null = null;
   let distance = Infinity;
-  for (const parent of field.parents) {
-    const found = field.accepts(parent) ? rowDistance(field, parent, x, y) : Infinity;
-    if (found < distance) [best, distance] = [parent, found];
+  for (const row of field.rows) {
+    const found = rowDistance(row, x, y);
+    if (found < distance && field.accepts(row.parent)) [best, distance] = [row.parent, found];
   }
   if (best !== null) return slotBetween(field, best, x);
-  for (const id of ids) {
+  for (const id of field.ids) {
     const box = field.boxOf(id);
     if (!box || field.siblings(id).length > 0) continue;
     if (inside({ ...box, height: box.height + REACH.below }, x, y)) return slotOnto(field, id);
@@ -124,26 +135,40 @@ function findSlot(field: Field, ids: readonly NodeId[], x: number, y: number): S
   return null;
 }
 
-/** Where a block that is dragged to this point would be put, or null for nowhere in the tree. */
-export function slotAt({ diagram, layout, vocabulary, moving }: Query, x: number, y: number): Slot | null {
+function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
   const hidden = new Set(moving === undefined ? [] : subtreeOf(diagram, moving));
   const ids = Object.keys(layout.positions).filter((id) => !hidden.has(id));
-  const vertical = diagram.layout === 'vertical';
   const boxOf = (id: NodeId): Box | undefined => {
     const box = layout.positions[id];
-    return box && (vertical ? box : transposed(box));
+    return box && (diagram.layout === 'vertical' ? box : transposed(box));
   };
-  const siblings = (id: NodeId): readonly NodeId[] =>
-    visibleChildren(diagram, id).filter((child) => !hidden.has(child));
-  const field: Field = {
-    boxOf,
-    siblings,
-    diagram,
-    accepts: (id) => acceptsChild(diagram, id, vocabulary, moving),
-    parents: ids.filter((id) => siblings(id).length > 0),
+  const siblings = (id: NodeId): readonly NodeId[] => {
+    const children = visibleChildren(diagram, id);
+    return children.some((child) => hidden.has(child))
+      ? children.filter((child) => !hidden.has(child))
+      : children;
   };
-  const slot = vertical ? findSlot(field, ids, x, y) : findSlot(field, ids, y, x);
-  return slot && (vertical ? slot : { ...slot, mark: transposed(slot.mark) });
+  const rows = ids.flatMap((id) => {
+    const boxes = siblings(id)
+      .map(boxOf)
+      .filter((box) => box !== undefined);
+    return boxes.length > 0 ? [rowOf(id, boxes)] : [];
+  });
+  const accepts = (id: NodeId) => acceptsChild(diagram, id, vocabulary, moving);
+  return { boxOf, siblings, diagram, accepts, ids, rows };
+}
+
+/** Finds where a block that is dragged to a point would be put, or null for nowhere in the tree. */
+export type SlotFinder = (x: number, y: number) => Slot | null;
+
+/** Looks the tree over once, for all points that a hand will pass. */
+export function slotFinder(query: Query): SlotFinder {
+  const field = fieldOf(query);
+  if (query.diagram.layout === 'vertical') return (x, y) => findSlot(field, x, y);
+  return (x, y) => {
+    const slot = findSlot(field, y, x);
+    return slot && { ...slot, mark: transposed(slot.mark) };
+  };
 }
 
 /** Whether dropping the block into the slot would leave it where it is. */

@@ -21,7 +21,7 @@ import { clipboardHandlers } from './clipboardHandlers';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
-import { FlowProjection, withDragged, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
+import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { onCanvasKey, openBlock } from './keyboard';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd } from './quickAdd/open';
@@ -53,7 +53,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const minimap = useEditorStore((state) => state.minimap);
   const [menu, setMenu] = useState<MenuPoint | null>(null);
   const [chosenEdge, setChosenEdge] = useState<string | null>(null);
-  const { dragged, onDrag, onDrop } = useDragging(tree);
+  const { held, onDrag, onDrop } = useDragging(tree, root);
   const connecting = useConnecting(tree);
   const palette = usePaletteDrop(tree);
   const viewport = useViewport(treeId, tree.layout);
@@ -65,7 +65,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     () => projection.project({ diagram, layout, vocabulary, problems, selection }),
     [projection, diagram, layout, vocabulary, problems, selection],
   );
-  const nodes = useMemo(() => withDragged(resting, dragged), [resting, dragged]);
+  const nodes = useMemo(() => withHeld(resting, held), [resting, held]);
   const shownEdges = useMemo(
     () =>
       chosenEdge === null

@@ -2,6 +2,7 @@ import { BaseEdge, type EdgeProps } from '@xyflow/react';
 import { memo } from 'react';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { elbow } from '@/ui/shapes';
+import { useCarried } from './carrying';
 import type { TreeEdge as TreeEdgeType } from './flow';
 import classes from './TreeEdge.module.css';
 
@@ -9,11 +10,13 @@ function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
   const { id, target, data, sourceX, sourceY, targetX, targetY, selected } = props;
   const key = liveKey(data?.tree ?? '', target);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
+  const dx = useCarried((state) => (state.tops.has(target) ? state.dx : 0));
+  const dy = useCarried((state) => (state.tops.has(target) ? state.dy : 0));
   return (
     <g className={classes['edge']} data-status={status} data-selected={selected || undefined}>
       <BaseEdge
         id={id}
-        path={elbow(sourceX, sourceY, targetX, targetY, data?.isHorizontal ?? false)}
+        path={elbow(sourceX, sourceY, targetX + dx, targetY + dy, data?.isHorizontal ?? false)}
         interactionWidth={18}
       />
     </g>

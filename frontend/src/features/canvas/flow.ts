@@ -139,21 +139,10 @@ export class FlowProjection {
   }
 }
 
-/** Blocks that a hand is moving, by how far. */
-export interface Dragged {
-  readonly ids: ReadonlySet<NodeId>;
-  readonly dx: number;
-  readonly dy: number;
-}
-
-/** The nodes with those in the hand moved: all others stay the same objects. */
-export function withDragged(nodes: readonly BlockNode[], dragged: Dragged | null): BlockNode[] {
-  if (!dragged) return nodes as BlockNode[];
-  return nodes.map((node) =>
-    dragged.ids.has(node.id)
-      ? { ...node, position: { x: node.position.x + dragged.dx, y: node.position.y + dragged.dy } }
-      : node,
-  );
+/** Marks the block in the hand, so that it stays drawn when the canvas moves away below it. */
+export function withHeld(nodes: readonly BlockNode[], held: NodeId | null): BlockNode[] {
+  if (held === null) return nodes as BlockNode[];
+  return nodes.map((node) => (node.id === held ? { ...node, dragging: true } : node));
 }
 
 /** The place of a node for a screen reader: "2 of 3". */

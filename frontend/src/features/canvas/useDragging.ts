@@ -1,43 +1,68 @@
 import { useReactFlow } from '@xyflow/react';
-import { useCallback, useState } from 'react';
+import { useCallback, useEffect, useRef, useState, type RefObject } from 'react';
 import { subtreeOf, topmost } from '@/model/diagram';
 import { insertFragment, fragmentOf, moveNode, setPosition, withFreshIds } from '@/model/edits';
 import { freshId } from '@/model/diagram';
-import { isSamePlace, slotAt } from '@/model/slots';
+import { isSamePlace, slotFinder, type SlotFinder } from '@/model/slots';
 import { change } from '@/store/project/commands';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import type { BlockNode, Dragged } from './flow';
+import { Hand } from './carrying';
+import type { BlockNode } from './flow';
 import type { TreeOnCanvas } from './useTree';
 
 /** Below this a press is a click: hands tremble. */
 const DEAD_ZONE = 6;
 
+/** What is worked out once when a block is taken, for all steps of the hand. */
+interface Grip {
+  readonly hand: Hand;
+  readonly layout: unknown;
+  readonly findSlot: SlotFinder;
+}
+
 /** Moving blocks by hand: into a slot of the tree, or to a position of its own. Alt copies. */
-export function useDragging(tree: TreeOnCanvas) {
+export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
   const flow = useReactFlow();
-  const [dragged, setDragged] = useState<Dragged | null>(null);
+  const grip = useRef<Grip | null>(null);
+  const [held, setHeld] = useState<string | null>(null);
   const { diagram, layout, vocabulary } = tree;
+
+  const take = useCallback(
+    (node: BlockNode): Grip | null => {
+      const known = grip.current;
+      if (known?.hand.holds === node.id && known.layout === layout) return known;
+      known?.hand.letGo();
+      if (!canvas.current) return null;
+      const { selection } = useProjectStore.getState();
+      const tops =
+        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
+      const ids = new Set(tops.flatMap((top) => subtreeOf(diagram, top)));
+      const hand = new Hand(canvas.current, node.id, new Set(tops), ids);
+      const findSlot = slotFinder({ diagram, layout, vocabulary, moving: node.id });
+      setHeld(node.id);
+      return (grip.current = { hand, layout, findSlot });
+    },
+    [diagram, layout, vocabulary, canvas],
+  );
+
+  const letGo = useCallback(() => {
+    grip.current?.hand.letGo();
+    grip.current = null;
+  }, []);
+  useEffect(() => letGo, [letGo]);
 
   const onDrag = useCallback(
     (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
       const origin = layout.positions[node.id];
       if (!origin || !('clientX' in event)) return;
-      const { selection } = useProjectStore.getState();
-      const tops =
-        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
+      const taken = take(node);
+      if (!taken) return;
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
-      setDragged((held) => ({
-        ids: held?.ids.has(node.id) ? held.ids : new Set(tops.flatMap((top) => subtreeOf(diagram, top))),
-        dx,
-        dy,
-      }));
+      taken.hand.moveBy(dx, dy);
       const pointer = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
       const far = Math.hypot(dx, dy) > DEAD_ZONE;
-      const moving = event.altKey ? undefined : node.id;
-      const slot = far
-        ? slotAt({ diagram, layout, vocabulary, moving: moving ?? node.id }, pointer.x, pointer.y)
-        : null;
+      const slot = far ? taken.findSlot(pointer.x, pointer.y) : null;
       const stays = slot !== null && !event.altKey && isSamePlace(diagram, node.id, slot);
       const next = stays ? null : slot;
       const shown = useEditorStore.getState().slot;
@@ -45,14 +70,15 @@ export function useDragging(tree: TreeOnCanvas) {
         next?.parent === shown?.parent && next?.index === shown?.index && next?.kind === shown?.kind;
       if (!same) setEditor({ slot: next });
     },
-    [diagram, layout, vocabulary, flow],
+    [diagram, layout, take, flow],
   );
 
   const onDrop = useCallback(
     (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
       const { slot } = useEditorStore.getState();
       const origin = layout.positions[node.id];
-      setDragged(null);
+      letGo();
+      setHeld(null);
       setEditor({ slot: null });
       if (!origin) return;
       const { selection } = useProjectStore.getState();
@@ -81,8 +107,8 @@ export function useDragging(tree: TreeOnCanvas) {
         change('place', recipes, { select: tops });
       }
     },
-    [diagram, layout],
+    [diagram, layout, letGo],
   );
 
-  return { dragged, onDrag, onDrop };
+  return { held, onDrag, onDrop };
 }

@@ -1,6 +1,6 @@
 import { useReactFlow } from '@xyflow/react';
-import { useCallback, type DragEvent } from 'react';
-import { slotAt } from '@/model/slots';
+import { useCallback, useRef, type DragEvent } from 'react';
+import { slotFinder, type Slot, type SlotFinder } from '@/model/slots';
 import { addAt } from '@/store/project/commands';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import type { TreeOnCanvas } from './useTree';
@@ -8,16 +8,28 @@ import type { TreeOnCanvas } from './useTree';
 /** New blocks dragged in from the palette: the same slots and marks as for blocks of the tree. */
 export function usePaletteDrop({ diagram, layout, vocabulary }: TreeOnCanvas) {
   const flow = useReactFlow();
+  const finder = useRef<{ readonly of: unknown; readonly find: SlotFinder } | null>(null);
+
+  const slotUnder = useCallback(
+    ({ x, y }: { x: number; y: number }): Slot | null => {
+      if (finder.current?.of !== layout)
+        finder.current = { of: layout, find: slotFinder({ diagram, layout, vocabulary }) };
+      return finder.current.find(x, y);
+    },
+    [diagram, layout, vocabulary],
+  );
 
   const onDragOver = useCallback(
     (event: DragEvent) => {
       if (!useEditorStore.getState().dragged) return;
       event.preventDefault();
       event.dataTransfer.dropEffect = 'copy';
-      const { x, y } = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
-      setEditor({ slot: slotAt({ diagram, layout, vocabulary }, x, y) });
+      const slot = slotUnder(flow.screenToFlowPosition({ x: event.clientX, y: event.clientY }));
+      const shown = useEditorStore.getState().slot;
+      if (slot?.parent !== shown?.parent || slot?.index !== shown?.index || slot?.kind !== shown?.kind)
+        setEditor({ slot });
     },
-    [diagram, layout, vocabulary, flow],
+    [slotUnder, flow],
   );
 
   const onDragLeave = useCallback((event: DragEvent) => {
@@ -30,13 +42,13 @@ export function usePaletteDrop({ diagram, layout, vocabulary }: TreeOnCanvas) {
       if (!dragged) return;
       event.preventDefault();
       const { x, y } = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
-      const slot = slotAt({ diagram, layout, vocabulary }, x, y);
+      const slot = slotUnder({ x, y });
       setEditor({ dragged: null, slot: null });
       if (slot) addAt(dragged, { at: 'child', parent: slot.parent, index: slot.index });
       else if (diagram.root === null) addAt(dragged, { at: 'root' });
       else addAt(dragged, { at: 'draft', position: [Math.round(x - 70), Math.round(y - 22)] });
     },
-    [diagram, layout, vocabulary, flow],
+    [diagram, slotUnder, flow],
   );
 
   return { onDragOver, onDragLeave, onDrop };

@@ -1,0 +1,47 @@
+import { create } from 'zustand';
+import type { NodeId } from '@/model/diagram';
+
+/** How far the blocks in a hand are from where they rest; edges to `tops` are drawn anew. */
+interface Carried {
+  readonly tops: ReadonlySet<NodeId>;
+  readonly dx: number;
+  readonly dy: number;
+}
+
+export const useCarried = create<Carried>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
+
+const childOf = (edge: string): NodeId => edge.slice(edge.indexOf('-') + 1);
+
+/**
+ * Moves blocks with the hand that holds them. The browser moves what is drawn, by the property
+ * `translate`, which React does not set: no block renders, however many are moved and however large
+ * the tree is. Blocks that come into view on the way are found, since each step looks anew.
+ */
+export class Hand {
+  constructor(
+    private readonly canvas: HTMLElement,
+    readonly holds: NodeId,
+    readonly tops: ReadonlySet<NodeId>,
+    private readonly ids: ReadonlySet<NodeId>,
+  ) {}
+
+  moveBy(dx: number, dy: number): void {
+    this.translate(`${dx}px ${dy}px`);
+    useCarried.setState({ tops: this.tops, dx, dy });
+  }
+
+  letGo(): void {
+    this.translate('');
+    useCarried.setState({ tops: new Set(), dx: 0, dy: 0 });
+  }
+
+  private translate(by: string): void {
+    for (const element of this.canvas.querySelectorAll<HTMLElement>('.react-flow__node')) {
+      if (this.ids.has(element.dataset['id'] ?? '')) element.style.translate = by;
+    }
+    for (const element of this.canvas.querySelectorAll<SVGElement>('.react-flow__edge')) {
+      const child = childOf(element.dataset['id'] ?? '');
+      if (this.ids.has(child) && !this.tops.has(child)) element.style.translate = by;
+    }
+  }
+}

@@ -1,0 +1,281 @@
+"""The editor in Chromium: work of the page's main thread for what a user does with 100, 600 and 2,000 blocks.
+
+Everything is read from traces of the built front end on the real server. Rasterising is left out: without a
+GPU the processor does it, in other threads.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import statistics
+import tempfile
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from playwright.sync_api import sync_playwright
+
+from tests.benchmarks import hands
+from tests.benchmarks.renders import count_renders, rendered
+from tests.benchmarks.session import Client
+from tests.benchmarks.trace import TASK, traced
+from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
+from tests.e2e.server import serving
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import Browser, CDPSession, Locator, Page
+
+    from tests.benchmarks.hands import Gesture
+
+SIZES = (100, 600, 2000)
+STEPS = 60
+# A frame of a screen lasts 17 ms: every step of the hand gets one, and leaves time for what comes later.
+STEP_MS = 40
+LIVE_BLOCKS = 600
+LIVE_S = 10
+TASKS = frozenset({TASK})
+MOVES = frozenset({"pointermove", "wheel"})
+TEMPLATE = "laser_bump_and_go"
+# Input, DOM event and the frame that shows what came of it, as the browser itself times them.
+_LATENCIES = """
+window.latencies = [];
+new PerformanceObserver((list) => {
+  for (const { interactionId, duration } of list.getEntries())
+    if (interactionId) window.latencies.push(duration);
+}).observe({ type: 'event', durationThreshold: 16 });
+"""
+
+
+def main() -> None:
+    """Prints every figure."""
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        serving(Path(folder)) as server,
+        sync_playwright() as started,
+    ):
+        client = Client(server)
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL])
+        for size in SIZES:
+            handling(browser, client, size)
+        live(browser, client)
+        browser.close()
+
+
+def wide_tree(count: int) -> dict[str, Any]:
+    """A tree of `count` blocks: four children each, six levels, leaves with a port."""
+    nodes: dict[str, Any] = {}
+
+    def grow(depth: int) -> str:
+        name = f"n{len(nodes) + 1}"
+        nodes[name] = {}
+        children = []
+        while len(children) < 4 and depth < 6 and len(nodes) < count:
+            children.append(grow(depth + 1))
+        inner = {"type": ("Fallback", "Sequence")[depth % 2], "name": f"step {name}", "children": children}
+        nodes[name] = inner if children else {"type": "Forward", "ports": {"lin_speed": "0.3"}}
+        return name
+
+    return diagram(grow(0), nodes)
+
+
+def busy_tree(groups: int) -> dict[str, Any]:
+    """A tree of five blocks a group: all groups run at once, and each changes at its own times."""
+    nodes: dict[str, Any] = {"all": {"type": "Parallel", "children": [f"g{i}" for i in range(groups)]}}
+    for i in range(groups):
+        nodes[f"g{i}"] = {"type": "Repeat", "ports": {"num_cycles": "-1"}, "children": [f"g{i}s"]}
+        nodes[f"g{i}s"] = {"type": "Sequence", "children": [f"g{i}a", f"g{i}b", f"g{i}c"]}
+        for leaf in "abc":
+            msec = str(300 + (i * 37 + ord(leaf) * 71) % 500)
+            nodes[f"g{i}{leaf}"] = {"type": "Sleep", "ports": {"msec": msec}}
+    return diagram("all", nodes)
+
+
+def diagram(root: str, nodes: dict[str, Any]) -> dict[str, Any]:
+    """A main tree of these blocks."""
+    head = {"format": "bt-studio/diagram", "version": 1, "id": "MainTree"}
+    return {**head, "root": root, "nodes": nodes, "drafts": [], "layout": "vertical"}
+
+
+def new_project(client: Client, tree: dict[str, Any]) -> str:
+    """A project made from the template with this as its main tree."""
+    project = client.call("POST", "/projects", {"template": TEMPLATE})
+    path = f"trees/{tree['id']}.json"
+    revision = next(file["revision"] for file in project["files"] if file["path"] == path)
+    change = {"path": path, "base_revision": revision, "content": json.dumps(tree)}
+    client.call("POST", f"/projects/{project['id']}/changes", {"message": "benchmark", "files": [change]})
+    return str(project["id"])
+
+
+@contextmanager
+def page_of(browser: Browser, client: Client, *, counts: bool = False) -> Iterator[Page]:
+    """The start page in a fresh profile; `counts` tells which blocks render, and makes rendering dearer."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    context.set_default_timeout(120_000)
+    context.add_init_script(_LATENCIES)
+    if counts:
+        count_renders(context)
+    page = context.new_page()
+    page.goto(client.server.url)
+    page.get_by_test_id("project-card").first.wait_for()
+    yield page
+    context.close()
+
+
+def open_project(page: Page, client: Client, project: str) -> Locator:
+    """Opens a project and waits until its tree is drawn."""
+    page.goto(f"{client.server.origin}/projects/{project}")
+    canvas = page.get_by_test_id("canvas")
+    canvas.locator("[data-type=Forward], [data-type=Sleep]").first.wait_for()
+    # What is left to do when nothing else is: panels that come later, the check, the first autosave.
+    page.wait_for_timeout(2000)
+    page.evaluate("() => new Promise((done) => requestIdleCallback(done))")
+    return canvas
+
+
+def p95(values: list[float]) -> float:
+    """The value that 95 of 100 do not exceed."""
+    return sorted(values)[math.ceil(0.95 * len(values)) - 1]
+
+
+def handling(browser: Browser, client: Client, size: int) -> None:
+    """Opens a tree, pans, drags, and does what the keyboard does."""
+    project = new_project(client, wide_tree(size))
+    with page_of(browser, client) as page:
+        cdp = page.context.new_cdp_session(page)
+        with traced(cdp) as trace:
+            canvas = open_project(page, client, project)
+        row(size, f"opening takes {trace.total_ms(TASKS):.0f} ms of the main thread")
+        frames(page, cdp, canvas, f"{size:5d} blocks, as opened")
+        hands.read_at_full_size(page, canvas)
+        frames(page, cdp, canvas, f"{size:5d} blocks, at 100 %")
+        interactions(page, canvas, size)
+    with page_of(browser, client, counts=True) as page:
+        canvas = open_project(page, client, project)
+        for gesture in (hands.pan, hands.drag):
+            blocks, frames_ = most_renders(page, canvas, gesture)
+            row(
+                size,
+                f"a {gesture.__name__} renders at most {blocks} blocks, {frames_} frames of blocks a step",
+            )
+
+
+def row(size: int, text: str) -> None:
+    """One line of the figures."""
+    print(f"{size:5d} blocks: {text}", flush=True)
+
+
+def frames(page: Page, cdp: CDPSession, canvas: Locator, what: str) -> None:
+    """Script, style and layout for each step of the hand."""
+    seen = canvas.locator(".react-flow__node").count()
+    for gesture in (hands.pan, hands.drag):
+        with traced(cdp) as trace:
+            for _ in gesture(page, canvas, STEPS):
+                page.wait_for_timeout(STEP_MS)
+        steps = trace.by_step_ms(trace.begins(MOVES))
+        print(
+            f"{what} ({seen} seen), {gesture.__name__:4s}: "
+            f"{statistics.median(steps):5.1f} ms a frame, p95 {p95(steps):5.1f} ms ({len(steps)} frames)",
+            flush=True,
+        )
+
+
+def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, int]:
+    """Blocks, and React Flow's frames around them, that render in the worst step."""
+    most = (0, 0)
+    for step, _ in enumerate(gesture(page, canvas, STEPS // 2)):
+        page.wait_for_timeout(STEP_MS)
+        blocks, around = rendered(page)
+        if step > 0:
+            most = (max(most[0], len(blocks)), max(most[1], len(around)))
+    return most
+
+
+def interactions(page: Page, canvas: Locator, size: int) -> None:
+    """From the key or the button to the picture of what came of it."""
+    page.evaluate("() => { window.latencies = []; }")
+    slowest: dict[str, float] = {}
+    for name in hands.use_keys(page, canvas):
+        taken = page.evaluate("() => window.latencies.splice(0)")
+        slowest[name] = max([slowest.get(name, 0.0), *taken])
+    row(size, "to the paint: " + ", ".join(f"{name} {ms:.0f} ms" for name, ms in slowest.items()))
+
+
+def live(browser: Browser, client: Client) -> None:
+    """Runs 601 blocks at 20 Hz in the simulator, the 3D view put aside, and watches the canvas."""
+    project = new_project(client, busy_tree(LIVE_BLOCKS // 5))
+    for counts in (False, True):
+        with page_of(browser, client, counts=counts) as page:
+            ticks = ticks_of(page)
+            open_project(page, client, project)
+            page.get_by_role("tab", name="Camera", exact=True).click()
+            page.get_by_test_id("run").click()
+            page.locator("[data-testid=executor-state][data-state=application_running]").wait_for()
+            page.wait_for_timeout(3000)
+            ticks.clear()
+            if counts:
+                count_live(page, ticks)
+            else:
+                weigh_live(page, ticks)
+            page.get_by_test_id("end-session").click()
+            page.wait_for_timeout(2000)
+
+
+def ticks_of(page: Page) -> list[dict[str, Any]]:
+    """The list to which every tick is added that the session will tell this page."""
+    ticks: list[dict[str, Any]] = []
+
+    def note(text: str | bytes) -> None:
+        if isinstance(text, str) and (message := json.loads(text)).get("type") == "tick":
+            ticks.append(message["data"])
+
+    page.on("websocket", lambda socket: socket.on("framereceived", note))
+    return ticks
+
+
+def weigh_live(page: Page, ticks: list[dict[str, Any]]) -> None:
+    """The main thread's share of a core."""
+    cdp = page.context.new_cdp_session(page)
+    for what in ("as opened", "all in view"):
+        if what == "all in view":
+            see_all(page)
+        seen = page.locator(".react-flow__node").count()
+        ticks.clear()
+        started = time.monotonic()
+        with traced(cdp) as trace:
+            page.wait_for_timeout(1000 * LIVE_S)
+            lasted = 1000 * (time.monotonic() - started)
+        changes = statistics.mean(len(tick["changed"]) for tick in ticks)
+        print(
+            f"live at {1000 * len(ticks) / lasted:.1f} Hz, {changes:.0f} of {LIVE_BLOCKS} blocks change, "
+            f"{what} ({seen} seen): script, style, layout {100 * trace.total_ms() / lasted:.1f} % of a core, "
+            f"the whole main thread {100 * trace.total_ms(TASKS) / lasted:.1f} %",
+            flush=True,
+        )
+
+
+def see_all(page: Page) -> None:
+    """Zooms out until the whole tree is in view, or as far as it goes."""
+    for _ in range(8):
+        page.get_by_role("button", name="Zoom out").click()
+        page.wait_for_timeout(200)
+    page.wait_for_timeout(hands.SETTLED_MS)
+
+
+def count_live(page: Page, ticks: list[dict[str, Any]]) -> None:
+    """Blocks rendered beside blocks that the session told to have changed."""
+    see_all(page)
+    seen = page.locator(".react-flow__node").count()
+    rendered(page)
+    ticks.clear()
+    page.wait_for_timeout(1000 * LIVE_S)
+    blocks, _ = rendered(page)
+    told = sum(len({uid for uid, _ in tick["changed"] + tick["flashed"]}) for tick in ticks)
+    print(
+        f"live: a tick tells of {told / len(ticks):.1f} of {LIVE_BLOCKS} blocks and renders "
+        f"{len(blocks) / len(ticks):.1f} of the {seen} seen",
+        flush=True,
+    )

@@ -1,0 +1,94 @@
+"""What a hand does on the canvas, one step of the mouse at a time."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from playwright.sync_api import Locator, Page
+
+    # A gesture stops after each step, so that whoever measures can give it a frame and look.
+    Gesture = Callable[[Page, Locator, int], Iterator[None]]
+
+SETTLED_MS = 600
+
+
+def pan(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
+    """Moves the tree with the wheel, to and fro."""
+    box = canvas.bounding_box()
+    assert box
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 60)
+    page.wait_for_timeout(SETTLED_MS)
+    for step in range(steps):
+        way = 1 if step % 40 < 20 else -1
+        page.mouse.wheel(24 * way, 6 * way)
+        yield
+
+
+def drag(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
+    """Carries a leaf around over its siblings, and lets it go where it was taken."""
+    x, y = leaf_of(canvas)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 8, y + 4)
+    page.wait_for_timeout(SETTLED_MS)
+    for step in range(1, steps + 1):
+        angle = 2 * math.pi * step / steps
+        page.mouse.move(x + 8 + 70 * math.sin(angle), y + 4 + 30 * (1 - math.cos(angle)))
+        yield
+    page.mouse.move(x, y)
+    page.mouse.up()
+    page.wait_for_timeout(SETTLED_MS)
+
+
+def leaf_of(canvas: Locator) -> tuple[float, float]:
+    """The middle of the leaf that lies nearest to the middle of the canvas."""
+    x, y = canvas.evaluate(
+        """(canvas) => {
+          const middle = (element) => {
+            const { x, y, width, height } = element.getBoundingClientRect();
+            return [x + width / 2, y + height / 2];
+          };
+          const [x, y] = middle(canvas);
+          const far = ([a, b]) => Math.hypot(a - x, b - y);
+          const leaves = [...canvas.querySelectorAll('[data-type=Forward]')].map(middle);
+          return leaves.sort((a, b) => far(a) - far(b))[0];
+        }"""
+    )
+    return x, y
+
+
+def read_at_full_size(page: Page, canvas: Locator) -> None:
+    """Goes to a leaf at the size at which one reads."""
+    page.mouse.click(*leaf_of(canvas))
+    page.get_by_role("button", name="Zoom to the selection").click()
+    page.wait_for_timeout(SETTLED_MS)
+
+
+def use_keys(page: Page, canvas: Locator) -> Iterator[str]:
+    """Selects, walks, adds, edits and removes; after each step its name, when its picture is there."""
+    page.mouse.click(*leaf_of(canvas))
+    yield "select"
+    for key, name in (
+        ("ArrowLeft", "walk"),
+        ("ArrowUp", "walk"),
+        ("Tab", "quick add"),
+        ("s", "search a block"),
+        ("Escape", "close it"),
+        ("Control+d", "duplicate"),
+        ("Control+z", "undo"),
+        ("ArrowDown", "walk"),
+        ("Control+ArrowRight", "move"),
+        ("Control+z", "undo"),
+        ("Delete", "delete"),
+        ("Control+z", "undo"),
+    ):
+        page.keyboard.press(key)
+        page.wait_for_timeout(SETTLED_MS)
+        yield name
+    page.get_by_test_id("port-lin_speed").press("5")
+    page.wait_for_timeout(SETTLED_MS)
+    yield "type in a port"

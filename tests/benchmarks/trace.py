@@ -1,0 +1,112 @@
+"""What the browser's main thread did, from a trace of the DevTools protocol."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from playwright.sync_api import CDPSession
+
+CATEGORIES = ["devtools.timeline", "toplevel", "__metadata", "v8"]
+# Every task of the thread, whatever it does inside.
+TASK = "ThreadControllerImpl::RunTask"
+# Script, style and layout: what a page's author answers for. What they call is inside of them.
+WORK = frozenset(
+    {
+        "EventDispatch",
+        "FunctionCall",
+        "EvaluateScript",
+        "v8.compile",
+        "FireAnimationFrame",
+        "FireIdleCallback",
+        "TimerFire",
+        "RunMicrotasks",
+        "ParseHTML",
+        "UpdateLayoutTree",
+        "Layout",
+    }
+)
+Event = dict[str, Any]
+
+
+@dataclass
+class Trace:
+    """The events of the page's main thread while it was recorded."""
+
+    events: list[Event] = field(default_factory=list)
+
+    def begins(self, kinds: frozenset[str]) -> list[float]:
+        """When the first DOM event of each input arrived, in ms: one for each frame that a hand makes."""
+        return [
+            event["ts"] / 1000
+            for event in self.events
+            if event["name"] == "EventDispatch" and event["args"]["data"]["type"] in kinds
+        ]
+
+    def work_ms(self, names: frozenset[str] = WORK) -> list[tuple[float, float]]:
+        """When such work began and how long it took, what is inside of other such work left out, in ms.
+
+        It is the thread's own time where the browser measured it: another process on its core is no work.
+        """
+        spans = []
+        end = 0.0
+        for event in self.events:
+            if event["name"] not in names or event["ts"] < end:
+                continue
+            end = event["ts"] + event["dur"]
+            spans.append((event["ts"] / 1000, event.get("tdur", event["dur"]) / 1000))
+        return spans
+
+    def total_ms(self, names: frozenset[str] = WORK) -> float:
+        """All of such work together."""
+        return sum(duration for _, duration in self.work_ms(names))
+
+    def by_step_ms(self, begins: list[float]) -> list[float]:
+        """Work between each input and the next."""
+        sums = [0.0] * len(begins)
+        at = -1
+        for start, duration in self.work_ms():
+            while at + 1 < len(begins) and begins[at + 1] <= start + duration:
+                at += 1
+            if at >= 0:
+                sums[at] += duration
+        return sums
+
+
+@contextmanager
+def traced(cdp: CDPSession) -> Iterator[Trace]:
+    """Records while the block runs; the trace is filled when it ends."""
+    trace = Trace()
+    chunks: list[Event] = []
+    ended: list[bool] = []
+    cdp.on("Tracing.dataCollected", lambda data: chunks.extend(data["value"]))
+    cdp.on("Tracing.tracingComplete", lambda _: ended.append(True))
+    cdp.send(
+        "Tracing.start",
+        {"traceConfig": {"includedCategories": CATEGORIES}, "transferMode": "ReportEvents"},
+    )
+    yield trace
+    cdp.send("Tracing.end")
+    while not ended:
+        cdp.send("Runtime.evaluate", {"expression": "0"})
+    trace.events = _of_main_thread(chunks)
+
+
+def _of_main_thread(chunks: list[Event]) -> list[Event]:
+    """Finished events of the one page's main thread, in their order."""
+    mains = {
+        (event["pid"], event["tid"])
+        for event in chunks
+        if event["name"] == "thread_name" and event["args"]["name"] == "CrRendererMain"
+    }
+    by_thread: dict[tuple[int, int], list[Event]] = {main: [] for main in mains}
+    for event in chunks:
+        if event["ph"] == "X" and (event["pid"], event["tid"]) in mains:
+            by_thread[event["pid"], event["tid"]].append(event)
+    # The browser may keep a spare renderer: it does nearly nothing.
+    busiest = max(by_thread.values(), key=len)
+    return sorted(busiest, key=lambda event: (event["ts"], -event["dur"]))

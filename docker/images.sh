@@ -16,7 +16,7 @@ tag=${1:-latest}
 docker=${DOCKER:-docker}
 export DOCKER_BUILDKIT=1
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$work"' EXIT
 
 say() { echo "images: $*"; }
 

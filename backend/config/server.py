@@ -102,30 +102,32 @@ def migrate() -> None:
     django.setup()
     from django.core.management import call_command  # noqa: PLC0415
 
-    await_database()
+    if environment().is_postgresql:
+        await_database(environment().database_url.get_secret_value())
     with _alone():
         call_command("migrate", verbosity=0, interactive=False)
 
 
-def await_database(patience_s: float = DATABASE_PATIENCE_S) -> None:
+def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
     """Waits for a PostgreSQL that starts at the same time.
 
     Raises:
         ServeError: it does not come up, or refuses us.
     """
-    from django.db import OperationalError, connection  # noqa: PLC0415
+    import psycopg  # noqa: PLC0415 - localhost does without
 
     deadline = time.monotonic() + patience_s
-    while connection.vendor == "postgresql":
+    while True:
         try:
-            connection.ensure_connection()
+            # Not by Django, whose pool would tell each attempt.
+            psycopg.connect(url, connect_timeout=5).close()
             return
-        except OperationalError as error:
-            reason = str(error).strip().splitlines()[-1]
-            is_final = any(text in reason for text in ("authentication failed", "does not exist"))
+        except psycopg.OperationalError as error:
+            reason = str(error).strip().splitlines()[-1].strip()
+            is_final = any(text in str(error) for text in ("authentication failed", "does not exist"))
             if is_final or time.monotonic() > deadline:
                 raise ServeError(
-                    f"The database of BT_STUDIO_DATABASE_URL cannot be used: {reason}."
+                    f"The database of BT_STUDIO_DATABASE_URL cannot be used: {reason}"
                 ) from error
             time.sleep(0.2)
 

@@ -9,9 +9,9 @@ import sqlite3
 import stat
 
 import psutil
+import psycopg
 import pytest
 import requests
-from django.db import OperationalError
 from websockets.sync.client import connect
 
 from backend.config.server import ServeError, await_database
@@ -115,21 +115,24 @@ def test_a_data_folder_that_cannot_be_written_is_told(tmp_path):
 class Database:
     """A PostgreSQL that refuses some connections."""
 
-    vendor = "postgresql"
-
     def __init__(self, *refusals):
         self.refusals = list(refusals)
 
-    def ensure_connection(self):
+    def connect(self, url, **_):
         if self.refusals:
-            raise OperationalError(self.refusals.pop(0))
+            raise psycopg.OperationalError(self.refusals.pop(0))
+        return self
+
+    def close(self):
+        self.is_closed = True
 
 
 def test_a_database_that_starts_at_the_same_time_is_waited_for(monkeypatch):
     late = Database("connection failed: Connection refused", "FATAL:  the database system is starting up")
-    monkeypatch.setattr("django.db.connection", late)
-    await_database()
+    monkeypatch.setattr("psycopg.connect", late.connect)
+    await_database("postgresql://db/studio")
     assert late.refusals == []
+    assert late.is_closed
 
 
 @pytest.mark.parametrize(
@@ -137,6 +140,6 @@ def test_a_database_that_starts_at_the_same_time_is_waited_for(monkeypatch):
     [(60, 'FATAL:  password authentication failed for user "studio"'), (0, "Connection refused")],
 )
 def test_a_database_that_does_not_want_us_ends_the_start(monkeypatch, patience_s, refusal):
-    monkeypatch.setattr("django.db.connection", Database(refusal, refusal))
+    monkeypatch.setattr("psycopg.connect", Database(refusal, refusal).connect)
     with pytest.raises(ServeError, match=f"BT_STUDIO_DATABASE_URL cannot be used: {refusal}"):
-        await_database(patience_s)
+        await_database("postgresql://db/studio", patience_s)

@@ -28,6 +28,7 @@ from executor.stream_messages import (
     SceneObject,
     SensorPlacement,
     Shape,
+    Texture,
     View,
 )
 
@@ -43,6 +44,7 @@ __all__ = [
     "SceneObject",
     "SensorPlacement",
     "Shape",
+    "Texture",
     "View",
 ]
 

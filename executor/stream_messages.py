@@ -19,6 +19,7 @@ class Shape(Struct, omit_defaults=True):
         pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
         color: [r, g, b, a], each 0 to 1, sRGB.
         mesh: key in `Scene.meshes` for a mesh, else "".
+        texture: key in `Scene.textures`, or "" for none; the colour tints it.
     """
 
     shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
@@ -40,12 +41,27 @@ class SceneObject(Struct):
     pose: list[float]
 
 
-class Mesh(Struct):
-    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32."""
+class Mesh(Struct, omit_defaults=True):
+    """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
+
+    Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
+    """
 
     positions: bytes
     normals: bytes
     indices: bytes
+    uvs: bytes = b""
+
+
+class Texture(Struct):
+    """A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
+
+    It lies on shapes as `executor/render/mapping.py` says. On a mesh with `uvs` of its own it lies as they say,
+    whatever the size.
+    """
+
+    jpeg: bytes
+    tile: list[float]
 
 
 class Light(Struct):
@@ -66,7 +82,7 @@ class SensorPlacement(Struct):
     range: float
 
 
-class Scene(Struct, tag="scene", tag_field="type"):
+class Scene(Struct, tag="scene", tag_field="type", omit_defaults=True):
     """The world, once for each client and again when it changes."""
 
     name: str
@@ -76,6 +92,8 @@ class Scene(Struct, tag="scene", tag_field="type"):
     lights: list[Light]
     ground_color: list[float]
     sensors: list[SensorPlacement]
+    textures: dict[str, Texture] = {}
+    ground_texture: str = ""
 
 
 class Poses(Struct, tag="poses", tag_field="type"):

@@ -14,6 +14,7 @@ import numpy as np
 
 from executor.render import geometry, programs, shadow
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
+from executor.render.layers import SIDE, pixels
 from executor.render.pieces import VERTEX, Pieces, matrices
 from executor.render.shadow import ShadowPlan
 from executor.render.smoothing import smoothed
@@ -30,8 +31,8 @@ GAMMA: Final = 2.0  # as in the shaders
 SUN_COLOR: Final = (0.78, 0.74, 0.68)
 GROUND_SKY: Final = (0.52, 0.55, 0.60)
 SOFTWARE: Final = ("llvmpipe", "softpipe", "swrast")
-MATRICES_UNIT: Final = 0
-SHADOW_UNIT: Final = 1
+UNITS: Final = {"matrices": 0, "shadow_map": 1, "pictures": 2}
+"""Texture units by the samplers' names."""
 
 
 class GlRenderer:
@@ -48,11 +49,11 @@ class GlRenderer:
         self._is_software = any(name in card.lower() for name in SOFTWARE)
         self._programs = programs.compile_all(self._context, gather=self._is_software)
         for program in self._programs.values():
-            for name, unit in (("matrices", MATRICES_UNIT), ("shadow_map", SHADOW_UNIT)):
+            for name, unit in UNITS.items():
                 if name in program:
                     program[name].value = unit
         self._programs["measure_ground"]["ground"].value = GROUND
-        self._ground = self._quad("ground", geometry.square())
+        self._ground = self._shown_ground = self._quad("ground", geometry.square())
         self._measured_ground = self._quad("measure_ground", geometry.square())
         self._sky = self._quad("sky", geometry.grid(SKY_PIECES))
         self._shadow_map = self._context.depth_texture((shadow.SIZE, shadow.SIZE))
@@ -62,6 +63,8 @@ class GlRenderer:
         samples = 1 if self._is_software else min(SAMPLES, int(self._context.max_samples))
         self._targets = Targets(self._context, samples)
         self._stock: _Stock | None = None
+        self._pictures: Any = None
+        self._textured_ground: Any = None
         self._plan: ShadowPlan | None = None
         self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
@@ -71,7 +74,10 @@ class GlRenderer:
         """Takes a scene in place of the last one."""
         if self._stock is not None:
             self._stock.release()
+        if scene.textures:
+            self._prepare_textures()
         self._stock = _Stock(self._context, self._programs, scene)
+        self._hang_pictures(scene, self._stock.pieces.layers)
         self._plan, self._drawn_poses = None, None
         self._set_light(scene)
 
@@ -84,8 +90,8 @@ class GlRenderer:
         shown = self._targets.picture(width, height, smooth=smooth)
         shown.use()
         self._context.clear(depth=1.0)
-        count = stock.choose(stock.pieces.seen(self._placed, view, width, height))
-        self._paint(stock, count, _upside_down(view, width, height), view)
+        orders = stock.pieces.seen_apart(self._placed, view, width, height)
+        self._paint(stock, orders, _upside_down(view, width, height), view)
         picture = self._targets.read(width, height)
         if smooth and self._is_software:
             picture = smoothed(picture)
@@ -116,16 +122,59 @@ class GlRenderer:
         buffer, indices = self._context.buffer(points[:, :3].tobytes()), self._context.buffer(order.tobytes())
         return self._context.vertex_array(self._programs[program], [(buffer, "3f", "in_position")], indices)
 
+    def _prepare_textures(self) -> None:
+        """Compiles what only scenes with pictures need, once."""
+        if "object_textured" in self._programs:
+            return
+        self._programs |= programs.compile_all(
+            self._context, gather=self._is_software, sources=programs.TEXTURED
+        )
+        for name in programs.TEXTURED:
+            program = self._programs[name]
+            for uniform, unit in UNITS.items():
+                if uniform in program:
+                    program[uniform].value = unit
+        self._textured_ground = self._quad("ground_textured", geometry.square())
+
+    def _hang_pictures(self, scene: Scene, layers: dict[str, int]) -> None:
+        """Puts the scene's pictures onto the GPU, as layers of one texture."""
+        if self._pictures is not None:
+            self._pictures.release()
+            self._pictures = None
+        self._shown_ground = self._ground
+        if not layers:
+            return
+        context = self._context
+        data = b"".join(pixels(scene.textures[name]).tobytes() for name in layers)
+        self._pictures = context.texture_array((SIDE, SIDE, len(layers)), 3, data)
+        self._pictures.build_mipmaps()
+        # Between two mipmaps a CPU would look up twice as much.
+        between = context.LINEAR_MIPMAP_NEAREST if self._is_software else context.LINEAR_MIPMAP_LINEAR
+        self._pictures.filter = (between, context.LINEAR)
+        if not self._is_software:
+            self._pictures.anisotropy = 8.0
+        if scene.ground_texture:
+            self._shown_ground = self._textured_ground
+            ground = self._programs["ground_textured"]
+            ground["tile"].value = tuple(scene.textures[scene.ground_texture].tile)
+            ground["layer"].value = float(layers[scene.ground_texture])
+
+    def _lit(self, kind: str) -> list[Any]:
+        """Returns the programs that draw objects or the ground, with and without pictures."""
+        return [self._programs[name] for name in (kind, f"{kind}_textured") if name in self._programs]
+
     def _set_light(self, scene: Scene) -> None:
         light = scene.lights[0]
         self._sun = np.array(light.direction) / np.linalg.norm(light.direction)
         color = light.intensity * np.array(SUN_COLOR)
-        self._programs["object"]["sun_direction"].value = tuple(self._sun)
-        self._programs["object"]["sun_color"].value = tuple(color)
+        for program in self._lit("object"):
+            program["sun_direction"].value = tuple(self._sun)
+            program["sun_color"].value = tuple(color)
         base = np.array(scene.ground_color[:3]) ** GAMMA
         dark = base * GROUND_SKY
-        self._programs["ground"]["dark"].value = tuple(dark)
-        self._programs["ground"]["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
+        for program in self._lit("ground"):
+            program["dark"].value = tuple(dark)
+            program["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
 
     def _place(self, poses: NDArray[np.float32]) -> _Stock:
         if self._stock is None:
@@ -134,7 +183,7 @@ class GlRenderer:
             self._placed = matrices(poses)
             self._stock.place(self._placed)
             self._drawn_poses = poses
-        self._stock.matrices.use(MATRICES_UNIT)
+        self._stock.matrices.use(UNITS["matrices"])
         return self._stock
 
     def _cast_shadow(self, stock: _Stock, view: Viewpoint) -> None:
@@ -144,8 +193,8 @@ class GlRenderer:
         if not work:
             return
         matrix = _bytes(self._plan.matrix)
-        for name in ("shadow", "object", "ground"):
-            self._programs[name]["light"].write(matrix)
+        for program in (self._programs["shadow"], *self._lit("object"), *self._lit("ground")):
+            program["light"].write(matrix)
         target = self._shadow_target
         for rectangle, order in work:
             target.scissor = rectangle
@@ -155,20 +204,30 @@ class GlRenderer:
             stock.shadow.render(vertices=stock.choose(order))
         target.scissor = None
 
-    def _paint(self, stock: _Stock, count: int, matrix: NDArray[np.float64], view: Viewpoint) -> None:
-        programs, context = self._programs, self._context
-        self._shadow_map.use(SHADOW_UNIT)
-        for name in ("object", "ground"):
-            programs[name]["view_projection"].write(_bytes(matrix))
-        programs["ground"]["eye"].value = view.eye
+    def _paint(
+        self,
+        stock: _Stock,
+        orders: tuple[NDArray[np.uint32], NDArray[np.uint32]],
+        matrix: NDArray[np.float64],
+        view: Viewpoint,
+    ) -> None:
+        context = self._context
+        self._shadow_map.use(UNITS["shadow_map"])
+        if self._pictures is not None:
+            self._pictures.use(UNITS["pictures"])
+        for program in (*self._lit("object"), *self._lit("ground")):
+            program["view_projection"].write(_bytes(matrix))
+        for program in self._lit("ground"):
+            program["eye"].value = view.eye
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
         context.front_face = "cw"  # the picture is upside down
-        if count:
-            stock.shown.render(vertices=count)
+        for array, order in zip((stock.shown, stock.textured), orders, strict=True):
+            if len(order):
+                array.render(vertices=stock.choose(order))
         context.enable_only(context.DEPTH_TEST)
-        self._ground.render()
+        self._shown_ground.render()
         turn = matrix @ _translation(view.eye)
-        programs["sky"]["to_world"].write(_bytes(np.linalg.inv(turn)))
+        self._programs["sky"]["to_world"].write(_bytes(np.linalg.inv(turn)))
         context.depth_func = "<="
         self._sky.render()
         context.depth_func = "<"
@@ -212,9 +271,18 @@ class _Stock:
         def array(program: str, layout: str, *names: str) -> Any:
             return context.vertex_array(programs[program], [(self._vertices, layout, *names)], self._order)
 
-        self.shown = array("object", "3f 3f 4f1 1f", "in_position", "in_normal", "in_color", "in_row")
+        whole = ("3f 3f 4f1 1f", "in_position", "in_normal", "in_color", "in_row")
+        self.shown = array("object", *whole)
+        self._made = [self.shown, self._vertices, self._order, self.matrices]
+        self.textured: Any = None
+        if len(self.pieces.uvs):
+            uvs = context.buffer(self.pieces.uvs.tobytes())
+            parts = [(self._vertices, *whole), (uvs, "3f", "in_uv")]
+            self.textured = context.vertex_array(programs["object_textured"], parts, self._order)
+            self._made += [self.textured, uvs]
         self.shadow = array("shadow", "3f 16x 1f", "in_position", "in_row")
         self.measured = array("measure", "3f 16x 1f", "in_position", "in_row")
+        self._made += [self.shadow, self.measured]
 
     def place(self, placed: NDArray[np.float32]) -> None:
         """Takes the objects' 3×4 matrices."""
@@ -230,7 +298,7 @@ class _Stock:
 
     def release(self) -> None:
         """Frees it."""
-        for thing in (self.shown, self.shadow, self.measured, self._vertices, self._order, self.matrices):
+        for thing in self._made:
             thing.release()
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from executor.render import geometry
+from executor.render import geometry, mapping
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -35,6 +35,7 @@ class Pieces:
 
     Attributes:
         vertices: all vertices of all levels, as `VERTEX`.
+        uvs: where in which texture each vertex is, as u, v and layer; empty if there are no textures.
         rows: of each piece, the row of its object.
         lows, highs: of each piece, the corners of its box in the object's frame.
     """
@@ -44,20 +45,26 @@ class Pieces:
         self.rows = np.array([row for row, _ in shapes], np.intp)
         self.is_flat = np.array([shape.shape == "plane" for _, shape in shapes], bool)
         self._orders: list[list[Order]] = []
+        # The textures are layers of one stack, in the order of their names.
+        self.layers = {name: layer for layer, name in enumerate(sorted(scene.textures))}
+        self.is_textured = np.array([bool(shape.texture) for _, shape in shapes], bool)
         made: dict[tuple[object, ...], list[tuple[Floats, Order]]] = {}
         stock: list[NDArray[np.void]] = []
+        uvs: list[Floats] = []
         total = 0
         for row, shape in shapes:
-            key = _mesh_key(shape)
+            key = _key(shape)
             if key not in made:
-                made[key] = [geometry.indexed(vertices) for vertices in _levels(key, scene)]
+                made[key] = [geometry.indexed(vertices) for vertices in _painted(shape, scene)]
             orders: list[Order] = []
             for points, order in made[key]:
                 stock.append(_placed(points, shape, row))
+                uvs.append(_uvs(points, self.layers.get(shape.texture, 0)))
                 orders.append(order + np.uint32(total))
                 total += len(points)
             self._orders.append([orders[min(level, len(orders) - 1)] for level in range(len(SEGMENTS))])
         self.vertices = np.concatenate(stock) if stock else np.zeros(0, VERTEX)
+        self.uvs = np.concatenate(uvs) if self.is_textured.any() else np.zeros((0, 3), np.float32)
         boxes = [_box(placed["position"]) for placed in _first_levels(stock, made, shapes)]
         self.lows = np.array([low for low, _ in boxes], np.float32).reshape(-1, 3)
         self.highs = np.array([high for _, high in boxes], np.float32).reshape(-1, 3)
@@ -90,8 +97,23 @@ class Pieces:
 
     def seen(self, placed: Floats, view: Viewpoint, width: int, height: int) -> Order:
         """Returns the triangles of all that may be in a picture, the nearest pieces first."""
+        return self.order_of(*self._nearest(placed, view, width, height))
+
+    def seen_apart(self, placed: Floats, view: Viewpoint, width: int, height: int) -> tuple[Order, Order]:
+        """Returns the same in two parts: what has a colour only, and what has a texture."""
+        nearest, levels = self._nearest(placed, view, width, height)
+        textured = self.is_textured[nearest]
+        return (
+            self.order_of(nearest[~textured], levels[~textured]),
+            self.order_of(nearest[textured], levels[textured]),
+        )
+
+    def _nearest(
+        self, placed: Floats, view: Viewpoint, width: int, height: int
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Returns the pieces that may be in a picture, the nearest first, and the level of each."""
         if not len(self):
-            return np.zeros(0, np.uint32)
+            return np.zeros(0, np.intp), np.zeros(0, np.intp)
         matrix = view.view_matrix().astype(np.float32)
         eye = self.centers(placed) @ matrix[:3, :3].T + matrix[:3, 3]
         ahead, radii = -eye[:, 2], self.radii
@@ -105,7 +127,7 @@ class Pieces:
         numbers = np.flatnonzero(shown)
         nearest = numbers[np.argsort(self._distances(placed, numbers, view.eye))]
         levels = len(SEGMENTS) - 1 - np.searchsorted(LEVELS_PX, (self.rounds * scale)[nearest])
-        return self.order_of(nearest, levels)
+        return nearest, levels
 
     def order_of(self, numbers: NDArray[np.intp], levels: NDArray[np.intp]) -> Order:
         """Returns the triangles of pieces, each in its level of detail."""
@@ -151,7 +173,7 @@ def _first_levels(
     firsts, at = [], 0
     for _, shape in shapes:
         firsts.append(stock[at])
-        at += len(made[_mesh_key(shape)])
+        at += len(made[_key(shape)])
     return firsts
 
 
@@ -172,6 +194,37 @@ def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
     result["normal"] = normals @ turn[:, :3].T
     result["color"] = np.round(np.clip(shape.color, 0.0, 1.0) * np.float32(255)).astype(np.uint8)
     result["row"] = row
+    return result
+
+
+def _key(shape: Shape) -> tuple[object, ...]:
+    """Names the triangles of a shape: with a texture each size has its own: pictures are not stretched."""
+    return (*_mesh_key(shape), shape.texture, *shape.size) if shape.texture else _mesh_key(shape)
+
+
+def _painted(shape: Shape, scene: Scene) -> list[Floats]:
+    """Returns a shape's triangles in each level; two more columns say where in a texture they are."""
+    levels = _levels(_mesh_key(shape), scene)
+    if not shape.texture:
+        return levels
+    mesh = scene.meshes[shape.mesh] if shape.shape == "mesh" else None
+    if mesh is not None and mesh.uvs:
+        order = np.frombuffer(mesh.indices, "<u4")
+        return [np.hstack([levels[0], np.frombuffer(mesh.uvs, "<f4").reshape(-1, 2)[order]])]
+    width, height = scene.textures[shape.texture].tile
+    scale = np.array(_scale(shape), np.float32)
+    return [
+        np.hstack(
+            [level, mapping.coordinates(shape.shape, level[:, :3] * scale, level[:, 3:6], (width, height))]
+        )
+        for level in levels
+    ]
+
+
+def _uvs(points: Floats, layer: int) -> Floats:
+    result = np.zeros((len(points), 3), np.float32)
+    result[:, : points.shape[1] - 6] = points[:, 6:]
+    result[:, 2] = layer
     return result
 
 

@@ -18,12 +18,22 @@ SOURCES: Final = {
 }
 
 
-def compile_all(context: Any, *, gather: bool) -> dict[str, Any]:
+TEXTURED: Final = {
+    "object_textured": (shaders.TEXTURED_VERTEX, shaders.TEXTURED_FRAGMENT),
+    "ground_textured": (shaders.GROUND_VERTEX, shaders.TEXTURED_GROUND_FRAGMENT),
+}
+"""What only a scene with textures needs."""
+
+
+def compile_all(
+    context: Any, *, gather: bool, sources: dict[str, tuple[str, str]] = SOURCES
+) -> dict[str, Any]:
     """Returns all programs by name.
 
     Args:
         context: of moderngl.
         gather: filter shadows by hand, which a CPU does faster than by the sampler.
+        sources: vertex and fragment shaders by name.
     """
     gather = gather and context.version_code >= GATHER_VERSION
     head = f"#version {GATHER_VERSION if gather else 330}\n"
@@ -31,5 +41,5 @@ def compile_all(context: Any, *, gather: bool) -> dict[str, Any]:
         head += f"#define GATHER\n#define SHADOW_SIZE {shadow.SIZE}.0\n"
     return {
         name: context.program(vertex_shader=head + vertex, fragment_shader=head + fragment)
-        for name, (vertex, fragment) in SOURCES.items()
+        for name, (vertex, fragment) in sources.items()
     }

@@ -105,6 +105,25 @@ out vec4 picture;
 void main() {{ picture = finish(mix(dark, bright, lit(uvd))); }}
 """
 
+# The same with a picture: it is looked up for each fragment, and squared as colours are.
+TEXTURED_VERTEX: Final = OBJECT_VERTEX.replace(
+    "out vec3 dark;", "in vec3 in_uv;\nout vec3 uv;\nout vec3 dark;"
+).replace("gl_Position =", "uv = in_uv;\n    gl_Position =")
+
+TEXTURED_FRAGMENT: Final = f"""
+{_FINISH}
+uniform sampler2DArray pictures;
+in vec3 uv;
+in vec3 dark;
+in vec3 bright;
+in vec3 uvd;
+out vec4 picture;
+void main() {{
+    vec3 paint = texture(pictures, uv).rgb;
+    picture = finish(mix(dark, bright, lit(uvd)) * paint * paint);
+}}
+"""
+
 GROUND_VERTEX: Final = f"""
 {_LIGHT}
 uniform mat4 view_projection;
@@ -136,6 +155,22 @@ float line(vec2 at, float width) {{
 }}
 
 void main() {{ picture = finish(mix(dark, bright, lit(uvd)) * (1.0 - 0.16 * line(place, 0.012))); }}
+"""
+
+TEXTURED_GROUND_FRAGMENT: Final = f"""
+{_FINISH}
+uniform sampler2DArray pictures;
+uniform vec2 tile;
+uniform float layer;
+uniform vec3 dark;
+uniform vec3 bright;
+in vec2 place;
+in vec3 uvd;
+out vec4 picture;
+void main() {{
+    vec3 paint = texture(pictures, vec3(place / tile, layer)).rgb;
+    picture = finish(mix(dark, bright, lit(uvd)) * paint * paint);
+}}
 """
 
 SKY_VERTEX: Final = f"""

@@ -8,6 +8,7 @@ import numpy as np
 
 from executor.render import geometry
 from executor.render.interface import GROUND, NOTHING
+from executor.render.layers import mean_color
 from executor.world.engine import Bullet
 
 if TYPE_CHECKING:
@@ -35,10 +36,13 @@ class TinyRenderer:
         """Takes a scene in place of the last one."""
         self._bullet.resetSimulation()
         self._meshes = scene.meshes
+        self._paints = {name: mean_color(texture) for name, texture in scene.textures.items()}
         self._bodies = [self._body(scene_object) for scene_object in scene.objects]
         half = [GROUND_SIZE_M / 2, GROUND_SIZE_M / 2, 0.01]
         ground = self._bullet.createVisualShape(
-            self._bullet.GEOM_BOX, halfExtents=half, rgbaColor=scene.ground_color
+            self._bullet.GEOM_BOX,
+            halfExtents=half,
+            rgbaColor=self._tinted(scene.ground_color, scene.ground_texture),
         )
         self._ground = self._bullet.createMultiBody(0, -1, ground, basePosition=[0, 0, -0.01])
         self._sun = [-value for value in scene.lights[0].direction]
@@ -100,10 +104,15 @@ class TinyRenderer:
             for shape in scene_object.shapes
         ]
 
+    def _tinted(self, color: list[float], texture: str) -> list[float]:
+        """Returns the colour that a texture has from afar: this renderer draws no pictures on things."""
+        paint = self._paints.get(texture, (1.0, 1.0, 1.0))
+        return [*(part * tint for part, tint in zip(color, paint, strict=False)), color[3]]
+
     def _visual(self, shape: Shape) -> int:
         bullet, size = self._bullet, shape.size
         common = {
-            "rgbaColor": shape.color,
+            "rgbaColor": self._tinted(shape.color, shape.texture),
             "visualFramePosition": shape.pose[:3],
             "visualFrameOrientation": shape.pose[3:],
         }

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints, field_validator, model_validator
 
 Shape = Literal["box", "cylinder", "sphere", "plane", "mesh", "urdf", "sdf"]
 Name = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_-]*$", max_length=80)]
 Color = Annotated[str, StringConstraints(pattern=r"^#[0-9a-fA-F]{6}([0-9a-fA-F]{2})?$")]
+Texture = Annotated[str, StringConstraints(max_length=300)]
 Finite = Annotated[float, Field(allow_inf_nan=False, ge=-1e4, le=1e4)]
 Positive = Annotated[float, Field(allow_inf_nan=False, gt=0, le=1e4)]
 Pose = tuple[Finite, Finite, Finite, Finite, Finite, Finite]
@@ -28,6 +29,9 @@ FILES: Final[dict[str, tuple[str, ...]]] = {
     "sdf": (".sdf",),
 }
 """How the name of the file of a shape ends, where it has one."""
+TEXTURES: Final = ("asphalt", "brick", "carpet", "checker", "grass", "tiles", "wood")
+"""The textures that we ship."""
+PICTURES: Final = (".png", ".jpg", ".jpeg")
 _AXES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 _RANDOM_KEY: Final = re.compile(
     rf"^(?P<id>[\w-]+)\.(?:pose\.(?P<axis>{'|'.join(_AXES)})|(?P<field>mass|friction|speed))$"
@@ -38,14 +42,48 @@ class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Ground(_Strict):
+class _Painted(_Strict):
+    """Something with a colour, and perhaps a picture on it that repeats.
+
+    `texture` is one of ours (`TEXTURES`) or a PNG or JPEG file of the project; `tile` is how wide and high
+    one repetition is in m. The colour tints it, and is white if none is named.
+    """
+
+    color: Color = "#ffffff"
+    texture: Texture = ""
+    tile: tuple[Positive, Positive] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _pictures_keep_their_colors(cls, value: Any) -> Any:
+        if isinstance(value, dict) and value.get("texture") and "color" not in value:
+            return {**value, "color": "#ffffff"}
+        return value
+
+    @field_validator("texture")
+    @classmethod
+    def _is_a_texture(cls, value: str) -> str:
+        if value and value not in TEXTURES and not value.lower().endswith(PICTURES):
+            raise ValueError(
+                f"a `texture` is {', '.join(TEXTURES)}, or a file that ends in {' or '.join(PICTURES)}"
+            )
+        return value
+
+    @model_validator(mode="after")
+    def _tile_needs_texture(self) -> Self:
+        if self.tile is not None and not self.texture:
+            raise ValueError("a `tile` needs a `texture`")
+        return self
+
+
+class Ground(_Painted):
     """The endless floor at z = 0."""
 
     color: Color = "#d8d4cc"
     friction: float = Field(default=0.9, ge=0, le=10)
 
 
-class Model(_Strict):
+class Model(_Painted):
     """A thing; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
 
     A mesh is read from `file`, a path in the project; its `size` is a scale. It is solid as it is drawn if it
@@ -87,6 +125,8 @@ class Model(_Strict):
     @model_validator(mode="after")
     def _size_fits_shape(self) -> Model:
         if self.is_assembly:
+            if self.texture:
+                raise ValueError(f"a {self.shape} has colours of its own, and no `texture` here")
             if self.size:
                 raise ValueError(f"a {self.shape} has sizes of its own, and no `size` here")
         elif self.size or self.shape != "mesh":

@@ -10,6 +10,7 @@ import numpy as np
 from executor.messages import Shape
 from executor.world.interface import WorldError
 from executor.world.mesh import MeshError, load_mesh
+from executor.world.paint import texture_key
 from executor.world.transforms import IDENTITY, Pose, from_xyz_rpy
 
 if TYPE_CHECKING:
@@ -90,6 +91,7 @@ def scene_shape(model: Model) -> Shape:
         pose=list(IDENTITY),
         color=rgba(model.color),
         mesh=model.file,
+        texture=texture_key(model),
     )
 
 

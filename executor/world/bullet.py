@@ -14,6 +14,7 @@ from executor.world.engine import Bullet
 from executor.world.interface import WorldError
 from executor.world.kinematics import mesh_key
 from executor.world.objects import Kind, SceneObjects
+from executor.world.paint import texture_key, textures_of
 from executor.world.placement import put_at_rest
 from executor.world.randomize import draw
 from executor.world.robot import BulletRobot
@@ -82,6 +83,7 @@ class BulletWorld:
             model.file: read_assembly(model, assets) for model in self._universe.models if model.is_assembly
         }
         self._meshes = _meshes(self._configs, self._assemblies, self._universe, assets)
+        self._textures = textures_of(self._universe, assets)
         self._bullet = Bullet()
         self._steps = 0
         self._poses: NDArray[np.float32] | None = None
@@ -285,6 +287,8 @@ class BulletWorld:
             lights=[Light(list(light.direction), light.intensity) for light in universe.lights],
             ground_color=rgba(universe.ground.color),
             sensors=sensors,
+            textures=self._textures,
+            ground_texture=texture_key(universe.ground),
         )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 import numpy as np
 
@@ -42,18 +42,19 @@ def load_mesh(path: Path) -> Mesh:
         raise MeshError(f"{path.name} has {len(found.faces)} triangles; {MAX_TRIANGLES} are the most")
     if not np.isfinite(found.vertices).all():
         raise MeshError(f"{path.name} has vertices that are no numbers")
-    corners, order = _shaded(np.asarray(found.vertices, np.float64), np.asarray(found.faces, np.int64))
+    corners, order = _shaded(found.vertices, found.faces, found.uvs)
     return Mesh(
         corners[:, :3].astype("<f4").tobytes(),
-        corners[:, 3:].astype("<f4").tobytes(),
+        corners[:, 3:6].astype("<f4").tobytes(),
         order.astype("<u4").tobytes(),
+        corners[:, 6:].astype("<f4").tobytes(),
     )
 
 
 def _shaded(
-    points: NDArray[np.float64], faces: NDArray[np.int64]
+    points: NDArray[np.float64], faces: NDArray[np.int64], uvs: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Returns rows of point and normal, and the faces by row: smooth where it is round, sharp at edges."""
+    """Returns rows of point, normal and uv, and the faces by row: smooth where round, sharp at edges."""
     _, place = np.unique(np.round(points, 6), axis=0, return_inverse=True)
     across = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
     flat = _unit(across)
@@ -62,7 +63,8 @@ def _shaded(
     round_ones = _unit(summed)[place.ravel()[faces]]
     own = np.repeat(flat[:, None, :], 3, axis=1)
     is_sharp = (round_ones * own).sum(axis=2, keepdims=True) < SHARP_COSINE
-    rows = np.concatenate([points[faces], np.where(is_sharp, own, round_ones)], axis=2).reshape(-1, 6)
+    columns = [points[faces], np.where(is_sharp, own, round_ones), uvs[faces]]
+    rows = np.concatenate(columns, axis=2).reshape(-1, 6 + uvs.shape[1])
     corners, order = np.unique(np.round(rows, 6), axis=0, return_inverse=True)
     return corners, order.reshape(-1, 3)
 
@@ -82,13 +84,45 @@ def write_obj(mesh: Mesh, path: Path) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
-def _triangles(path: Path) -> Any:
+class _Found(NamedTuple):
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    uvs: NDArray[np.float64]
+
+
+def _triangles(path: Path) -> _Found:
+    """Reads a file's parts and puts them together. The library would do that, but not without Pillow."""
     import trimesh  # noqa: PLC0415 - slow to load, and few robots have meshes
 
     try:
-        loaded = trimesh.load(path, force="mesh", process=False, skip_materials=True)
+        loaded: Any = trimesh.load(path, process=False, skip_materials=True)
+        if isinstance(loaded, trimesh.Trimesh):
+            parts = [_part(loaded, np.eye(4))]
+        elif isinstance(loaded, trimesh.Scene):
+            placed = [loaded.graph[node] for node in loaded.graph.nodes_geometry]
+            found = [(loaded.geometry[name], matrix) for matrix, name in placed]
+            parts = [_part(mesh, matrix) for mesh, matrix in found if isinstance(mesh, trimesh.Trimesh)]
+        else:
+            parts = []
     except Exception as error:  # whatever a parser of hostile files raises
         raise MeshError(f"{path.name} cannot be read: {error}") from error
-    if not isinstance(loaded, trimesh.Trimesh):
+    if not parts:
         raise MeshError(f"{path.name} has no triangles")
-    return loaded
+    starts = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    have_uvs = all(part.uvs.shape[1] for part in parts)
+    return _Found(
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([part.faces + start for part, start in zip(parts, starts, strict=False)]),
+        np.concatenate([part.uvs if have_uvs else part.uvs[:, :0] for part in parts]),
+    )
+
+
+def _part(mesh: Any, matrix: NDArray[np.float64]) -> _Found:
+    points = np.asarray(mesh.vertices, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    faces = np.asarray(mesh.faces, np.int64)
+    if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror turns triangles inside out
+        faces = faces[:, ::-1]
+    uvs = getattr(mesh.visual, "uv", None)
+    if uvs is None or np.shape(uvs) != (len(points), 2) or not np.isfinite(uvs).all():
+        uvs = np.zeros((len(points), 0))
+    return _Found(points, faces, np.asarray(uvs, np.float64))

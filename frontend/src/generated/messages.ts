@@ -40,11 +40,16 @@ export interface Light {
   intensity: number;
 }
 
-/** Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32. */
+/**
+ * Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
+ *
+ * Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
+ */
 export interface Mesh {
   positions: Uint8Array;
   normals: Uint8Array;
   indices: Uint8Array;
+  uvs?: Uint8Array;
 }
 
 /**
@@ -82,6 +87,8 @@ export interface Scene {
   lights: Light[];
   ground_color: number[];
   sensors: SensorPlacement[];
+  textures?: Record<string, Texture>;
+  ground_texture?: string;
 }
 
 /** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
@@ -113,6 +120,7 @@ export interface SensorPlacement {
  *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
  *     color: [r, g, b, a], each 0 to 1, sRGB.
  *     mesh: key in `Scene.meshes` for a mesh, else "".
+ *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
  */
 export interface Shape {
   shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
@@ -121,6 +129,17 @@ export interface Shape {
   color: number[];
   mesh?: string;
   texture?: string;
+}
+
+/**
+ * A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
+ *
+ * It lies on shapes as `executor/render/mapping.py` says. On a mesh with `uvs` of its own it lies as they say,
+ * whatever the size.
+ */
+export interface Texture {
+  jpeg: Uint8Array;
+  tile: number[];
 }
 
 /** The world as the server draws it. */

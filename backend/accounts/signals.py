@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING, Any
 from allauth.account import signals as account
 from allauth.mfa import signals as mfa
 from django.contrib import messages
+from django.contrib.auth import get_user_model
 from django.contrib.auth.signals import user_logged_in, user_logged_out
+from django.db.models.signals import post_delete, post_save
 
 from backend.accounts import invitations
 from backend.accounts.audit import note
+from backend.accounts.models import GroupMember
+from backend.accounts.rights import lessen
 from backend.accounts.texts import text
 
 if TYPE_CHECKING:
@@ -26,6 +30,18 @@ def on_sign_out(request: Any, user: User | None, **_: object) -> None:
     """After each sign-out."""
     if user is not None:
         note("logout", actor=user)
+        lessen(user_id=user.pk)
+
+
+def on_user_saved(instance: User, *, created: bool, **_: object) -> None:
+    """A deactivated account, or one whose password changed, is out wherever it is in."""
+    if not created:
+        lessen(user_id=instance.pk)
+
+
+def on_left_group(instance: GroupMember, **_: object) -> None:
+    """What was shared with the group is shared with them no longer."""
+    lessen(user_id=instance.user_id)
 
 
 def on_sign_up(request: Any, user: User, **_: object) -> None:
@@ -49,6 +65,8 @@ def connect() -> None:
     """Called when the apps are ready."""
     user_logged_in.connect(on_sign_in, dispatch_uid="bts-sign-in")
     user_logged_out.connect(on_sign_out, dispatch_uid="bts-sign-out")
+    post_save.connect(on_user_saved, sender=get_user_model(), dispatch_uid="bts-user-saved")
+    post_delete.connect(on_left_group, sender=GroupMember, dispatch_uid="bts-left-group")
     account.user_signed_up.connect(on_sign_up, dispatch_uid="bts-sign-up")
     for signal, action in (
         (account.password_changed, "password.change"),

@@ -19,7 +19,7 @@ from channels.routing import ProtocolTypeRouter  # noqa: E402
 from django.core.handlers.asgi import ASGIHandler  # noqa: E402
 
 from backend.config.probes import probed  # noqa: E402
-from backend.config.sockets import serve  # noqa: E402
+from backend.config.sockets import Route, serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
 from backend.projects import consumers as projects  # noqa: E402
 from backend.projects.notices import watch_revisions  # noqa: E402
@@ -47,9 +47,9 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
 
 watch_revisions()
 routes: Final = {
-    projects.ADDRESS: projects.serve_notices,
-    language.ADDRESS: language.serve_language,
-    sessions.ADDRESS: sessions.relay,
+    projects.ADDRESS: Route(projects.serve_notices, projects.may_read),
+    language.ADDRESS: Route(language.serve_language, projects.may_write),
+    sessions.ADDRESS: Route(sessions.relay, sessions.may_use),
 }
 
 

@@ -1,22 +1,28 @@
 """What every websocket passes before an app serves it, and which app serves it.
 
-Apps register their sockets in `routes` of `backend.config.asgi`: a pattern of the path, and a coroutine
-that is called once the guard has let the socket pass and it is accepted.
+Apps register their sockets in `routes` of `backend.config.asgi`: a pattern of the path, a coroutine that is
+called once the guard has let the socket pass and it is accepted, and what a user must still be allowed to do
+for it to stay open.
 """
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import re  # noqa: TC003
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, NamedTuple
+from uuid import UUID
 
 from asgiref.sync import sync_to_async
 
+from backend.accounts import rights
 from backend.accounts.identity import identify
 from backend.config import guard
+from backend.config.environment import environment
 from backend.config.middleware import cookies_of
+from backend.config.problems import StudioError
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
@@ -27,6 +33,8 @@ PROTOCOL: Final = "bt-studio.v1"
 ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
 """What of an address is a project's or a session's id."""
 POLICY_VIOLATION: Final = 1008
+SIGNED_OUT: Final = 4401
+FORBIDDEN: Final = 4404
 _REASON_BYTES: Final = 120  # a close frame holds 123
 
 
@@ -50,6 +58,16 @@ class Call:
 Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable["Closed | None"]]
 
 
+class Route(NamedTuple):
+    """Who serves a socket, and what its user must be allowed to do.
+
+    `may` is given the id in the address and the user, and raises a StudioError when they may no longer.
+    """
+
+    handler: Handler
+    may: Callable[[UUID, User], object]
+
+
 def _headers(scope: WebSocketScope) -> dict[str, str]:
     return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
 
@@ -71,7 +89,7 @@ def refusal(scope: WebSocketScope) -> guard.Refusal | None:
 
 
 async def serve(
-    routes: Mapping[re.Pattern[str], Handler],
+    routes: Mapping[re.Pattern[str], Route],
     scope: WebSocketScope,
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
@@ -85,19 +103,56 @@ async def serve(
         # A close before the accept makes the server answer the handshake with 403.
         await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
         return
-    address, handler = found
+    address, route = found
     offered = list(scope.get("subprotocols") or [])
     subprotocol = PROTOCOL if PROTOCOL in offered else None
     await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
-    closed = await handler(Call(address, user, scope["query_string"].decode("latin-1")), receive, send)
+    call = Call(address, user, scope["query_string"].decode("latin-1"))
+    if environment().is_team:
+        closed = await _while_allowed(route, call, scope, receive, send)
+    else:
+        closed = await route.handler(call, receive, send)
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})
 
 
-def _route(routes: Mapping[re.Pattern[str], Handler], path: str) -> tuple[re.Match[str], Handler] | None:
-    matches = ((pattern.match(path), handler) for pattern, handler in routes.items())
-    return next(((match, handler) for match, handler in matches if match), None)
+async def _while_allowed(
+    route: Route, call: Call, scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    """Serves until the socket ends by itself, or its user is no longer allowed to have it."""
+    serving = asyncio.ensure_future(route.handler(call, receive, send))
+    watching = asyncio.create_task(_until_forbidden(route, call, scope))
+    try:
+        done, _ = await asyncio.wait((serving, watching), return_when=asyncio.FIRST_COMPLETED)
+        return (serving if serving in done else watching).result()
+    finally:
+        serving.cancel()
+        watching.cancel()
+        await asyncio.gather(serving, watching, return_exceptions=True)
+
+
+async def _until_forbidden(route: Route, call: Call, scope: WebSocketScope) -> Closed:
+    async with rights.notices() as next_notice:
+        while True:
+            notice: Mapping[str, object] = {}
+            with contextlib.suppress(TimeoutError):
+                notice = await asyncio.wait_for(next_notice(), rights.RECHECK_S)
+            if notice.get("user_id") not in {None, call.user.pk}:
+                continue
+            await asyncio.sleep(rights.SETTLE_S)
+            user = await _user(scope)
+            if user is None or user.pk != call.user.pk:
+                return Closed(SIGNED_OUT, "You are signed out.")
+            try:
+                await sync_to_async(route.may)(UUID(call.address[1]), user)
+            except StudioError as error:
+                return Closed(FORBIDDEN, error.detail)
+
+
+def _route(routes: Mapping[re.Pattern[str], Route], path: str) -> tuple[re.Match[str], Route] | None:
+    matches = ((pattern.match(path), route) for pattern, route in routes.items())
+    return next(((match, route) for match, route in matches if match), None)
 
 
 async def _user(scope: WebSocketScope) -> User | None:

@@ -8,3 +8,9 @@ class ProjectsConfig(AppConfig):
 
     name = "backend.projects"
     label = "projects"
+
+    def ready(self) -> None:
+        """Who loses a role must not go on listening."""
+        from backend.projects.lost_roles import watch_roles  # noqa: PLC0415 - models must be loaded
+
+        watch_roles()

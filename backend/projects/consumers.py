@@ -19,8 +19,20 @@ from backend.projects.notices import notices_of
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
 
+    from backend.accounts.models import User
+
 ADDRESS: Final = re.compile(rf"^/ws/projects/{ID}/notices$")
 NO_SUCH_PROJECT: Final = 4404
+
+
+def may_read(project_id: UUID, user: User) -> None:
+    """Raises a StudioError when the user may not open the project."""
+    queries.project(project_id, user=user, need=Need.READ)
+
+
+def may_write(project_id: UUID, user: User) -> None:
+    """Raises a StudioError when the user may not change the project."""
+    queries.project(project_id, user=user, need=Need.WRITE)
 
 
 async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:

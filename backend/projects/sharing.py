@@ -13,6 +13,7 @@ from django.utils import timezone
 from backend.accounts import groups, links
 from backend.accounts.actions import user_named
 from backend.accounts.audit import note
+from backend.accounts.rights import lessen
 from backend.config.problems import InvalidInputError, NotFoundError
 from backend.projects import queries
 from backend.projects.access import Need, open_links
@@ -160,6 +161,7 @@ def revoke_link(project_id: UUID, link_id: UUID, *, acting_user: User, if_match:
     )
     if not gone:
         raise NotFoundError("There is no such link.")
+    lessen(project_id=project.id)
     _note("unlink", project, acting_user, link=str(link_id))
     return project
 

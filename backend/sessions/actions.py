@@ -18,6 +18,7 @@ from django.db import IntegrityError, connection, transaction
 from django.utils import timezone
 
 from backend.config.environment import environment
+from backend.config.problems import NotFoundError, StudioError
 from backend.projects import queries as projects
 from backend.projects.access import Need
 from backend.sessions import queries
@@ -166,6 +167,33 @@ def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
         end_session(session)
 
 
+def require_right(session: Session) -> None:
+    """Raises a StudioError when a session's user may no longer run its project.
+
+    Raises:
+        NotFoundError: the account is closed, or has no role in the project any more.
+    """
+    if not session.user.is_active:
+        raise NotFoundError("The account is deactivated.")
+    projects.project(session.project_id, user=session.user, need=Need.RUN)
+
+
+def end_sessions_without_right(
+    sender: object, *, user_id: int | None, project_id: UUID | None, **_: object
+) -> None:
+    """Ends the sessions of those who may no longer run what they run."""
+    rows = Session.objects.filter(state__in=LIVE_STATES).select_related("user")
+    if user_id is not None:
+        rows = rows.filter(user=user_id)
+    if project_id is not None:
+        rows = rows.filter(project_id=project_id)
+    for session in rows:
+        try:
+            require_right(session)
+        except StudioError:
+            _workers().submit(_end_and_disconnect, session, "You may no longer run this project.")
+
+
 def end_all_sessions() -> None:
     """Ends every session whose executor does not outlive the server; for its last moments."""
     if launcher().survives_server:
@@ -175,9 +203,9 @@ def end_all_sessions() -> None:
         list(pool.map(_end_and_disconnect, live))
 
 
-def _end_and_disconnect(session: Session) -> None:
+def _end_and_disconnect(session: Session, why: str = "") -> None:
     try:
-        end_session(session)
+        end_session(session, why)
     finally:
         connection.close()
 

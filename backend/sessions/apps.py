@@ -12,9 +12,15 @@ class SessionsConfig(AppConfig):
 
     def ready(self) -> None:
         """A deleted project needs no robot, nor does an account that leaves."""
+        from backend.accounts.rights import lessened  # noqa: PLC0415
         from backend.accounts.signals_out import account_leaves  # noqa: PLC0415
         from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded
-        from backend.sessions.actions import end_sessions_of, end_sessions_of_user  # noqa: PLC0415
+        from backend.sessions.actions import (  # noqa: PLC0415
+            end_sessions_of,
+            end_sessions_of_user,
+            end_sessions_without_right,
+        )
 
         project_deleted.connect(end_sessions_of, dispatch_uid="end_sessions_of")
+        lessened.connect(end_sessions_without_right, dispatch_uid="end_sessions_without_right")
         account_leaves.connect(end_sessions_of_user, dispatch_uid="end_sessions_of_user")

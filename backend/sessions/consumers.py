@@ -43,6 +43,11 @@ NO_SUCH_SESSION: Final = 4404
 EXECUTOR_FAILED: Final = 4503
 
 
+def may_use(session_id: UUID, user: User) -> None:
+    """Raises a StudioError when the user may no longer run the session's project."""
+    actions.require_right(queries.session(session_id, user=user))
+
+
 async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Relays one socket until a side ends."""
     if call.user.is_guest:

@@ -14,9 +14,10 @@ from websockets.sync.client import connect
 
 from backend.config import guard
 from backend.config.server import bind
-from backend.config.sockets import serve
+from backend.config.sockets import Route, serve
 from backend.sessions import actions
 from backend.sessions.consumers import ADDRESS, EXECUTOR_FAILED, NO_SUCH_SESSION
+from backend.sessions.consumers import may_use
 from backend.sessions.consumers import relay as relay_socket
 from tests.backend.sessions.test_sessions import launched
 
@@ -25,7 +26,7 @@ MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"
 
 
 async def application(scope, receive, send):
-    await serve({ADDRESS: relay_socket}, scope, receive, send)
+    await serve({ADDRESS: Route(relay_socket, may_use)}, scope, receive, send)
 
 
 @pytest.fixture

@@ -16,6 +16,7 @@ interface Notice {
 }
 
 const RETRY_AFTER_MS = [1000, 3000, 10_000, 30_000] as const;
+const SIGNED_OUT = 4401;
 const NO_SUCH_PROJECT = 4404;
 
 /** Follows the project's revisions until the returned function is called. */
@@ -34,7 +35,7 @@ export function followRevisions(projectId: string, onTaken: OnTaken): () => void
       void catchUp(projectId, notice, onTaken).catch(() => undefined);
     };
     socket.onclose = ({ code }) => {
-      if (isLeft || code === NO_SUCH_PROJECT) return;
+      if (isLeft || code === NO_SUCH_PROJECT || code === SIGNED_OUT) return;
       timer = setTimeout(open, RETRY_AFTER_MS[Math.min(retries, RETRY_AFTER_MS.length - 1)]);
       retries += 1;
     };

@@ -1,0 +1,55 @@
+"""Says that someone's rights may be less than a moment ago, so that what is open asks again.
+
+A websocket is judged when it is opened. Who is then taken out of a project, signs out or is deactivated must
+not go on listening: whoever holds something open follows the notices, and asks the usual place what is
+allowed now. Notices are hints and may be lost (the command line cannot send them), hence `RECHECK_S`.
+"""
+
+from __future__ import annotations
+
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Any, Final
+
+from asgiref.sync import async_to_sync
+from channels.layers import get_channel_layer
+from django.db import transaction
+from django.dispatch import Signal
+
+from backend.config.environment import environment
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Awaitable, Callable
+    from uuid import UUID
+
+GROUP: Final = "rights"
+RECHECK_S: Final = 60.0
+SETTLE_S: Final = 0.3
+"""Signing out tells before it forgets the session."""
+
+lessened = Signal()
+"""Sent with `user_id` and `project_id`, one of them None, when it is committed."""
+
+
+def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
+    """Tells it of one user, or of everybody in one project, once the transaction is committed."""
+    if environment().is_team:
+        # Robust: what was done is done, also when it cannot be told.
+        transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)
+
+
+def _tell(user_id: int | None, project_id: UUID | None) -> None:
+    lessened.send(None, user_id=user_id, project_id=project_id)
+    notice = {"type": GROUP, "user_id": user_id}
+    async_to_sync(get_channel_layer().group_send)(GROUP, notice)
+
+
+@asynccontextmanager
+async def notices() -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
+    """Gives a function that waits for the next notice; its `user_id` is None when it may be about anybody."""
+    layer = get_channel_layer()
+    channel = await layer.new_channel()
+    await layer.group_add(GROUP, channel)
+    try:
+        yield lambda: layer.receive(channel)
+    finally:
+        await layer.group_discard(GROUP, channel)

@@ -1,0 +1,125 @@
+"""What is open ends when the right to it ends: sockets, and the robots that run."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+from asgiref.sync import sync_to_async
+from django.conf import settings
+from django.utils import timezone
+
+from backend.accounts.models import User
+from backend.config.sockets import SIGNED_OUT, Route, serve
+from backend.projects.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, serve_notices
+from backend.sessions import actions as session_actions
+from backend.sessions.choices import SessionState
+from backend.sessions.models import Session
+from tests.backend.accounts.conftest import PUBLIC, Person
+
+pytestmark = pytest.mark.django_db(transaction=True)
+
+
+def shared_project(owner, **share):
+    made = owner.post("projects", {"name": "Robot"}, expect=201)["id"]
+    if share:
+        owner.post(f"projects/{made}/shares", share)
+    return made
+
+
+def scope_of(browser, path):
+    cookies = "; ".join(f"{name}={morsel.value}" for name, morsel in browser.client.cookies.items())
+    headers = {"host": PUBLIC, "origin": f"http://{PUBLIC}", "cookie": cookies}
+    return {
+        "type": "websocket",
+        "path": path,
+        "query_string": b"",
+        "headers": [(name.encode(), value.encode()) for name, value in headers.items()],
+    }
+
+
+def closed_after(browser, project, deed):
+    """The code with which the socket of an open project ends when something is done."""
+
+    async def listen():
+        heard, said = asyncio.Queue(), asyncio.Queue()
+        said.put_nowait({"type": "websocket.connect"})
+        scope = scope_of(browser, f"/ws/projects/{project}/notices")
+        serving = asyncio.create_task(
+            serve({ADDRESS: Route(serve_notices, may_read)}, scope, said.get, heard.put)
+        )
+        assert (await heard.get())["type"] == "websocket.accept"
+        assert '"revision"' in (await heard.get())["text"]
+        await sync_to_async(deed)()
+        told = await heard.get()
+        await serving
+        return told["type"], told["code"]
+
+    kind, code = asyncio.run(listen())
+    assert kind == "websocket.close"
+    return code
+
+
+def test_whoever_is_taken_out_of_a_project_hears_no_more_of_it(person):
+    owner, friend = person("olga"), person("fred")
+    one = shared_project(owner, name="fred", role="viewer")
+    deed = lambda: owner.delete(f"projects/{one}/shares/people/fred")  # noqa: E731
+    assert closed_after(friend, one, deed) == NO_SUCH_PROJECT
+
+
+def test_a_link_that_is_taken_back_ends_what_it_opened(person):
+    owner = person("olga")
+    one = shared_project(owner)
+    link = owner.post(f"projects/{one}/shares/links", {}, expect=201)["links"][0]
+    guest = Person()
+    guest.page(link["url"].partition(PUBLIC)[2])
+    deed = lambda: owner.delete(f"projects/{one}/shares/links/{link['id']}")  # noqa: E731
+    assert closed_after(guest, one, deed) == NO_SUCH_PROJECT
+
+
+def test_whoever_leaves_a_group_leaves_what_was_shared_with_it(person):
+    teacher, sam = person("tina", is_teacher=True), person("sam")
+    group = teacher.post("groups", {"name": "Robotics"}, expect=201)["id"]
+    link = teacher.post(f"groups/{group}/invitations", expect=201)["url"]
+    sam.form(link.partition(PUBLIC)[2])
+    one = shared_project(teacher)
+    teacher.put(f"projects/{one}/shares/groups/{group}", {"role": "viewer"})
+    deed = lambda: sam.delete(f"groups/{group}/members/sam")  # noqa: E731
+    assert closed_after(sam, one, deed) == NO_SUCH_PROJECT
+
+
+def test_signing_out_or_being_deactivated_ends_what_is_open(person):
+    olga = person("olga")
+    one = shared_project(olga)
+    assert closed_after(olga, one, olga.client.logout) == SIGNED_OUT
+    olga.quick()
+
+    def deactivate():
+        user = User.objects.get(username="olga")
+        user.is_active = False
+        user.save(update_fields=["is_active"])
+
+    assert closed_after(olga, one, deactivate) == SIGNED_OUT
+    assert settings.SESSION_COOKIE_NAME in olga.client.cookies
+
+
+def test_a_robot_does_not_outlive_the_right_to_run_it(person, monkeypatch):
+    ended = []
+    workers = type("Now", (), {"submit": lambda _, call, session, why="": ended.append((session.user, why))})
+    monkeypatch.setattr(session_actions, "_workers", workers)
+    owner, friend = person("olga"), person("fred")
+    one = shared_project(owner, name="fred", role="viewer")
+    Session.objects.bulk_create(
+        Session(
+            project_id=one,
+            user=browser.user,
+            state=SessionState.READY,
+            ros_domain_id=domain,
+            created_at=timezone.now(),
+        )
+        for domain, browser in enumerate((owner, friend), start=70)
+    )
+    owner.post(f"projects/{one}/shares", {"name": "fred", "role": "editor"})
+    assert ended == []
+    owner.delete(f"projects/{one}/shares/people/fred")
+    assert ended == [(friend.user, "You may no longer run this project.")]

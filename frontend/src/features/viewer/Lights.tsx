@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import type { Scene } from '@/generated/messages';
 
 interface LightsProps {
-  readonly scene: Scene;
+  readonly scene: Pick<Scene, 'lights'>;
   readonly bounds: THREE.Box3;
   readonly isDark: boolean;
   readonly hasShadows: boolean;

@@ -6,6 +6,7 @@ import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
 import { trail } from '@/store/session/trail';
+import { Ground } from './Ground';
 import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
 import { Lights } from './Lights';
@@ -91,10 +92,7 @@ export function Stage({ scene, options, isDark }: StageProps) {
       <color attach="background" args={[look.sky]} />
       {isSimple ? null : <fog attach="fog" args={[look.sky, 30, 90]} />}
       <Lights scene={scene} bounds={world.bounds} isDark={isDark} hasShadows={!isSimple} />
-      <mesh receiveShadow position={[0, 0, -0.002]}>
-        <planeGeometry args={[200, 200]} />
-        <GroundMaterial color={scene.ground_color} isDark={isDark} isSimple={isSimple} />
-      </mesh>
+      <Ground color={scene.ground_color} isDark={isDark} isSimple={isSimple} />
       {options.grid ? (
         <gridHelper
           key={look.gridMain}
@@ -119,22 +117,6 @@ export function Stage({ scene, options, isDark }: StageProps) {
       />
     </>
   );
-}
-
-interface GroundMaterialProps {
-  readonly color: number[];
-  readonly isDark: boolean;
-  readonly isSimple: boolean;
-}
-
-function GroundMaterial({ color, isDark, isSimple }: GroundMaterialProps) {
-  const shown = useMemo(() => {
-    const [r = 0.8, g = 0.8, b = 0.8] = color;
-    const ground = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-    return isDark ? ground.multiplyScalar(0.2) : ground;
-  }, [color, isDark]);
-  if (isSimple) return <meshLambertMaterial color={shown} />;
-  return <meshStandardMaterial color={shown} roughness={0.95} metalness={0} />;
 }
 
 type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };

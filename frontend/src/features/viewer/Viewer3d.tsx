@@ -3,7 +3,6 @@ import { IconPlayerPlayFilled } from '@tabler/icons-react';
 import { Canvas } from '@react-three/fiber';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import * as THREE from 'three';
 import { perform } from '@/actions/registry';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
@@ -12,6 +11,7 @@ import { CameraInset } from './CameraInset';
 import { Notes } from './Notes';
 import { Stage } from './Stage';
 import { TeleopPad } from './TeleopPad';
+import './three';
 import { useStream } from './useStream';
 import { useUsesCamera } from './useUsesCamera';
 import { useVisible } from '@/ui/useVisible';
@@ -19,15 +19,6 @@ import { ViewerToolbar } from './ViewerToolbar';
 import { keepViewOptions, loadViewOptions, type ViewOptions } from './viewOptions';
 import classes from './viewer.module.css';
 import { hasWebGl, isSoftwareWebGl } from './webgl';
-
-THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
-
-// The renderer for React still uses a clock that three.js has since renamed; users can do nothing about it.
-THREE.setConsoleFunction((type, message, ...details) => {
-  if (message.startsWith('THREE.Clock:')) return;
-  // eslint-disable-next-line no-console
-  console[type](message, ...details);
-});
 
 const POSES_HZ = 30;
 const SCAN_HZ = 10;

@@ -1,7 +1,8 @@
 import * as THREE from 'three';
-import type { Scene, SceneObject, Shape } from '@/generated/messages';
+import type { Scene, SceneObject } from '@/generated/messages';
 import { currentPoses, type Pose } from '@/store/session/poses';
 import { GeometryCache } from './geometry';
+import { MaterialCache, meshOf, setPose } from './shapes';
 
 interface Moving {
   body: string;
@@ -14,11 +15,6 @@ interface Moving {
 /** A jump this far is a reset or a drag, not motion: it is shown at once. */
 const JUMP_M = 1;
 
-function setPose(position: THREE.Vector3, rotation: THREE.Quaternion, pose: Pose): void {
-  position.set(pose[0] ?? 0, pose[1] ?? 0, pose[2] ?? 0);
-  rotation.set(pose[3] ?? 0, pose[4] ?? 0, pose[5] ?? 0, pose[6] ?? 1);
-}
-
 /** The scene's objects as three.js draws them. Poses are applied here, outside React. */
 export class World {
   readonly group = new THREE.Group();
@@ -27,7 +23,7 @@ export class World {
   readonly robotId: number | null = null;
   private readonly moving = new Map<number, Moving>();
   private readonly geometries: GeometryCache;
-  private readonly materials = new Map<string, THREE.Material>();
+  private readonly materials: MaterialCache;
   private interval = 50;
   private lastFrameAt = 0;
 
@@ -36,8 +32,9 @@ export class World {
 
   constructor(
     readonly scene: Scene,
-    private readonly isSimple: boolean,
+    isSimple: boolean,
   ) {
+    this.materials = new MaterialCache(isSimple);
     this.geometries = new GeometryCache(scene.meshes);
     for (const object of scene.objects) {
       const made = this.add(object);
@@ -130,7 +127,7 @@ export class World {
 
   dispose(): void {
     this.geometries.dispose();
-    for (const material of this.materials.values()) material.dispose();
+    this.materials.dispose();
   }
 
   private settle(item: Moving): void {
@@ -142,7 +139,11 @@ export class World {
   private add(object: SceneObject): THREE.Object3D {
     const node = new THREE.Group();
     node.name = object.link ? `${object.body}/${object.link}` : object.body;
-    for (const shape of object.shapes) node.add(this.meshOf(shape, object.kind));
+    for (const shape of object.shapes) {
+      const mesh = meshOf(shape, this.geometries, this.materials);
+      if (object.kind === 'static') mesh.receiveShadow = true;
+      node.add(mesh);
+    }
     const pose = currentPoses.get(object.id) ?? object.pose;
     setPose(node.position, node.quaternion, pose);
     this.ids.set(node, object.id);
@@ -155,28 +156,5 @@ export class World {
     });
     this.group.add(node);
     return node;
-  }
-
-  private meshOf(shape: Shape, kind: SceneObject['kind']): THREE.Mesh {
-    const mesh = new THREE.Mesh(this.geometries.get(shape), this.materialOf(shape.color));
-    setPose(mesh.position, mesh.quaternion, shape.pose);
-    if (shape.shape === 'mesh') mesh.scale.set(shape.size[0] ?? 1, shape.size[1] ?? 1, shape.size[2] ?? 1);
-    mesh.castShadow = shape.shape !== 'plane';
-    mesh.receiveShadow = kind === 'static' || shape.shape === 'plane';
-    return mesh;
-  }
-
-  private materialOf([r = 0.7, g = 0.7, b = 0.7, a = 1]: number[]): THREE.Material {
-    const key = [r, g, b, a].join();
-    let material = this.materials.get(key);
-    if (!material) {
-      const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-      const look = { color, transparent: a < 1, opacity: a };
-      material = this.isSimple
-        ? new THREE.MeshLambertMaterial(look)
-        : new THREE.MeshStandardMaterial({ ...look, roughness: 0.72, metalness: 0.04 });
-      this.materials.set(key, material);
-    }
-    return material;
   }
 }

@@ -8,14 +8,17 @@ import { applyFix } from '@/store/project/fixes';
 interface QuickFixesProps {
   readonly tree: string;
   readonly fixes: readonly Fix[];
+  /** Called after one was applied. */
+  readonly onDone?: (() => void) | undefined;
 }
 
 /** What mends a finding, each at a press; undo takes it back. */
-export function QuickFixes({ tree, fixes }: QuickFixesProps) {
+export function QuickFixes({ tree, fixes, onDone }: QuickFixesProps) {
   const { t } = useTranslation('editor');
   if (fixes.length === 0) return null;
   const act = (fix: Fix) => {
     const undo = applyFix(tree, fix);
+    onDone?.();
     if (!undo) return;
     const id = ['fix', fix.key, ...Object.values(fix.values)].join(' ');
     notifications.show({

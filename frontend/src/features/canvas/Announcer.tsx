@@ -2,16 +2,25 @@ import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { displayName, parentOf } from '@/model/diagram';
 import { liveKey, useLiveStore } from '@/store/project/live';
+import type { ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
+import { useProblemText } from '@/ui/useProblemText';
 import { ordinal } from './flow';
 import classes from './Canvas.module.css';
 
-/** Tells screen readers the selected block: name, type, place and status. */
-export const Announcer = memo(function Announcer({ treeId }: { readonly treeId: string }) {
+interface AnnouncerProps {
+  readonly treeId: string;
+  readonly problems: ReadonlyMap<string, ShownProblem>;
+}
+
+/** Tells screen readers the selected block: name, type, place, status and what is wrong with it. */
+export const Announcer = memo(function Announcer({ treeId, problems }: AnnouncerProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
   const id = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
   const status = useLiveStore((state) => state.statuses.get(liveKey(treeId, id ?? '')) ?? 'IDLE');
+  const textOf = useProblemText();
+  const problem = problems.get(id ?? '');
   const node = id === undefined ? undefined : diagram?.nodes[id];
   if (!diagram || id === undefined || !node) {
     return <div id="canvas-announcer" className={classes['announcer']} aria-live="polite" />;
@@ -25,6 +34,7 @@ export const Announcer = memo(function Announcer({ treeId }: { readonly treeId: 
       ? t('announce.child', { ...ordinal(diagram, parent, id), parent: displayName(above) })
       : t('announce.root'),
     ...(status === 'IDLE' ? [] : [t(`status.${status}`)]),
+    ...(problem ? [t('announce.problem', { message: textOf(problem).message })] : []),
     ...(node.disabled ? [t('announce.disabled')] : []),
   ];
   return (

@@ -5,6 +5,7 @@ import {
   IconBinaryTree,
   IconBox,
   IconBoxOff,
+  IconBulb,
   IconClipboard,
   IconCode,
   IconCopy,
@@ -29,6 +30,7 @@ import {
   change,
   deleteSelection,
   duplicateSelection,
+  hasProblem,
   toggleDisabled,
   unwrapSelection,
 } from '@/store/project/commands';
@@ -64,6 +66,17 @@ function itemsFor(): Item[][] {
   const opens = spec?.source === 'action' || (node.type === 'SubTree' && node.tree !== undefined);
   const when = (condition: boolean, item: Item): Item[] => (condition ? [item] : []);
   return [
+    when(hasProblem(id), {
+      key: 'fix',
+      icon: IconBulb,
+      keys: 'Ctrl+.',
+      run: () => {
+        // After the menu has given the focus back.
+        setTimeout(() => {
+          setEditor({ fixing: id });
+        });
+      },
+    }),
     when(opens, {
       key: node.type === 'SubTree' ? 'openTree' : 'openCode',
       icon: node.type === 'SubTree' ? IconBinaryTree : IconCode,

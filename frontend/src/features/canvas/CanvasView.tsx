@@ -21,6 +21,7 @@ import { clipboardHandlers } from './clipboardHandlers';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
+import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { onCanvasKey, openBlock } from './keyboard';
 import { QuickAdd } from './quickAdd/QuickAdd';
@@ -50,6 +51,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const isFar = useStore((state) => state.transform[2] < FAR);
   const quickAdd = useEditorStore((state) => (state.quickAdd?.tree === treeId ? state.quickAdd : null));
   const find = useEditorStore((state) => state.find);
+  const fixing = useEditorStore((state) => state.fixing);
   const minimap = useEditorStore((state) => state.minimap);
   const [menu, setMenu] = useState<MenuPoint | null>(null);
   const [chosenEdge, setChosenEdge] = useState<string | null>(null);
@@ -227,7 +229,17 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
           }}
         />
       )}
-      <Announcer treeId={treeId} />
+      {fixing !== null && selection.has(fixing) && (
+        <FixBox
+          diagram={diagram}
+          id={fixing}
+          onClose={() => {
+            setEditor({ fixing: null });
+            focus();
+          }}
+        />
+      )}
+      <Announcer treeId={treeId} problems={problems} />
     </div>
   );
 }

@@ -7,6 +7,7 @@ import {
   IconBinaryTree,
   IconBox,
   IconBoxOff,
+  IconBulb,
   IconClipboard,
   IconCopy,
   IconCopyPlus,
@@ -21,6 +22,7 @@ import {
   activeDiagram,
   change,
   duplicateSelection,
+  hasProblem,
   toggleDisabled,
   unwrapSelection,
 } from '@/store/project/commands';
@@ -165,6 +167,17 @@ const rows: readonly UserAction[] = [
     shortcut: '$mod+KeyE',
     enabled: hasSelection,
     run: toggleDisabled,
+  },
+  {
+    id: 'canvas.fix',
+    group: 'canvas',
+    labelKey: 'canvas:menu.fix',
+    icon: IconBulb,
+    shortcut: '$mod+Period',
+    enabled: () => hasProblem(state().selection[0]),
+    run: () => {
+      setEditor({ fixing: state().selection[0] ?? null });
+    },
   },
   {
     id: 'canvas.extract',

@@ -11,10 +11,11 @@ import classes from './Inspector.module.css';
 interface NodeProblemsProps {
   readonly diagram: Diagram;
   readonly id: NodeId;
+  readonly onFixed?: () => void;
 }
 
 /** What is wrong with the block and what to do, above its fields. */
-export function NodeProblems({ diagram, id }: NodeProblemsProps) {
+export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const textOf = useProblemText();
@@ -33,7 +34,11 @@ export function NodeProblems({ diagram, id }: NodeProblemsProps) {
             <Mark size={16} aria-hidden="true" />
             <span>
               <strong>{message}</strong> {hint}
-              <QuickFixes tree={diagram.id} fixes={fixesFor(problem, diagram, vocabulary)} />
+              <QuickFixes
+                tree={diagram.id}
+                fixes={fixesFor(problem, diagram, vocabulary)}
+                onDone={onFixed}
+              />
             </span>
           </li>
         );

@@ -31,6 +31,7 @@ import {
 } from '@/model/rules';
 import type { QuickAddGoal } from './editor';
 import { useProjectStore } from './index';
+import { problemsOf } from './problems';
 import type { EditOptions } from './state';
 
 const store = () => useProjectStore.getState();
@@ -39,6 +40,14 @@ const store = () => useProjectStore.getState();
 export function activeDiagram(): Diagram | null {
   const { activeTree, diagrams } = store();
   return activeTree === null ? null : (diagrams[activeTree] ?? null);
+}
+
+/** Whether the editor or the server found something wrong with a block of the active tree. */
+export function hasProblem(id: NodeId | undefined): boolean {
+  const diagram = activeDiagram();
+  const { vocabulary, diagnostics } = store();
+  if (!diagram || id === undefined) return false;
+  return problemsOf(diagram, vocabulary, diagnostics).some((problem) => problem.node === id);
 }
 
 export function change(label: string, recipes: readonly Recipe[], options?: EditOptions): void {

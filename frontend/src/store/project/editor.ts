@@ -25,6 +25,8 @@ interface EditorState {
   /** A new block on its way from the palette. */
   readonly dragged: Kind | null;
   readonly slot: Slot | null;
+  /** The block whose problems are shown with what mends them. */
+  readonly fixing: NodeId | null;
   readonly find: boolean;
   /** null: shown for trees that are too large to be seen at once. */
   readonly minimap: boolean | null;
@@ -36,6 +38,7 @@ export const useEditorStore = create<EditorState>()(() => ({
   editing: null,
   dragged: null,
   slot: null,
+  fixing: null,
   find: false,
   minimap: null,
 }));

@@ -4,7 +4,8 @@ import { memo, type CSSProperties } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setCollapsed } from '@/model/edits';
 import { change } from '@/store/project/commands';
-import { useEditorStore } from '@/store/project/editor';
+import { setEditor, useEditorStore } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { NodeSymbol } from '@/ui/NodeSymbol';
 import type { BlockNode } from '../flow';
@@ -53,7 +54,15 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
           problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
         />
       )}
-      {fault === undefined && problem && <ProblemMark problem={problem} />}
+      {fault === undefined && problem && (
+        <ProblemMark
+          problem={problem}
+          onOpen={() => {
+            useProjectStore.getState().select(tree, [id]);
+            setEditor({ fixing: id });
+          }}
+        />
+      )}
       {data.folded > 0 && (
         <button
           type="button"

@@ -6,10 +6,22 @@ import classes from './Block.module.css';
 
 const ICONS = { error: IconExclamationMark, warning: IconAlertTriangleFilled, note: IconPencil } as const;
 
-/** What is wrong with a block, and what to do, where the eye is. */
-export function ProblemMark({ problem }: { readonly problem: ShownProblem }) {
+interface ProblemMarkProps {
+  readonly problem: ShownProblem;
+  /** Shows what mends it; absent of what a run told. */
+  readonly onOpen?: () => void;
+}
+
+/** What is wrong with a block, and what to do, where the eye is; a press offers what mends it. */
+export function ProblemMark({ problem, onOpen }: ProblemMarkProps) {
   const text = useProblemText()(problem);
   const Mark = ICONS[problem.severity];
+  const shared = {
+    className: `${classes['problem']} nodrag`,
+    'data-severity': problem.severity,
+    'aria-label': `${text.message} ${text.hint}`,
+  };
+  const icon = <Mark size={12} stroke={3} aria-hidden="true" />;
   return (
     <Tooltip
       multiline
@@ -22,14 +34,22 @@ export function ProblemMark({ problem }: { readonly problem: ShownProblem }) {
         </>
       }
     >
-      <span
-        className={classes['problem']}
-        data-severity={problem.severity}
-        role="img"
-        aria-label={`${text.message} ${text.hint}`}
-      >
-        <Mark size={12} stroke={3} aria-hidden="true" />
-      </span>
+      {onOpen ? (
+        <button
+          type="button"
+          tabIndex={-1}
+          {...shared}
+          aria-haspopup="dialog"
+          data-testid="problem-mark"
+          onClick={onOpen}
+        >
+          {icon}
+        </button>
+      ) : (
+        <span role="img" {...shared}>
+          {icon}
+        </span>
+      )}
     </Tooltip>
   );
 }

@@ -17,7 +17,7 @@ export function openQuickAddBelow(tree: string, parent: NodeId, x: number, y: nu
 }
 
 /** Where a block is drawn in the window; the middle of the canvas when it is not. */
-function pointOf(id: NodeId | undefined): { x: number; y: number } {
+export function pointOf(id: NodeId | undefined): { x: number; y: number } {
   const block = id === undefined ? null : document.querySelector(`[data-testid="node-${CSS.escape(id)}"]`);
   const box = (block ?? document.querySelector('[data-testid="canvas"]'))?.getBoundingClientRect();
   if (!box) return { x: 200, y: 200 };

@@ -28,12 +28,14 @@ def failed(process):
 def running(tmp_path_factory):
     """A server that several tests look at, with its data folder."""
     folder = tmp_path_factory.mktemp("served")
-    with serving(folder) as server:
+    with serving(folder, BT_STUDIO_TOKEN="") as server:
         yield folder, server
 
 
 def test_a_server_serves_and_ends_cleanly(tmp_path, running):
     with serving(tmp_path) as server:
+        assert server.token
+        assert running[1].token
         assert server.token != running[1].token
         me = requests.get(f"{server.base}/api/v1/me", headers=server.headers, timeout=10)
         assert me.json()["mode"] == "local"

@@ -89,7 +89,9 @@ export const api = {
     return answer.findings;
   },
 
-  app: (id: string) => requestJson<AppBundle>(`${project(id)}/app`),
+  /** What runs; in another of the project's universes, or of ours, than it names itself. */
+  app: (id: string, universe?: string | null) =>
+    requestJson<AppBundle>(`${project(id)}/app${universe ? `?${new URLSearchParams({ universe })}` : ''}`),
   startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),
   getSession: (sessionId: string) => requestJson<SessionInfo>(`/sessions/${sessionId}`),
   endSession: (sessionId: string) => requestJson<undefined>(`/sessions/${sessionId}`, { method: 'DELETE' }),
@@ -97,6 +99,7 @@ export const api = {
   templates: () => requestItems<TemplateInfo>('/catalog/templates', 'templates'),
   behaviours: () => requestItems<BehaviourInfo>('/catalog/behaviours', 'behaviours'),
   universes: () => requestItems<UniverseInfo>('/catalog/universes', 'universes'),
+  universeText: (id: string) => requestText(`/catalog/universes/${encodeURIComponent(id)}/text`),
   robots: () => requestItems<UniverseInfo>('/catalog/robots', 'robots'),
 };
 

@@ -3,16 +3,27 @@ import { IconPlus } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { openNewFile, type NewFileKind } from '@/features/code/newFile';
+import { openNewUniverse, UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { ExplorerItem } from './ExplorerItem';
 import classes from './explorer.module.css';
 
-type Section = 'trees' | 'actions' | 'others';
+type Section = 'trees' | 'actions' | 'universes' | 'others';
 
-const NEW_KIND: Record<Section, NewFileKind | null> = { trees: 'tree', actions: 'action', others: 'file' };
+type NewKind = NewFileKind | 'universe';
+
+const NEW_KIND: Record<Section, NewKind> = {
+  trees: 'tree',
+  actions: 'action',
+  universes: 'universe',
+  others: 'file',
+};
+
+const openNew = (kind: NewKind) => (kind === 'universe' ? openNewUniverse() : openNewFile(kind));
 
 function sectionOf(path: string): Section {
   if (/^trees\/[^/]+\.json$/.test(path)) return 'trees';
+  if (UNIVERSE_FILE.test(path)) return 'universes';
   return /^actions\/[^/]+\.py$/.test(path) ? 'actions' : 'others';
 }
 
@@ -21,7 +32,7 @@ export function Explorer() {
   const { t } = useTranslation('frame');
   const files = useProjectStore((state) => state.files);
   const sections = useMemo(() => {
-    const found: Record<Section, string[]> = { trees: [], actions: [], others: [] };
+    const found: Record<Section, string[]> = { trees: [], actions: [], universes: [], others: [] };
     for (const path of Object.keys(files).sort()) found[sectionOf(path)].push(path);
     return found;
   }, [files]);
@@ -35,18 +46,16 @@ export function Explorer() {
             <section key={section} aria-labelledby={`explorer-${section}`}>
               <div className={classes['heading']}>
                 <h2 id={`explorer-${section}`}>{t(`explorer.${section}`)}</h2>
-                {kind ? (
-                  <Tooltip label={t(`explorer.new.${kind}`)}>
-                    <ActionIcon
-                      size="sm"
-                      aria-label={t(`explorer.new.${kind}`)}
-                      data-testid={`new-${kind}`}
-                      onClick={() => openNewFile(kind)}
-                    >
-                      <IconPlus size={15} />
-                    </ActionIcon>
-                  </Tooltip>
-                ) : null}
+                <Tooltip label={t(`explorer.new.${kind}`)}>
+                  <ActionIcon
+                    size="sm"
+                    aria-label={t(`explorer.new.${kind}`)}
+                    data-testid={`new-${kind}`}
+                    onClick={() => openNew(kind)}
+                  >
+                    <IconPlus size={15} />
+                  </ActionIcon>
+                </Tooltip>
               </div>
               <ul className={classes['list']}>
                 {sections[section].map((path) => (

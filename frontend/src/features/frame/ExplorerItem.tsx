@@ -7,10 +7,12 @@ import {
   IconPencil,
   IconStar,
   IconTrash,
+  IconWorld,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { openRename } from '@/features/code/newFile';
 import { undoNotification } from '@/features/projects/undoNotification';
+import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
@@ -24,7 +26,7 @@ interface ExplorerItemProps {
 
 function nameOf(path: string): string {
   const treeId = treeIdOf(path);
-  return treeId ?? path.replace(/^actions\//, '');
+  return treeId ?? path.replace(/^(actions|universes)\//, '');
 }
 
 export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
@@ -36,7 +38,13 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
   const worst = useProjectStore((state) => worstOf(state.diagnostics, path, treeId));
   const tab: DocumentTab =
     isDiagram && treeId !== null ? { kind: 'tree', id: treeId } : { kind: 'file', path };
-  const Icon = isTree ? IconGitFork : isAction ? IconFileCode : IconFileText;
+  const Icon = isTree
+    ? IconGitFork
+    : isAction
+      ? IconFileCode
+      : UNIVERSE_FILE.test(path)
+        ? IconWorld
+        : IconFileText;
 
   const remove = () => {
     const project = useProjectStore.getState();

@@ -10,6 +10,7 @@ const ROWS = [
   null,
   'project.newAction',
   'project.newTree',
+  'project.newUniverse',
   'project.worlds',
   'project.takeAway',
   null,

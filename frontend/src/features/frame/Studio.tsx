@@ -18,6 +18,7 @@ import { registerTopicActions } from '@/features/topics/actions';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
 import { Worlds } from '@/features/universe/Worlds';
+import { NewUniverse } from '@/features/worldEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
@@ -117,6 +118,7 @@ function Workbench({ projectId }: StudioProps) {
       <FileDialog />
       <TakeAway />
       <Worlds />
+      <NewUniverse />
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />

@@ -12,6 +12,7 @@ import {
   IconPlus,
   IconTerminal2,
   IconWorld,
+  IconWorldPlus,
   IconAlertTriangle,
 } from '@tabler/icons-react';
 import { registerActions, type UserAction } from '@/actions/registry';
@@ -22,6 +23,7 @@ import { openNewFile } from '@/features/code/newFile';
 import { openTakeAway } from '@/features/export/takeAway';
 import { openShortcuts } from '@/features/onboarding/shortcutsDialog';
 import { openWorlds } from '@/features/universe/worlds';
+import { openNewUniverse } from '@/features/worldEditor/newUniverse';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
 import { openTab, showPanel, togglePanel } from './tabs';
@@ -88,6 +90,13 @@ const rows: UserAction[] = [
     shortcut: '$mod+Shift+KeyS',
     inTextFields: true,
     run: openTakeAway,
+  },
+  {
+    id: 'project.newUniverse',
+    group: 'project',
+    labelKey: 'frame:action.newUniverse',
+    icon: IconWorldPlus,
+    run: () => openNewUniverse(),
   },
   {
     id: 'project.worlds',

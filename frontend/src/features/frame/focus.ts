@@ -12,6 +12,10 @@ function focusableOf(tab: DocumentTab): HTMLElement | null {
   if (tab.kind === 'tree') {
     return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
   }
+  const editor = document.querySelector(
+    `[data-testid="universe-editor"][data-path="${CSS.escape(tab.path)}"]`,
+  );
+  if (editor) return editor.querySelector('[data-testid="universe-view"]');
   return document.querySelector(
     `[data-testid="code-editor"][data-path="${CSS.escape(tab.path)}"] .cm-content`,
   );

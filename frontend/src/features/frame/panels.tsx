@@ -12,6 +12,7 @@ import { TimelinePanel } from '@/features/timeline/TimelinePanel';
 import { TopicsPanel } from '@/features/topics/TopicsPanel';
 import { CameraPanel } from '@/features/viewer/CameraPanel';
 import { VideoPanel } from '@/features/viewer/VideoPanel';
+import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from './Explorer';
 import type { PanelId } from './layoutModel';
@@ -20,6 +21,9 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazy(async () => ({ default: (await import('@/features/viewer/Viewer3d')).Viewer3d }));
 const XmlPanel = lazy(async () => ({ default: (await import('@/features/xml/XmlPanel')).XmlPanel }));
+const UniverseTab = lazy(async () => ({
+  default: (await import('@/features/worldEditor/UniverseTab')).UniverseTab,
+}));
 const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
 
 const panels: Record<PanelId, () => ReactNode> = {
@@ -51,9 +55,14 @@ function documentOf(tab: DocumentTab): ReactNode {
   if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
   return (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
-      <CodeTab path={tab.path} />
+      <FileTab path={tab.path} />
     </Suspense>
   );
+}
+
+/** A universe is seen in 3D with its text beside; every other file is text. */
+function FileTab({ path }: { readonly path: string }) {
+  return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;
 }
 
 /** What a tab shows; one panel's mistake does not take the others down. */

@@ -41,13 +41,28 @@ export const YAML_OPTIONS = { version: '1.1', uniqueKeys: true, logLevel: 'silen
 /** A universe need not be longer; the simulator refuses what is. */
 const LONGEST = 2_000_000;
 
-let last: { text: string; reading: Reading } | null = null;
+/** The texts before and after the last edit, which are asked for again and again. */
+const KEPT = 3;
 
-/** Reads a universe; the same text gives the same object while it is the last one asked for. */
-export function readUniverse(text: string): Reading {
-  if (last?.text !== text) last = { text, reading: read(text) };
-  return last.reading;
+function remembering<T>(make: (text: string) => T): (text: string) => T {
+  let known: { text: string; made: T }[] = [];
+  return (text) => {
+    const old = known.find((each) => each.text === text);
+    if (old) return old.made;
+    const made = make(text);
+    known = [{ text, made }, ...known].slice(0, KEPT);
+    return made;
+  };
 }
+
+/** A text as YAML; nobody changes what this returns. */
+export const parsed = remembering((text) => {
+  const lines = new LineCounter();
+  return { document: parseDocument(text, { ...YAML_OPTIONS, lineCounter: lines }), lines };
+});
+
+/** Reads a universe; texts that were read a moment ago give the same object. */
+export const readUniverse: (text: string) => Reading = remembering(read);
 
 function read(text: string): Reading {
   if (text.length > LONGEST) {
@@ -55,8 +70,7 @@ function read(text: string): Reading {
       { path: [], kind: 'tooLong', params: { most: LONGEST }, line: 1, column: 1, thing: null },
     ]);
   }
-  const lines = new LineCounter();
-  const document = parseDocument(text, { ...YAML_OPTIONS, lineCounter: lines });
+  const { document, lines } = parsed(text);
   if (document.errors.length > 0) {
     return unreadable(
       document.errors.map(({ message, pos: [start] }) => ({

@@ -10,7 +10,7 @@ import {
   type YAMLSeq,
 } from 'yaml';
 import { applyOps, sameValue, type Op } from './ops';
-import { YAML_OPTIONS } from './read';
+import { parsed, YAML_OPTIONS } from './read';
 import { splicedAll, type Splice } from './splice';
 import { isObject, type Json, type Path } from './types';
 import { blockItem, blockPair, inline, keyText } from './write';
@@ -34,7 +34,7 @@ export function rewrite(text: string, ops: readonly Op[]): string {
   throw new UnwritableError('the document cannot be changed piece by piece');
 }
 
-const parse = (text: string): Document => parseDocument(text, YAML_OPTIONS);
+const parse = (text: string): Document => parsed(text).document;
 
 function says(text: string, wanted: Json): boolean {
   const document = parse(text);
@@ -44,18 +44,16 @@ function says(text: string, wanted: Json): boolean {
 /** Operations that do not disturb each other's places are made at once, since each needs the text read. */
 function bySplices(text: string, ops: readonly Op[]): string | null {
   let now = text;
-  let document = parse(now);
   let waiting: Splice[] = [];
   const flush = () => {
     if (waiting.length === 0) return;
     now = splicedAll(now, waiting);
-    document = parse(now);
     waiting = [];
   };
   for (const op of ops) {
-    const isInPlace = op.kind === 'set' && document.hasIn(op.path);
+    const isInPlace = op.kind === 'set' && parse(now).hasIn(op.path);
     if (!isInPlace) flush();
-    const splices = splicesOf(now, document, op);
+    const splices = splicesOf(now, parse(now), op);
     if (splices === null) return null;
     if (splices.some((splice) => waiting.some((other) => overlaps(splice, other)))) return null;
     waiting.push(...splices);
@@ -228,7 +226,7 @@ function removeSplices(
 
 /** The same by the library's own means: comments and order stay, spaces and line breaks are its own. */
 function byDocument(text: string, ops: readonly Op[]): string | null {
-  const document = parse(text);
+  const document = parseDocument(text, YAML_OPTIONS);
   const made = (value: Json) => {
     const node = document.createNode(value);
     if (isMap(node) || isSeq(node)) node.flow = true;

@@ -283,7 +283,7 @@ describe('any sequence of edits', () => {
         for (; steps > 0; steps -= 1) history = redo(history) ?? history;
         expect(history.text).toBe(end);
       }),
-      { numRuns: 60 },
+      { numRuns: 30 },
     );
   });
 
@@ -294,7 +294,7 @@ describe('any sequence of edits', () => {
         const after = rewrite(start, editOf(universeOf(start), each).ops);
         expect(comments(after)).toEqual(comments(start));
       }),
-      { numRuns: 60 },
+      { numRuns: 30 },
     );
   });
 

@@ -8,7 +8,7 @@ import { ensureConnected, send } from '@/store/session/connection';
 import { CommandError } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
-import { chosenWorld } from './world';
+import { chosenWorld, useWorldChoice } from './world';
 
 /** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
@@ -31,7 +31,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await saveNow();
     useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
     enter('checking');
-    const app = await api.app(projectId);
+    const app = await api.app(projectId, useWorldChoice.getState().universe);
     enter('starting');
     await ensureConnected(projectId);
     enter('launching');
@@ -58,13 +58,10 @@ function runCommand(app: AppBundle): Commands['run'] {
   const { speed } = useSessionStore.getState();
   useSessionStore.setState({ tickHz: app.tick_hz });
   return {
-    universe: { ...chosenWorld(app, ownUniverse), speed },
+    universe: { ...chosenWorld(app), speed },
     application: applicationOf(app),
   };
 }
-
-/** The text of a universe that belongs to the project. */
-const ownUniverse = (id: string) => useProjectStore.getState().currentText(`universes/${id}.yaml`);
 
 function applicationOf({
   app_zip_base64,

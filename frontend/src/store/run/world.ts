@@ -12,13 +12,12 @@ interface WorldChoice {
 /** Lives as long as the page: a world tried once is not written into the project. */
 export const useWorldChoice = create<WorldChoice>(() => ({ universe: null, robot: null, seed: 0 }));
 
-/** The universe and robot of the next run, out of what the project has and what was chosen for once. */
-export function chosenWorld<T>(
-  own: { universe: T; robot: string | null },
-  documentOf: (universe: string) => string | null,
-): { universe: T | string | { document: string }; robot: string | null; seed: number } {
-  const { universe, robot, seed } = useWorldChoice.getState();
-  if (universe === null) return { universe: own.universe, robot: robot ?? own.robot, seed };
-  const document = documentOf(universe);
-  return { universe: document === null ? universe : { document }, robot: robot ?? own.robot, seed };
+/** The universe, as the server sent it for this choice, and the robot of the next run. */
+export function chosenWorld<T>(own: { universe: T; robot: string | null }): {
+  universe: T;
+  robot: string | null;
+  seed: number;
+} {
+  const { robot, seed } = useWorldChoice.getState();
+  return { universe: own.universe, robot: robot ?? own.robot, seed };
 }

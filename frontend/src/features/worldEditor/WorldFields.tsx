@@ -1,0 +1,74 @@
+import { useTranslation } from 'react-i18next';
+import { setWorld } from '@/model/universe/edits';
+import type { Json, Path, Universe } from '@/model/universe/types';
+import { edit, select, type UniverseEditor } from './editor';
+import { ColorField, FieldGroup, NumberField, TextField } from './fields';
+import classes from './worldEditor.module.css';
+
+interface WorldFieldsProps {
+  readonly editor: UniverseEditor;
+  readonly universe: Universe;
+}
+
+const AXES = ['x', 'y', 'z'] as const;
+
+/** What belongs to no thing: the name, the ground and the sun. */
+export function WorldFields({ editor, universe }: WorldFieldsProps) {
+  const { t } = useTranslation('worldEditor');
+  const set = (path: Path, value: Json, mergeKey?: string) =>
+    edit(editor, 'world', (now) => setWorld(now, path, value), mergeKey === undefined ? {} : { mergeKey });
+  const [light] = universe.lights;
+  return (
+    <div className={classes['form']} data-testid="world-fields">
+      <TextField
+        label={t('worldName')}
+        value={universe.name}
+        problem={(name) => (name.trim() === '' || name.length > 120 ? t('problem.empty') : null)}
+        onCommit={(name) => set(['name'], name)}
+      />
+      <TextField
+        label={t('description')}
+        value={universe.description}
+        onCommit={(text) => set(['description'], text)}
+      />
+      <ColorField
+        label={t('groundColor')}
+        value={universe.ground.color}
+        onChange={(color) => set(['ground', 'color'], color, 'ground color')}
+        onEnd={() => select(editor, [])}
+      />
+      <FieldGroup title={t('ground')} columns={2}>
+        <NumberField
+          label={t('friction')}
+          value={universe.ground.friction}
+          min={0}
+          max={10}
+          onCommit={(value) => set(['ground', 'friction'], value)}
+        />
+      </FieldGroup>
+      {light ? (
+        <FieldGroup title={t('sun')}>
+          {AXES.map((axis, index) => (
+            <NumberField
+              key={axis}
+              label={axis}
+              value={light.direction[index] ?? 0}
+              onCommit={(value) => {
+                const direction = light.direction.map((part, at) => (at === index ? value : part));
+                if (direction.some((part) => part !== 0)) set(['lights', 0, 'direction'], direction);
+              }}
+            />
+          ))}
+          <NumberField
+            label={t('intensity')}
+            value={light.intensity}
+            min={0}
+            max={10}
+            onCommit={(value) => set(['lights', 0, 'intensity'], value)}
+          />
+        </FieldGroup>
+      ) : null}
+      <p className={classes['note']}>{t('worldHint')}</p>
+    </div>
+  );
+}

@@ -1,0 +1,63 @@
+import * as THREE from 'three';
+import type { Point } from '@/model/universe/types';
+import type { EditorScene } from './EditorScene';
+
+const ray = new THREE.Raycaster();
+
+interface Aimed {
+  readonly key: string;
+  readonly height: number;
+  /** The point of a way that is under the pointer. */
+  readonly waypoint: number | null;
+}
+
+type At = Pick<MouseEvent, 'clientX' | 'clientY'>;
+
+function aim(event: At, canvas: HTMLElement, camera: THREE.Camera): void {
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  const x = ((event.clientX - left) / width) * 2 - 1;
+  const y = 1 - ((event.clientY - top) / height) * 2;
+  ray.setFromCamera(new THREE.Vector2(x, y), camera);
+}
+
+/** The thing under the pointer. */
+export function thingAt(
+  event: At,
+  canvas: HTMLElement,
+  camera: THREE.Camera,
+  scene: EditorScene,
+): Aimed | null {
+  aim(event, canvas, camera);
+  const hits = ray.intersectObject(scene.group).filter(({ object }) => object.visible);
+  // A handle is small and lies on the floor: it goes before what is in front of it.
+  const hit = hits.find(({ object }) => object.userData['waypoint'] !== undefined) ?? hits[0];
+  const key = hit ? scene.keyOf(hit.object) : null;
+  if (!hit || key === null) return null;
+  const waypoint: unknown = hit.object.userData['waypoint'];
+  return { key, height: hit.point.z, waypoint: typeof waypoint === 'number' ? waypoint : null };
+}
+
+/** Where the pointer is at a height over the floor. */
+export function pointAt(event: At, canvas: HTMLElement, camera: THREE.Camera, height = 0): Point | null {
+  aim(event, canvas, camera);
+  const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -height);
+  const point = ray.ray.intersectPlane(plane, new THREE.Vector3());
+  return point ? [point.x, point.y] : null;
+}
+
+const FORWARD: readonly Point[] = [
+  [1, 0],
+  [0, 1],
+  [-1, 0],
+  [0, -1],
+];
+
+/** The axis of the world that points most away from the one who looks. */
+export function forwardOf(camera: THREE.Camera): Point {
+  const ahead = camera.getWorldDirection(new THREE.Vector3());
+  // From straight above, what is up on the screen is ahead.
+  if (Math.hypot(ahead.x, ahead.y) < 0.05) ahead.set(0, 1, 0).applyQuaternion(camera.quaternion);
+  return FORWARD.reduce((best, axis) =>
+    axis[0] * ahead.x + axis[1] * ahead.y > best[0] * ahead.x + best[1] * ahead.y ? axis : best,
+  );
+}

@@ -1,0 +1,92 @@
+import type * as THREE from 'three';
+import { requestText, urlOf } from '@/api/http';
+import type { Shape } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { readMesh } from './meshes';
+import { urdfShapes } from './urdf';
+
+/** Something that is fetched to be drawn: null while it is on its way, or where it cannot be had. */
+type Fetched<T> = { value: T | null; failed: boolean };
+
+/** Meshes and robots that a universe names, fetched once; `onArrival` tells that there is more to draw. */
+export class Assets {
+  private readonly meshes = new Map<string, Fetched<THREE.BufferGeometry>>();
+  private readonly models = new Map<string, Fetched<Shape[]>>();
+  private isGone = false;
+
+  constructor(private readonly onArrival: () => void) {}
+
+  /** The geometry of a mesh file of the project. */
+  mesh(path: string): Fetched<THREE.BufferGeometry> {
+    return this.fetched(this.meshes, path, async () => {
+      const response = await fetch(fileUrl(path), { credentials: 'same-origin' });
+      if (!response.ok) throw new Error(String(response.status));
+      return readMesh(path, await response.arrayBuffer());
+    });
+  }
+
+  /** What a robot looks like: one of the project's own, or one that we ship. */
+  robot(id: string): Fetched<Shape[]> {
+    return this.fetched(this.models, `robot:${id}`, async () => {
+      const own = ownUrdf(id);
+      const text = own
+        ? (useProjectStore.getState().currentText(own) ?? '')
+        : await requestText(`/catalog/robots/${encodeURIComponent(id)}/urdf`);
+      return resolved(urdfShapes(text), own ?? '');
+    });
+  }
+
+  /** What a URDF of the project looks like. */
+  model(path: string): Fetched<Shape[]> {
+    return this.fetched(this.models, path, () => {
+      const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
+      return Promise.resolve(resolved(urdfShapes(text), path));
+    });
+  }
+
+  dispose(): void {
+    this.isGone = true;
+    for (const { value } of this.meshes.values()) value?.dispose();
+  }
+
+  private fetched<T>(known: Map<string, Fetched<T>>, key: string, make: () => Promise<T>): Fetched<T> {
+    const old = known.get(key);
+    if (old) return old;
+    const entry: Fetched<T> = { value: null, failed: false };
+    known.set(key, entry);
+    make()
+      .then((value) => {
+        entry.value = value;
+      })
+      .catch(() => {
+        entry.failed = true;
+      })
+      .finally(() => {
+        if (!this.isGone) this.onArrival();
+      });
+    return entry;
+  }
+}
+
+const fileUrl = (path: string): string => {
+  const { projectId } = useProjectStore.getState();
+  return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
+};
+
+/** The URDF of a robot of the project, if there is one that can be read as it stands. */
+function ownUrdf(id: string): string | undefined {
+  const { files } = useProjectStore.getState();
+  return Object.keys(files).find((path) => path.startsWith(`robots/${id}/`) && path.endsWith('.urdf'));
+}
+
+/** Shapes whose meshes are paths in the project. */
+function resolved(shapes: Shape[] | null, urdf: string): Shape[] {
+  if (!shapes) throw new Error('no URDF');
+  const folder = urdf.slice(0, urdf.lastIndexOf('/') + 1);
+  const top = folder.split('/').slice(0, 2).join('/');
+  const pathOf = (name: string) => {
+    const inPackage = /^package:\/\/[^/]+\/(.*)$/.exec(name)?.[1];
+    return inPackage === undefined ? `${folder}${name.replace(/^\.\//, '')}` : `${top}/${inPackage}`;
+  };
+  return shapes.map((shape) => (shape.mesh ? { ...shape, mesh: pathOf(shape.mesh) } : shape));
+}

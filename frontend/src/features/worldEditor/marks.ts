@@ -1,0 +1,79 @@
+import * as THREE from 'three';
+import type { ActorThing } from '@/model/universe/types';
+
+const ACCENT = 0x6f7dff;
+const CHOSEN = 0xff9f1a;
+
+/** Marks are no part of the thing: the pointer goes through them. */
+const untouchable = <T extends THREE.Object3D>(object: T): T => {
+  object.raycast = () => undefined;
+  object.userData['isOwn'] = true;
+  return object;
+};
+
+/** A box in place of something that is not there yet. */
+export function box(size: number, [r = 0, g = 0, b = 0, a = 1]: readonly number[]): THREE.Mesh {
+  const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
+  const mesh = new THREE.Mesh(
+    new THREE.BoxGeometry(size, size, size),
+    new THREE.MeshBasicMaterial({ color, transparent: true, opacity: a, wireframe: true }),
+  );
+  mesh.position.z = size / 2;
+  mesh.userData['isOwn'] = true;
+  return mesh;
+}
+
+/** The edges of the box round all that a node shows, in the node's own axes; seen through everything. */
+export function frameOf(node: THREE.Object3D): THREE.LineSegments {
+  const bounds = new THREE.Box3().setFromObject(node, true);
+  bounds.translate(node.position.clone().negate());
+  const size = bounds.getSize(new THREE.Vector3()).addScalar(0.02);
+  const edges = new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z));
+  const material = new THREE.LineBasicMaterial({ color: ACCENT, depthTest: false, transparent: true });
+  const frame = untouchable(new THREE.LineSegments(edges, material));
+  frame.position.copy(bounds.getCenter(new THREE.Vector3()));
+  frame.renderOrder = 10;
+  frame.visible = false;
+  frame.userData['isMark'] = true;
+  return frame;
+}
+
+/** Shows on the floor where a robot looks. */
+export function arrow(): THREE.Mesh {
+  const outline = new THREE.Shape([
+    new THREE.Vector2(0.3, -0.09),
+    new THREE.Vector2(0.52, 0),
+    new THREE.Vector2(0.3, 0.09),
+    new THREE.Vector2(0.35, 0),
+  ]);
+  const material = new THREE.MeshBasicMaterial({ color: ACCENT, side: THREE.DoubleSide });
+  const mesh = untouchable(new THREE.Mesh(new THREE.ShapeGeometry(outline), material));
+  mesh.position.z = 0.01;
+  return mesh;
+}
+
+/** A person's way on the floor, with a handle at each point while the person is selected. */
+export function wayOf({ path, loop }: ActorThing): THREE.Object3D[] {
+  const closed = loop && path.length > 2 ? [...path, path[0] ?? [0, 0]] : path;
+  const points = closed.map(([x, y]) => new THREE.Vector3(x, y, 0.02));
+  const line = untouchable(
+    new THREE.Line(
+      new THREE.BufferGeometry().setFromPoints(points),
+      new THREE.LineBasicMaterial({ color: ACCENT, transparent: true }),
+    ),
+  );
+  line.userData['isFaint'] = true;
+  const handles = path.map(([x, y], index) => {
+    const handle = new THREE.Mesh(
+      new THREE.CylinderGeometry(0.11, 0.11, 0.04, 24).rotateX(Math.PI / 2),
+      new THREE.MeshBasicMaterial({ color: index === 0 ? CHOSEN : ACCENT }),
+    );
+    handle.position.set(x, y, 0.03);
+    handle.visible = false;
+    handle.userData['isMark'] = true;
+    handle.userData['isOwn'] = true;
+    handle.userData['waypoint'] = index;
+    return handle;
+  });
+  return [line, ...handles];
+}

@@ -1,3 +1,4 @@
+import type { ReactNode } from 'react';
 import { displayName, type Diagram, type DiagramNode } from '@/model/diagram';
 import { visibleChildren, type Box, type Layout } from '@/model/layout';
 import { BLOCK, emWidth, portLines } from '@/model/measure';
@@ -11,6 +12,8 @@ export interface TreeImageProps {
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
   readonly palette: Palette;
+  /** Drawn over the blocks. */
+  readonly children?: ReactNode;
 }
 
 const MARGIN = 24;
@@ -96,7 +99,7 @@ function BlockImage({ id, node, box, spec, palette }: BlockImageProps) {
 }
 
 /** The whole tree as a picture that needs nothing but itself: for papers, slides and issues. */
-export function TreeImage({ diagram, layout, vocabulary, palette }: TreeImageProps) {
+export function TreeImage({ diagram, layout, vocabulary, palette, children }: TreeImageProps) {
   const boxes = Object.entries(layout.positions);
   const left = Math.min(0, ...boxes.map(([, box]) => box.x)) - MARGIN;
   const top = Math.min(0, ...boxes.map(([, box]) => box.y)) - MARGIN;
@@ -140,6 +143,7 @@ export function TreeImage({ diagram, layout, vocabulary, palette }: TreeImagePro
           />
         ) : null;
       })}
+      {children}
     </svg>
   );
 }

@@ -1,5 +1,5 @@
 import { Layout, type Action, type ITabRenderValues, type Model, type TabNode } from 'flexlayout-react';
-import { IconFileCode, IconFileText, IconGitFork } from '@tabler/icons-react';
+import { IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
@@ -19,6 +19,7 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   const config = node.getConfig() as { tab?: DocumentTab } | undefined;
   const tab = config?.tab;
   if (tab?.kind === 'tree') values.leading = <IconGitFork size={15} aria-hidden="true" />;
+  if (tab?.kind === 'compare') values.leading = <IconHistory size={15} aria-hidden="true" />;
   if (tab?.kind === 'file') {
     values.leading = tab.path.endsWith('.py') ? (
       <IconFileCode size={15} aria-hidden="true" />

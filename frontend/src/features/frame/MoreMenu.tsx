@@ -15,6 +15,7 @@ const ROWS = [
   'project.takeAway',
   null,
   'run.resetWorld',
+  'view.history',
   'view.xml',
   'view.shortcuts',
   'view.resetLayout',

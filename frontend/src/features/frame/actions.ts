@@ -6,6 +6,7 @@ import {
   IconDeviceFloppy,
   IconDownload,
   IconGitFork,
+  IconHistory,
   IconHome,
   IconKeyboard,
   IconLayout,
@@ -150,6 +151,15 @@ const rows: UserAction[] = [
     shortcut: '$mod+Shift+KeyM',
     inTextFields: true,
     run: () => showPanel('problems'),
+  },
+  {
+    id: 'view.history',
+    group: 'view',
+    labelKey: 'frame:action.history',
+    icon: IconHistory,
+    shortcut: '$mod+Shift+KeyH',
+    inTextFields: true,
+    run: () => showPanel('history'),
   },
   {
     id: 'view.xml',

@@ -9,6 +9,7 @@ const RETRY_MS = 20;
 let request = 0;
 
 function focusableOf(tab: DocumentTab): HTMLElement | null {
+  if (tab.kind === 'compare') return null;
   if (tab.kind === 'tree') {
     return document.querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(tab.id)}"]`);
   }

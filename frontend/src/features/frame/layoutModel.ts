@@ -22,6 +22,7 @@ export type PanelId =
   | 'problems'
   | 'timeline'
   | 'topics'
+  | 'history'
   | 'xml';
 
 /** Each with the panel that it comes to stand beside. */
@@ -29,6 +30,7 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['timeline', 'console'],
   ['topics', 'console'],
   ['library', 'palette'],
+  ['history', 'explorer'],
 ];
 
 export type FrameWidth = 'wide' | 'narrow';
@@ -103,6 +105,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
               'blackboard',
               'explorer',
               'outline',
+              'history',
             ],
             view,
           ),
@@ -119,7 +122,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
           type: 'row',
           weight: 17,
           children: [
-            tabset('files', 42, ['explorer', 'outline']),
+            tabset('files', 42, ['explorer', 'outline', 'history']),
             tabset('nodes', 58, ['palette', 'library']),
           ],
         },

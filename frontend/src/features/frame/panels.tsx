@@ -21,6 +21,12 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazy(async () => ({ default: (await import('@/features/viewer/Viewer3d')).Viewer3d }));
 const XmlPanel = lazy(async () => ({ default: (await import('@/features/xml/XmlPanel')).XmlPanel }));
+const HistoryPanel = lazy(async () => ({
+  default: (await import('@/features/history/HistoryPanel')).HistoryPanel,
+}));
+const CompareTab = lazy(async () => ({
+  default: (await import('@/features/history/CompareTab')).CompareTab,
+}));
 const UniverseTab = lazy(async () => ({
   default: (await import('@/features/worldEditor/UniverseTab')).UniverseTab,
 }));
@@ -44,6 +50,11 @@ const panels: Record<PanelId, () => ReactNode> = {
   problems: () => <ProblemsPanel />,
   timeline: () => <TimelinePanel />,
   topics: () => <TopicsPanel />,
+  history: () => (
+    <Suspense fallback={<Waiting reason="loadingEditor" />}>
+      <HistoryPanel />
+    </Suspense>
+  ),
   xml: () => (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
       <XmlPanel />
@@ -55,7 +66,7 @@ function documentOf(tab: DocumentTab): ReactNode {
   if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
   return (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
-      <FileTab path={tab.path} />
+      {tab.kind === 'compare' ? <CompareTab /> : <FileTab path={tab.path} />}
     </Suspense>
   );
 }

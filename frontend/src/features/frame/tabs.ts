@@ -5,7 +5,11 @@ import { focusDocument } from './focus';
 import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
 
 /** A document that is open in a tab. */
-export type DocumentTab = { kind: 'tree'; id: string } | { kind: 'file'; path: string };
+export type DocumentTab =
+  | { kind: 'tree'; id: string }
+  | { kind: 'file'; path: string }
+  /** A revision beside another; there is one such tab. */
+  | { kind: 'compare' };
 
 /** Where an editor shall put its cursor; `request` makes the same line twice two requests. */
 export interface LineTarget {
@@ -19,23 +23,34 @@ interface TabsData {
   /** Of which window width the model is the layout. */
   width: FrameWidth | null;
   target: LineTarget | null;
+  /** The tree or file that was in front last. */
+  front: DocumentTab | null;
 }
 
-export const useTabs = create<TabsData>(() => ({ model: null, width: null, target: null }));
+export const useTabs = create<TabsData>(() => ({ model: null, width: null, target: null, front: null }));
 
 let requests = 0;
 
-const tabId = (tab: DocumentTab) => (tab.kind === 'tree' ? `tree:${tab.id}` : `file:${tab.path}`);
+function tabId(tab: DocumentTab): string {
+  if (tab.kind === 'compare') return 'compare';
+  return tab.kind === 'tree' ? `tree:${tab.id}` : `file:${tab.path}`;
+}
+
+function nameOf(tab: DocumentTab): string {
+  // The frame has words for it, as for its panels.
+  if (tab.kind === 'compare') return 'panel.compare';
+  return tab.kind === 'tree' ? tab.id : (tab.path.split('/').at(-1) ?? tab.path);
+}
 
 function jsonOf(tab: DocumentTab): IJsonTabNode {
-  const name = tab.kind === 'tree' ? tab.id : (tab.path.split('/').at(-1) ?? tab.path);
+  const name = nameOf(tab);
   return {
     type: 'tab',
     id: tabId(tab),
     name,
     component: tab.kind,
     config: { document: true, tab },
-    helpText: tab.kind === 'file' ? tab.path : name,
+    helpText: tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '',
   };
 }
 
@@ -93,9 +108,13 @@ export function frontDocument(model: Model): DocumentTab | null {
   return null;
 }
 
+const isSame = (a: DocumentTab, b: DocumentTab | null) => b !== null && tabId(a) === tabId(b);
+
 /** The canvas, inspector and undo work on the tree in front. */
 export function followFront(model: Model): void {
   const front = frontDocument(model);
+  if (front && front.kind !== 'compare' && !isSame(front, useTabs.getState().front))
+    useTabs.setState({ front });
   const { activeTree, setActiveTree } = useProjectStore.getState();
   if (front?.kind === 'tree' && front.id !== activeTree) setActiveTree(front.id);
 }
@@ -110,7 +129,8 @@ export function keepOpen(projectId: string, model: Model): void {
 /** Opens what was open in this project the last time, and at least its main tree. */
 export function reopen(projectId: string, mainTree: string): void {
   const { files, diagrams } = useProjectStore.getState();
-  const exists = (tab: DocumentTab) => (tab.kind === 'tree' ? tab.id in diagrams : tab.path in files);
+  const exists = (tab: DocumentTab) =>
+    tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
   let kept: { tabs?: DocumentTab[]; front?: DocumentTab | null } = {};
   try {
     kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;

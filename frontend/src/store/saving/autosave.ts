@@ -49,6 +49,18 @@ export async function saveNow(): Promise<void> {
   return inFlight;
 }
 
+/** Lets something else write a revision as a save does: no save is under way meanwhile. */
+export async function asSave(write: () => Promise<void>): Promise<void> {
+  clearTimeout(timer);
+  while (inFlight) await inFlight.catch(() => undefined);
+  setState({ kind: 'saving' });
+  inFlight = write().finally(() => {
+    inFlight = null;
+    onSaved();
+  });
+  return inFlight;
+}
+
 function onEdited(): void {
   const { state } = useSavingStore.getState();
   if (state.kind !== 'conflict') setState(inFlight ? { kind: 'saving' } : { kind: 'dirty' });

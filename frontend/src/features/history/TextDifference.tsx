@@ -1,0 +1,56 @@
+import { MergeView, unifiedMergeView } from '@codemirror/merge';
+import { EditorState } from '@codemirror/state';
+import { EditorView, lineNumbers } from '@codemirror/view';
+import { useMediaQuery } from '@mantine/hooks';
+import { useEffect, useRef } from 'react';
+import { useTranslation } from 'react-i18next';
+import { editorTheme } from '@/features/code/editorTheme';
+import { languageOf } from '@/features/code/modes';
+import { dimMetadata } from '@/features/xml/ranges';
+import classes from './history.module.css';
+
+interface TextDifferenceProps {
+  /** Says how the text is coloured. */
+  readonly path: string;
+  readonly before: string;
+  readonly after: string;
+}
+
+const COLLAPSE = { margin: 3, minSize: 6 };
+
+/** Two texts side by side; one below the other where the window is narrow. */
+export function TextDifference({ path, before, after }: TextDifferenceProps) {
+  const { t } = useTranslation('history');
+  const host = useRef<HTMLDivElement>(null);
+  const isNarrow = useMediaQuery('(max-width: 900px)', false, { getInitialValueInEffect: false });
+  useEffect(() => {
+    if (!host.current) return;
+    const shared = (label: string) => [
+      lineNumbers(),
+      languageOf(path),
+      path.endsWith('.xml') ? dimMetadata : [],
+      editorTheme,
+      EditorView.lineWrapping,
+      EditorState.readOnly.of(true),
+      EditorView.contentAttributes.of({ 'aria-label': label }),
+    ];
+    if (isNarrow) {
+      const unified = unifiedMergeView({
+        original: before,
+        mergeControls: false,
+        collapseUnchanged: COLLAPSE,
+      });
+      const state = EditorState.create({ doc: after, extensions: [shared(t('after')), unified] });
+      const view = new EditorView({ parent: host.current, state });
+      return () => view.destroy();
+    }
+    const merge = new MergeView({
+      parent: host.current,
+      a: { doc: before, extensions: shared(t('before')) },
+      b: { doc: after, extensions: shared(t('after')) },
+      collapseUnchanged: COLLAPSE,
+    });
+    return () => merge.destroy();
+  }, [path, before, after, isNarrow, t]);
+  return <div ref={host} className={classes['text']} data-testid="text-difference" />;
+}

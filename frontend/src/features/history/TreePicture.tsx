@@ -1,0 +1,156 @@
+import { ActionIcon, Tooltip } from '@mantine/core';
+import { IconZoomIn, IconZoomOut } from '@tabler/icons-react';
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { TreeImage } from '@/features/export/TreeImage';
+import { displayName, preorder, type Diagram } from '@/model/diagram';
+import {
+  treeDifference,
+  type ChangeKind,
+  type NodeDifference,
+  type TreeDifference,
+} from '@/model/difference';
+import { layoutTree, type Layout } from '@/model/layout';
+import { useProjectStore } from '@/store/project';
+import classes from './history.module.css';
+
+interface TreePictureProps {
+  readonly before: Diagram;
+  readonly after: Diagram;
+}
+
+/** A sign besides the colour, so that neither is alone. */
+const SIGNS: Record<ChangeKind, string> = { added: '+', removed: '−', changed: '≠', moved: '⇄' };
+const COLORS: Record<ChangeKind, string> = {
+  added: 'var(--bts-success)',
+  removed: 'var(--bts-failure)',
+  changed: 'var(--bts-running)',
+  moved: 'var(--bts-accent)',
+};
+const onThePage = (name: string) => `var(--bts-${name})`;
+
+/** Both states of a tree in one picture: what came, went, changed and moved; and the same in words. */
+export function TreePicture({ before, after }: TreePictureProps) {
+  const { t } = useTranslation('history');
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const [isLarge, setLarge] = useState(false);
+  const [chosen, setChosen] = useState<string | null>(null);
+  const difference = useMemo(() => treeDifference(before, after), [before, after]);
+  const layout = useMemo(
+    () => layoutTree(difference.merged, vocabulary, { ignorePositions: true }),
+    [difference, vocabulary],
+  );
+  const label = t(isLarge ? 'smaller' : 'larger');
+  const Zoom = isLarge ? IconZoomOut : IconZoomIn;
+  return (
+    <div className={classes['pictured']}>
+      {/* The list says the same in words. */}
+      <div
+        className={classes['picture']}
+        data-large={isLarge || undefined}
+        data-testid="picture-difference"
+        aria-hidden="true"
+      >
+        <TreeImage diagram={difference.merged} layout={layout} vocabulary={vocabulary} palette={onThePage}>
+          <Marks difference={difference} layout={layout} chosen={chosen} />
+        </TreeImage>
+      </div>
+      <div className={classes['words']}>
+        <div className={classes['legend']}>
+          {difference.changes.size === 0 ? t('noBlocks') : t('blocks', { count: difference.changes.size })}
+          <Tooltip label={label}>
+            <ActionIcon
+              size="sm"
+              aria-label={label}
+              aria-pressed={isLarge}
+              onClick={() => setLarge(!isLarge)}
+            >
+              <Zoom size={16} />
+            </ActionIcon>
+          </Tooltip>
+        </div>
+        <ul className={classes['changes']} aria-label={t('changes')}>
+          {preorder(difference.merged).map((id) => {
+            const change = difference.changes.get(id);
+            const node = difference.merged.nodes[id];
+            if (!change || !node) return null;
+            return (
+              <li
+                key={id}
+                data-kind={change.kind}
+                onPointerEnter={() => setChosen(id)}
+                onPointerLeave={() => setChosen(null)}
+              >
+                <Change name={displayName(node)} change={change} />
+              </li>
+            );
+          })}
+        </ul>
+      </div>
+    </div>
+  );
+}
+
+function Change({ name, change }: { readonly name: string; readonly change: NodeDifference }) {
+  const { t } = useTranslation('history');
+  return (
+    <>
+      <span className={classes['sign']} style={{ color: COLORS[change.kind] }} aria-hidden="true">
+        {SIGNS[change.kind]}
+      </span>
+      <div>
+        <b>{name}</b> <span className={classes['kind']}>{t(`kind.${change.kind}`)}</span>
+        {change.fields.map(({ field, before, after }) => (
+          <div key={field} className={classes['field']}>
+            <span>{field}</span> {before === null ? null : <del>{before}</del>}
+            {before !== null && after !== null ? ' → ' : null}
+            {after === null ? null : <ins>{after}</ins>}
+          </div>
+        ))}
+        {change.isMoved && change.kind === 'changed' ? (
+          <div className={classes['field']}>{t('kind.moved')}</div>
+        ) : null}
+      </div>
+    </>
+  );
+}
+
+interface MarksProps {
+  readonly difference: TreeDifference;
+  readonly layout: Layout;
+  readonly chosen: string | null;
+}
+
+/** A ring and a sign round each block that differs. */
+function Marks({ difference, layout, chosen }: MarksProps) {
+  return [...difference.changes].map(([id, { kind }]) => {
+    const box = layout.positions[id];
+    if (!box) return null;
+    return (
+      <g key={id} transform={`translate(${box.x} ${box.y})`} data-change={kind} data-node={id}>
+        <rect
+          x={-5}
+          y={-5}
+          width={box.width + 10}
+          height={box.height + 10}
+          rx={14}
+          fill="none"
+          stroke={COLORS[kind]}
+          strokeWidth={chosen === id ? 6 : 3}
+          strokeDasharray={kind === 'removed' ? '7 5' : undefined}
+        />
+        <circle cx={box.width} cy={0} r={12} fill={COLORS[kind]} />
+        <text
+          x={box.width}
+          y={6}
+          fontSize={17}
+          fontWeight={700}
+          textAnchor="middle"
+          fill="var(--bts-surface)"
+        >
+          {SIGNS[kind]}
+        </text>
+      </g>
+    );
+  });
+}

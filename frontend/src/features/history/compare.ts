@@ -1,0 +1,29 @@
+import { create } from 'zustand';
+import type { Revision } from '@/api/revisions';
+
+/** With what a revision is compared: the state before it, the present, or another revision. */
+export type Against = 'before' | 'now' | number;
+
+export interface Comparison {
+  readonly revision: Revision;
+  /** The state before its group of saves. */
+  readonly before: number;
+  readonly against: Against;
+  /** The file that is shown; null: the first that differs. */
+  readonly path: string | null;
+}
+
+export const useComparison = create<{ comparison: Comparison | null }>(() => ({ comparison: null }));
+
+export function setComparison(change: Partial<Comparison>): void {
+  useComparison.setState(({ comparison }) =>
+    comparison ? { comparison: { ...comparison, ...change } } : { comparison },
+  );
+}
+
+/** The two revisions, the older first. */
+export function sidesOf({ revision, before, against }: Comparison, present: number): [number, number] {
+  if (against === 'before') return [before, revision.number];
+  const other = against === 'now' ? present : against;
+  return other < revision.number ? [other, revision.number] : [revision.number, other];
+}

@@ -1,0 +1,32 @@
+import { expect, it } from 'vitest';
+import type { Revision } from '@/api/revisions';
+import { groupRevisions } from './groups';
+
+const save = (number: number, minute: number, more: Partial<Revision> = {}): Revision => ({
+  number,
+  message: 'Edit MainTree.json',
+  label: '',
+  author: 'ada',
+  created_at: new Date(Date.UTC(2026, 0, 1, 10, minute)).toISOString(),
+  files: [],
+  ...more,
+});
+
+const numbers = (revisions: readonly Revision[]) =>
+  groupRevisions(revisions).map(({ saves }) => saves.map(({ number }) => number));
+
+it('joins the saves of one sitting', () => {
+  expect(numbers([save(5, 50), save(4, 31), save(3, 30), save(2, 21)])).toEqual([[5], [4, 3, 2]]);
+});
+
+it('keeps authors, messages and labels apart', () => {
+  const revisions = [
+    save(5, 4),
+    save(4, 3, { author: 'bob' }),
+    save(3, 2),
+    save(2, 1, { label: 'works' }),
+    save(1, 0),
+  ];
+  expect(numbers(revisions)).toEqual([[5], [4], [3], [2, 1]]);
+  expect(numbers([save(2, 1, { message: 'Import' }), save(1, 0)])).toEqual([[2], [1]]);
+});

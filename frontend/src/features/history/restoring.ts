@@ -1,0 +1,23 @@
+import { notifications } from '@mantine/notifications';
+import { t } from '@/i18n';
+import { undoNotification } from '@/features/projects/undoNotification';
+import { restoreRevision } from '@/store/revisions/restore';
+
+/** Puts files (all, when none are named) back to a revision, and offers to take that back. */
+export async function restore(number: number, paths: readonly string[]): Promise<void> {
+  try {
+    const { previous, isChanged } = await restoreRevision(number, paths);
+    if (!isChanged) {
+      notifications.show({ message: t('history:alreadySo', { number }) });
+      return;
+    }
+    undoNotification({
+      message: t('history:restored', { number }),
+      undoLabel: t('history:undo'),
+      undo: () => void restore(previous, paths),
+    });
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    notifications.show({ color: 'red', title: t('history:restoreFailed'), message });
+  }
+}

@@ -1,0 +1,38 @@
+import { keepPreviousData, useInfiniteQuery, useQueryClient } from '@tanstack/react-query';
+import { useEffect } from 'react';
+import { revisions, type Revision } from '@/api/revisions';
+import { useProjectStore } from '@/store/project';
+
+const keyOf = (projectId: string | null) => ['revisions', projectId] as const;
+
+/** The revisions of a file, or of the project when the path is empty; the newest first. */
+export function useHistory(path: string, isVisible: boolean) {
+  const projectId = useProjectStore((state) => state.projectId);
+  const revision = useProjectStore((state) => state.revision);
+  const client = useQueryClient();
+  const found = useInfiniteQuery({
+    queryKey: [...keyOf(projectId), path],
+    queryFn: ({ pageParam, signal }) => revisions.list(projectId ?? '', path, pageParam, signal),
+    initialPageParam: null as number | null,
+    getNextPageParam: (page) => page.next_before,
+    placeholderData: keepPreviousData,
+    enabled: isVisible && projectId !== null,
+  });
+  useEffect(() => {
+    // A new revision was made, here or elsewhere.
+    void client.invalidateQueries({ queryKey: keyOf(projectId) });
+  }, [client, projectId, revision]);
+  const items: Revision[] = found.data?.pages.flatMap((page) => page.items) ?? [];
+  return { ...found, items };
+}
+
+/** Gives a revision a name, or takes it away. */
+export function useLabel(): (number: number, label: string) => Promise<void> {
+  const client = useQueryClient();
+  const projectId = useProjectStore((state) => state.projectId);
+  return async (number, label) => {
+    if (projectId === null) return;
+    await revisions.label(projectId, number, label);
+    await client.invalidateQueries({ queryKey: keyOf(projectId) });
+  };
+}

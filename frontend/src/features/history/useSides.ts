@@ -1,0 +1,65 @@
+import { keepPreviousData, useQuery } from '@tanstack/react-query';
+import { revisions } from '@/api/revisions';
+import { trees } from '@/api/trees';
+import { parseDiagram, serializeDiagram } from '@/model/serialize';
+import type { Diagram } from '@/model/diagram';
+import { useProjectStore } from '@/store/project';
+
+type Sides = readonly [older: number, newer: number];
+
+/** The files that differ between two revisions. */
+export function useDifferences([older, newer]: Sides) {
+  const projectId = useProjectStore((state) => state.projectId) ?? '';
+  return useQuery({
+    queryKey: ['differences', projectId, older, newer],
+    queryFn: ({ signal }) => revisions.differences(projectId, newer, older, signal),
+    // Revisions never change.
+    staleTime: Infinity,
+    placeholderData: keepPreviousData,
+  });
+}
+
+export interface FileSides {
+  readonly before: string | null;
+  readonly after: string | null;
+}
+
+/** A file in two revisions; null where it is not there, or no text. */
+export function useFileSides(path: string | null, [older, newer]: Sides) {
+  const projectId = useProjectStore((state) => state.projectId) ?? '';
+  return useQuery({
+    queryKey: ['file-sides', projectId, path, older, newer],
+    queryFn: async ({ signal }): Promise<FileSides> => {
+      const text = (number: number) => revisions.text(projectId, number, path ?? '', signal);
+      const [before, after] = await Promise.all([text(older), text(newer)]);
+      return { before, after };
+    },
+    staleTime: Infinity,
+    enabled: path !== null,
+  });
+}
+
+/** A diagram of a revision; an empty one where there was none, null where it cannot be drawn. */
+export function diagramOf(text: string | null, id: string): Diagram | null {
+  const none = { format: 'bt-studio/diagram', version: 1, id, root: null, nodes: {}, drafts: [] };
+  try {
+    return { ...parseDiagram(text ?? none), id };
+  } catch {
+    return null;
+  }
+}
+
+/** Both states of a tree as XML; an empty text where there was none. */
+export function useXmlSides(before: Diagram | null, after: Diagram | null, sides: Sides) {
+  const id = after?.id ?? before?.id ?? '';
+  return useQuery({
+    queryKey: ['xml-sides', useProjectStore.getState().projectId, id, ...sides],
+    queryFn: async () => {
+      const xml = async (diagram: Diagram | null) =>
+        diagram === null || diagram.root === null ? '' : (await trees.write(serializeDiagram(diagram))).xml;
+      const [older, newer] = await Promise.all([xml(before), xml(after)]);
+      return { before: older, after: newer };
+    },
+    staleTime: Infinity,
+  });
+}

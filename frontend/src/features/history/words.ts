@@ -1,0 +1,23 @@
+import type { TFunction } from 'i18next';
+import type { Revision } from '@/api/revisions';
+
+/** The messages that the server and autosaving write, and the words for them. */
+const KNOWN: readonly (readonly [RegExp, string])[] = [
+  [/^Edit (\d+) files$/, 'message.editMany'],
+  [/^Edit (.+)$/, 'message.edit'],
+  [/^Create the project$/, 'message.create'],
+  [/^Import$/, 'message.import'],
+  [/^Duplicate of (.+)$/, 'message.duplicate'],
+  [/^Restore revision (\d+)$/, 'message.restore'],
+  [/^Rename the project$/, 'message.rename'],
+  [/^Change the settings$/, 'message.settings'],
+];
+
+/** What a revision did, in the page's language where it is one of our own sentences. */
+export function sayRevision({ message, number }: Revision, t: TFunction<'history'>): string {
+  for (const [pattern, key] of KNOWN) {
+    const found = pattern.exec(message);
+    if (found) return t(key as 'message.edit', { what: (found[1] ?? '').replaceAll('.json', '') });
+  }
+  return message || t('unnamed', { number });
+}

@@ -1,0 +1,74 @@
+import fc from 'fast-check';
+import { describe, expect, it } from 'vitest';
+import { treeDifference } from './difference';
+import { emptyDiagram, preorder, type Diagram, type DiagramNode } from './diagram';
+import { edit } from './edits';
+import { legalStep, steps } from './testing';
+
+function tree(nodes: Record<string, DiagramNode>, root: string | null = 'n1'): Diagram {
+  return { format: 'bt-studio/diagram', version: 1, id: 'Main', root, nodes, drafts: [], layout: 'vertical' };
+}
+
+const older = tree({
+  n1: { type: 'Sequence', children: ['n2', 'n3', 'n4'] },
+  n2: { type: 'A', ports: { speed: '1', gone: 'x' } },
+  n3: { type: 'Inverter', children: ['n5'] },
+  n4: { type: 'B' },
+  n5: { type: 'C' },
+});
+
+const grown = (from: Diagram, path: readonly (readonly [number, number, number])[]): Diagram =>
+  path.reduce((diagram, step) => {
+    const recipe = legalStep(diagram, ...step);
+    return recipe ? edit(diagram, recipe).diagram : diagram;
+  }, from);
+
+describe('treeDifference', () => {
+  it('tells what was changed, added, moved and removed, and keeps the removed in its place', () => {
+    const newer = tree({
+      n1: { type: 'Sequence', children: ['n6', 'n2', 'n4'] },
+      n2: { type: 'A', ports: { speed: '2' }, comment: 'fast' },
+      n4: { type: 'B' },
+      n6: { type: 'Repeat', children: ['n5'] },
+      n5: { type: 'C' },
+    });
+    const { merged, changes } = treeDifference(older, newer);
+    expect([...changes].map(([id, { kind }]) => [id, kind])).toEqual([
+      ['n2', 'changed'],
+      ['n6', 'added'],
+      ['n5', 'moved'],
+      ['n3', 'removed'],
+    ]);
+    expect(changes.get('n2')?.fields).toEqual([
+      { field: 'speed', before: '1', after: '2' },
+      { field: 'gone', before: 'x', after: null },
+      { field: 'comment', before: null, after: 'fast' },
+    ]);
+    expect(merged.nodes['n1']?.children).toEqual(['n6', 'n2', 'n3', 'n4']);
+  });
+
+  it('tells another order of siblings, and nothing of one that was only placed', () => {
+    const swapped = tree({ ...older.nodes, n1: { type: 'Sequence', children: ['n3', 'n2', 'n4'] } });
+    expect([...treeDifference(older, swapped).changes.keys()].sort()).toEqual(['n2', 'n3']);
+    const placed = tree({ ...older.nodes, n4: { type: 'B', position: [3, 4] } });
+    expect(treeDifference(older, placed).changes.size).toBe(0);
+  });
+
+  it('draws each block of both trees once', () => {
+    fc.assert(
+      fc.property(steps, steps, (first, then) => {
+        const one = grown(emptyDiagram('Main'), first);
+        const other = grown(one, then);
+        const { merged, changes } = treeDifference(one, other);
+        const all = new Set([...Object.keys(one.nodes), ...Object.keys(other.nodes)]);
+        const drawn = preorder(merged);
+        expect(new Set(drawn)).toEqual(all);
+        expect(drawn).toHaveLength(all.size);
+        for (const id of Object.keys(one.nodes)) {
+          expect(changes.get(id)?.kind === 'removed').toBe(!(id in other.nodes));
+        }
+      }),
+      { numRuns: 100 },
+    );
+  });
+});

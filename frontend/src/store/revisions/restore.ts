@@ -1,0 +1,47 @@
+import { produceWithPatches, type Draft } from 'immer';
+import { revisions } from '@/api/revisions';
+import type { ProjectDetail } from '@/api/types';
+import type { Diagram } from '@/model/diagram';
+import { emptyHistory, record } from '@/model/history';
+import { useProjectStore } from '@/store/project';
+import { mergeRemote } from '@/store/project/remote';
+import { asSave, saveNow } from '@/store/saving/autosave';
+
+/** What a restoring did: how to take it back, and whether anything was to be done. */
+export interface Restored {
+  readonly previous: number;
+  readonly isChanged: boolean;
+}
+
+/**
+ * Puts files (all, when none are named) back to what they were, as a new revision. Edits that wait are
+ * saved before, so that they are in the history, too.
+ */
+export async function restoreRevision(number: number, paths: readonly string[]): Promise<Restored> {
+  const { projectId } = useProjectStore.getState();
+  if (projectId === null) return { previous: 0, isChanged: false };
+  await saveNow();
+  const previous = useProjectStore.getState().revision;
+  await asSave(async () => {
+    takeRestored(await revisions.restore(projectId, number, paths));
+  });
+  return { previous, isChanged: useProjectStore.getState().revision !== previous };
+}
+
+/** Takes over the restored files; what this did to a tree is a step of its undo. */
+function takeRestored(detail: ProjectDetail): void {
+  const state = useProjectStore.getState();
+  if (state.projectId !== detail.id) return;
+  const { data } = mergeRemote(state, detail);
+  const histories = { ...data.histories };
+  for (const [id, now] of Object.entries(data.diagrams ?? {})) {
+    const before = state.diagrams[id];
+    if (!before || before === now) continue;
+    const [, patches, inverse] = produceWithPatches(state.diagrams, (draft) => {
+      (draft as Record<string, Draft<Diagram>>)[id] = now as Draft<Diagram>;
+    });
+    const entry = { label: 'restore', mergeKey: null, patches, inverse, before: [], after: [] };
+    histories[id] = record(state.histories[id] ?? emptyHistory, entry);
+  }
+  useProjectStore.setState({ ...data, histories });
+}

@@ -11,6 +11,7 @@ import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
 import { Lights } from './Lights';
 import { MeasureLine } from './MeasureLine';
+import { TextureCache } from './TextureCache';
 import { TrailView } from './TrailView';
 import type { ViewOptions } from './viewOptions';
 import { useTools } from './useTools';
@@ -32,13 +33,17 @@ const LOOKS = {
 /** What is drawn: the world, its light, and what helps to read it. */
 export function Stage({ scene, options, isDark }: StageProps) {
   const isSimple = isSoftwareWebGl();
-  const world = useMemo(() => new World(scene, isSimple), [scene, isSimple]);
+  const requestFrame = useThrottledInvalidate();
+  const textures = useMemo(
+    () => new TextureCache(scene.textures ?? {}, requestFrame, isSimple ? 1 : 8),
+    [scene, isSimple, requestFrame],
+  );
+  const world = useMemo(() => new World(scene, isSimple, textures), [scene, isSimple, textures]);
   const lidar = useMemo(() => new LidarView(), []);
   const trailView = useMemo(() => new TrailView(trail), []);
   const framesView = useMemo(() => new FramesView(scene, world), [scene, world]);
   const frustum = useMemo(() => new FrustumView(scene, world), [scene, world]);
   const controls = useRef<ComponentRef<typeof OrbitControls>>(null);
-  const requestFrame = useThrottledInvalidate();
   const look = isDark ? LOOKS.dark : LOOKS.light;
 
   useEffect(() => () => world.dispose(), [world]);
@@ -92,7 +97,13 @@ export function Stage({ scene, options, isDark }: StageProps) {
       <color attach="background" args={[look.sky]} />
       {isSimple ? null : <fog attach="fog" args={[look.sky, 30, 90]} />}
       <Lights scene={scene} bounds={world.bounds} isDark={isDark} hasShadows={!isSimple} />
-      <Ground color={scene.ground_color} isDark={isDark} isSimple={isSimple} />
+      <Ground
+        color={scene.ground_color}
+        picture={scene.ground_texture}
+        textures={textures}
+        isDark={isDark}
+        isSimple={isSimple}
+      />
       {options.grid ? (
         <gridHelper
           key={look.gridMain}

@@ -3,6 +3,7 @@ import type { Scene, SceneObject } from '@/generated/messages';
 import { currentPoses, type Pose } from '@/store/session/poses';
 import { GeometryCache } from './geometry';
 import { MaterialCache, meshOf, setPose } from './shapes';
+import type { TextureCache } from './TextureCache';
 
 interface Moving {
   body: string;
@@ -33,8 +34,9 @@ export class World {
   constructor(
     readonly scene: Scene,
     isSimple: boolean,
+    textures: TextureCache | null = null,
   ) {
-    this.materials = new MaterialCache(isSimple);
+    this.materials = new MaterialCache(isSimple, textures);
     this.geometries = new GeometryCache(scene.meshes);
     for (const object of scene.objects) {
       const made = this.add(object);

@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 import type { Mesh as MeshData, Shape } from '@/generated/messages';
 import { floatsOf, uint32Of } from '@/store/session/frames';
+import { mapPicture } from './mapping';
 
 /** Geometries by shape and size, shared by all objects of a scene. */
 export class GeometryCache {
@@ -8,11 +9,13 @@ export class GeometryCache {
 
   constructor(private readonly meshes: Record<string, MeshData>) {}
 
-  get(shape: Shape): THREE.BufferGeometry {
-    const key = `${shape.shape}:${shape.mesh ?? ''}:${shape.shape === 'mesh' ? '' : shape.size.join()}`;
+  /** The triangles of a shape; with a texture of this size they say where in it they are. */
+  get(shape: Shape, tile?: readonly [number, number]): THREE.BufferGeometry {
+    const size = shape.shape === 'mesh' && !tile ? '' : shape.size.join();
+    const key = `${shape.shape}:${shape.mesh ?? ''}:${size}:${tile?.join() ?? ''}`;
     let geometry = this.known.get(key);
     if (!geometry) {
-      geometry = this.make(shape);
+      geometry = tile ? this.painted(shape, tile) : this.make(shape);
       this.known.set(key, geometry);
     }
     return geometry;
@@ -21,6 +24,20 @@ export class GeometryCache {
   dispose(): void {
     for (const geometry of this.known.values()) geometry.dispose();
     this.known.clear();
+  }
+
+  private painted(shape: Shape, tile: readonly [number, number]): THREE.BufferGeometry {
+    const whole = this.make(shape);
+    const uvs = this.meshes[shape.mesh ?? '']?.uvs;
+    if (uvs) {
+      whole.setAttribute('uv', new THREE.BufferAttribute(floatsOf(uvs), 2));
+      return whole;
+    }
+    const [x = 1, y = 1, z = 1] = shape.shape === 'mesh' ? shape.size : [];
+    const apart = whole.index ? whole.toNonIndexed() : whole;
+    // In m while it is painted; a mesh gets its size from the object that shows it.
+    mapPicture(apart.scale(x, y, z), shape.shape, tile);
+    return apart.scale(1 / x, 1 / y, 1 / z);
   }
 
   private make({ shape, size, mesh = '' }: Shape): THREE.BufferGeometry {

@@ -2,24 +2,29 @@ import * as THREE from 'three';
 import type { Shape } from '@/generated/messages';
 import type { Pose } from '@/store/session/poses';
 import type { GeometryCache } from './geometry';
+import type { TextureCache } from './TextureCache';
 
 export function setPose(position: THREE.Vector3, rotation: THREE.Quaternion, pose: Pose): void {
   position.set(pose[0] ?? 0, pose[1] ?? 0, pose[2] ?? 0);
   rotation.set(pose[3] ?? 0, pose[4] ?? 0, pose[5] ?? 0, pose[6] ?? 1);
 }
 
-/** Materials by colour, shared by all objects of a scene. */
+/** Materials by colour and picture, shared by all objects of a scene. */
 export class MaterialCache {
   private readonly known = new Map<string, THREE.Material>();
 
-  constructor(private readonly isSimple: boolean) {}
+  constructor(
+    private readonly isSimple: boolean,
+    readonly textures: TextureCache | null = null,
+  ) {}
 
-  get([r = 0.7, g = 0.7, b = 0.7, a = 1]: readonly number[]): THREE.Material {
-    const key = [r, g, b, a].join();
+  get([r = 0.7, g = 0.7, b = 0.7, a = 1]: readonly number[], picture = ''): THREE.Material {
+    const key = [r, g, b, a, picture].join();
     let material = this.known.get(key);
     if (!material) {
       const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-      const look = { color, transparent: a < 1, opacity: a };
+      const map = this.textures?.get(picture) ?? null;
+      const look = { color, transparent: a < 1, opacity: a, map };
       material = this.isSimple
         ? new THREE.MeshLambertMaterial(look)
         : new THREE.MeshStandardMaterial({ ...look, roughness: 0.72, metalness: 0.04 });
@@ -31,12 +36,15 @@ export class MaterialCache {
   dispose(): void {
     for (const material of this.known.values()) material.dispose();
     this.known.clear();
+    this.textures?.dispose();
   }
 }
 
 /** A shape as three.js draws it. */
 export function meshOf(shape: Shape, geometries: GeometryCache, materials: MaterialCache): THREE.Mesh {
-  const mesh = new THREE.Mesh(geometries.get(shape), materials.get(shape.color));
+  const picture = shape.texture ?? '';
+  const geometry = geometries.get(shape, picture ? materials.textures?.tileOf(picture) : undefined);
+  const mesh = new THREE.Mesh(geometry, materials.get(shape.color, picture));
   setPose(mesh.position, mesh.quaternion, shape.pose);
   if (shape.shape === 'mesh') mesh.scale.set(shape.size[0] ?? 1, shape.size[1] ?? 1, shape.size[2] ?? 1);
   mesh.castShadow = shape.shape !== 'plane';

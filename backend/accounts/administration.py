@@ -8,6 +8,7 @@ from allauth.account.decorators import secure_admin_login
 from django.contrib import admin, messages
 from django.contrib.auth.admin import UserAdmin
 from django.core.mail import send_mail
+from django.db import transaction
 from django.db.models import Count, Q, Sum
 from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.template.defaultfilters import filesizeformat
@@ -15,6 +16,7 @@ from django.template.response import TemplateResponse
 from django.urls import path
 
 from backend.accounts import passwords
+from backend.accounts.actions import LastAdministratorError, delete_account
 from backend.accounts.audit import note
 from backend.accounts.models import AuditEntry, Group, GroupMember, Invitation, User
 from backend.config.environment import environment
@@ -132,6 +134,43 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
         kept = Q(projects__deleted_at=None)
         rows: QuerySet[User] = super().get_queryset(request)
         return rows.annotate(kept=Count("projects", filter=kept), used=Sum("projects__size", filter=kept))
+
+    def delete_model(self, request: HttpRequest, obj: User) -> None:
+        """As the user would: their robots end, too."""
+        delete_account(obj)
+
+    def delete_queryset(self, request: HttpRequest, queryset: QuerySet[User]) -> None:
+        """The same for several; refused as a whole when no administrator would be left."""
+        with transaction.atomic():
+            for user in queryset:
+                delete_account(user)
+
+    def get_deleted_objects(
+        self, objs: Sequence[User] | QuerySet[User], request: HttpRequest
+    ) -> tuple[list[str], dict[str, int], set[str], list[str]]:
+        """Says how many projects go with each, in place of a list of all their files.
+
+        What goes along is what nobody may delete by itself: sessions, invitations.
+        """
+        rows = list(objs)
+        lines = [f"{row.username}, with all projects ({row.projects.count()})" for row in rows]
+        return lines, {"accounts": len(rows)}, set(), []
+
+    def delete_view(self, request: HttpRequest, object_id: str, extra_context: Any = None) -> HttpResponse:
+        """Says why the last administrator stays."""
+        try:
+            return super().delete_view(request, object_id, extra_context)
+        except LastAdministratorError as error:
+            messages.error(request, f"{error.detail} {error.hint}")
+            return HttpResponseRedirect(request.path)
+
+    def response_action(self, request: HttpRequest, queryset: QuerySet[User]) -> HttpResponse | None:  # type: ignore[override]
+        """The same for several."""
+        try:
+            return super().response_action(request, queryset)
+        except LastAdministratorError as error:
+            messages.error(request, f"{error.detail} {error.hint}")
+            return HttpResponseRedirect(request.get_full_path())
 
     @admin.display(description="role")
     def role(self, row: User) -> str:

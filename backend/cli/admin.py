@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import contextmanager
+from pathlib import Path  # noqa: TC003 - read at run time
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -106,6 +107,71 @@ def users() -> None:
             mark = "admin" if row.is_superuser else "teacher" if row.is_teacher else "user"
             state = "" if row.is_active else "  deactivated"
             print(f"{row.username:30} {mark:8} {row.kept:5} projects {row.used or 0:12,} bytes{state}")
+
+
+@admin.command()
+def drain(
+    message: Annotated[str, typer.Option(help="What users are told besides.")] = "",
+    wait: Annotated[int, typer.Option(min=0, max=1440, help="Minutes to wait for the last robot.")] = 0,
+    off: Annotated[bool, typer.Option("--off", help="Let robots start again.")] = False,  # noqa: FBT002
+) -> None:
+    """Lets no robot start any more, tells the users, and says how many still run.
+
+    With --wait it ends when the last one has; its status is 1 when time is up before.
+    """
+    with _accounts():
+        from backend.sessions import drain as drains
+
+        if off:
+            drains.lift(acting_user=None)
+            print("Robots start again.")
+            return
+        drains.begin(message, acting_user=None)
+        print("No robot starts any more; `bt-studio admin drain --off` ends this.")
+        left = drains.wait_for_the_last(wait * 60, print)
+        if wait and left:
+            raise CliError(f"Time is up, and robots still run: {left}. An administrator may end them.")
+
+
+@admin.command(name="export-user")
+def export_user(
+    name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")],
+    file: Annotated[Path, typer.Argument(help="The zip to write.")],
+) -> None:
+    """Writes all that is kept of a user to a zip: account, log, drafts and projects."""
+    with _accounts():
+        from backend.accounts.audit import note
+        from backend.projects.personal_data import archive_of
+
+        user = _user(name)
+        try:
+            file.write_bytes(archive_of(user))
+        except OSError as error:
+            raise CliError(f"{file} cannot be written: {error.strerror}.") from error
+        note("account.export", actor=None, subject=user.username, subject_id=user.pk, by="command line")
+        print(f"All that is kept of {user.username} is in {file}.")
+
+
+@admin.command(name="delete-user")
+def delete_user(
+    name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")],
+    yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,  # noqa: FBT002
+) -> None:
+    """Deletes an account with all its projects, for good; what it wrote elsewhere stays, without a name."""
+    with _accounts():
+        from backend.accounts.actions import delete_account
+        from backend.config.problems import StudioError
+        from backend.projects.usage import usage
+
+        user = _user(name)
+        count = usage(user)["projects"]
+        if not yes and not typer.confirm(f"Delete {user.username} with {count} projects for good?"):
+            raise CliError("Nothing was deleted.")
+        try:
+            delete_account(user)
+        except StudioError as error:
+            raise CliError(error.detail) from error
+        print(f"{user.username} is deleted, with {count} projects.")
 
 
 def _user(name: str) -> User:

@@ -15,6 +15,7 @@ from backend.config.sockets import ID, Call, Closed
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.notices import notices_of
+from backend.projects.pages_open import pages
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
@@ -36,7 +37,10 @@ def may_write(project_id: UUID, user: User) -> None:
 
 
 async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each."""
+    """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each.
+
+    Between them may come `{"type": "server", "text"}`: something that all users are told; empty, it is over.
+    """
     project_id = UUID(call.address[1])
     async with notices_of(project_id) as following:
         try:
@@ -46,11 +50,13 @@ async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISend
         except NotFoundError:
             return Closed(NO_SUCH_PROJECT, "There is no such project.")
         await _tell(send, {"type": "revision", "revision": project.revision, "author": "", "message": ""})
+        pages.join(send)
         telling = asyncio.create_task(_relay(following, send))
         leaving = asyncio.create_task(_until_left(receive))
         try:
             await asyncio.wait((telling, leaving), return_when=asyncio.FIRST_COMPLETED)
         finally:
+            pages.leave(send)
             telling.cancel()
             leaving.cancel()
             await asyncio.gather(telling, leaving, return_exceptions=True)

@@ -21,7 +21,7 @@ from backend.config.environment import environment
 from backend.config.problems import NotFoundError, StudioError
 from backend.projects import queries as projects
 from backend.projects.access import Need
-from backend.sessions import queries
+from backend.sessions import drain, queries
 from backend.sessions.choices import SessionState
 from backend.sessions.errors import HostFullError, LaunchError
 from backend.sessions.launchers.base import Launcher, Spec
@@ -70,11 +70,13 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
 
     Raises:
         HostFullError: there is no free ROS domain.
+        DrainingError: the server is about to be upgraded.
     """
     project = projects.project(project_id, user=acting_user, need=Need.RUN)
     running = queries.live_session(project_id, user=acting_user)
     if running is not None and refresh(running).state in LIVE_STATES:
         return running
+    drain.require_open()
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
             with transaction.atomic():
@@ -112,6 +114,8 @@ def start_queued() -> int:
 
     Several web servers may do so at once: each session is taken by one of them.
     """
+    if drain.current() is not None:
+        return 0
     waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("created_at")
     started = 0
     for session in waiting[: max(0, places_left())]:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from django.contrib import admin, messages
+from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
+from django.urls import path, reverse
 
 from backend.accounts.administration import ReadOnly, site
 from backend.accounts.audit import note
 from backend.accounts.models import User
+from backend.sessions import drain, queries
 from backend.sessions.actions import end_session
 from backend.sessions.models import LIVE_STATES, Session
 
 if TYPE_CHECKING:
     from django.db.models import QuerySet
-    from django.http import HttpRequest
 
 
 class Sessions(ReadOnly):
@@ -27,6 +29,28 @@ class Sessions(ReadOnly):
     ordering = ("-created_at",)
     actions = ("end",)
     exclude = ("launcher_state", "address")
+    change_list_template = "admin/sessions.html"
+
+    def get_urls(self) -> list[Any]:
+        """Adds the button that lets no robot start any more."""
+        button = path("drain/", self.admin_site.admin_view(self.drain), name="drain")
+        return [button, *super().get_urls()]
+
+    def changelist_view(self, request: HttpRequest, extra_context: dict[str, Any] | None = None) -> Any:
+        """With how many run, and whether more may start."""
+        more = {"drain": drain.current(), "counts": queries.counts()}
+        return super().changelist_view(request, more | (extra_context or {}))
+
+    def drain(self, request: HttpRequest) -> HttpResponse:
+        """Lets no robot start any more, or lets them again."""
+        actor = request.user if isinstance(request.user, User) else None
+        if request.method == "POST" and "off" in request.POST:
+            drain.lift(acting_user=actor)
+            messages.success(request, "Robots start again.")
+        elif request.method == "POST":
+            drain.begin(request.POST.get("message", ""), acting_user=actor)
+            messages.success(request, "No robot starts any more, and users are told.")
+        return HttpResponseRedirect(reverse("admin:executor_sessions_session_changelist"))
 
     @admin.action(description="End (the user is told)")
     def end(self, request: HttpRequest, rows: QuerySet[Session]) -> None:

@@ -17,7 +17,8 @@ from asgiref.sync import sync_to_async
 from django.utils import timezone
 
 from backend.config.environment import environment
-from backend.sessions import actions
+from backend.projects.pages_open import pages
+from backend.sessions import actions, drain
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
 
@@ -40,6 +41,7 @@ class Attendance:
         self._used: dict[UUID, float] = {}
         self._browsers: dict[UUID, set[ASGISendCallable]] = defaultdict(set)
         self._warned: set[UUID] = set()
+        self._told: dict[ASGISendCallable, str] = {}
 
     def join(self, session_id: UUID, send: ASGISendCallable) -> None:
         """A browser opened its control socket."""
@@ -49,6 +51,7 @@ class Attendance:
     def leave(self, session_id: UUID, send: ASGISendCallable) -> None:
         """It has gone."""
         self._browsers[session_id].discard(send)
+        self._told.pop(send, None)
         if not self._browsers[session_id]:
             self._browsers.pop(session_id)
 
@@ -62,6 +65,13 @@ class Attendance:
         used, self._used = self._used, {}
         now = time.monotonic()
         return {session_id: now - at for session_id, at in used.items()}
+
+    async def tell(self, text: str) -> None:
+        """Writes a line about the server into every console, once for each text."""
+        for send in [send for browsers in self._browsers.values() for send in browsers]:
+            if text and self._told.get(send) != text:
+                await say(send, "log", {"source": "manager", "level": "warning", "text": text})
+            self._told[send] = text
 
     async def warn(self, session_id: UUID, text: str) -> None:
         """Writes a line into the console of everyone who looks, once until it is used again."""
@@ -91,6 +101,9 @@ async def care_for_ever() -> None:
         await asyncio.sleep(EVERY_S)
         try:
             soon = await sync_to_async(care)(attendance.take_used())
+            text = await sync_to_async(drain.text)()
+            await pages.tell(text)
+            await attendance.tell(text)
             for session_id, minutes in soon.items():
                 await attendance.warn(
                     session_id,

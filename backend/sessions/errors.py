@@ -13,6 +13,14 @@ class LaunchError(StudioError):
     title = "The executor did not start"
 
 
+class DrainingError(StudioError):
+    """No robot starts, since the server is about to be upgraded."""
+
+    status = 503
+    code = "draining"
+    title = "No robot starts now"
+
+
 class HostFullError(StudioError):
     """Every ROS domain of this host is in use."""
 

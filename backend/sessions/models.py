@@ -14,6 +14,13 @@ RUNNING_STATES = (SessionState.STARTING, SessionState.READY)
 LIVE_STATES = (SessionState.QUEUED, *RUNNING_STATES)
 
 
+class Drain(models.Model):
+    """While there is a row, no robot starts: the server is about to be upgraded. There is one at most."""
+
+    since = models.DateTimeField()
+    message = models.CharField(max_length=300, blank=True)
+
+
 class Session(models.Model):
     """One executor: a manager with its world and its application. One live one per project and user."""
 

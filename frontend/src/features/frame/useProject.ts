@@ -4,6 +4,7 @@ import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
 import { followRevisions } from '@/store/saving/live';
+import { tellServer } from './tellServer';
 import { tellTaken } from './tellTaken';
 import { leave, reattach } from '@/store/session/connection';
 
@@ -21,7 +22,7 @@ export function useProject(projectId: string): Opening {
         startAutosave();
         restoreDraft(detail);
         setOpening({ kind: 'open' });
-        unfollow = followRevisions(projectId, tellTaken);
+        unfollow = followRevisions(projectId, tellTaken, tellServer);
         void reattach(projectId);
       },
       (error: Error) => {

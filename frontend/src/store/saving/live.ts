@@ -8,6 +8,14 @@ import { useSavingStore } from './store';
 /** Told what came from elsewhere: the paths, and what the other side called its change. */
 type OnTaken = (paths: readonly string[], notice: Notice) => void;
 
+/** Told what concerns all users of the server; an empty text says that it is over. */
+type OnServer = (text: string) => void;
+
+interface ServerNotice {
+  readonly type: 'server';
+  readonly text: string;
+}
+
 interface Notice {
   readonly type: 'revision';
   readonly revision: number;
@@ -19,8 +27,8 @@ const RETRY_AFTER_MS = [1000, 3000, 10_000, 30_000] as const;
 const SIGNED_OUT = 4401;
 const NO_SUCH_PROJECT = 4404;
 
-/** Follows the project's revisions until the returned function is called. */
-export function followRevisions(projectId: string, onTaken: OnTaken): () => void {
+/** Follows the project's revisions, and what the server says, until the returned function is called. */
+export function followRevisions(projectId: string, onTaken: OnTaken, onServer: OnServer): () => void {
   let socket: WebSocket | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
   let retries = 0;
@@ -30,7 +38,11 @@ export function followRevisions(projectId: string, onTaken: OnTaken): () => void
     socket = new WebSocket(socketUrl(`/ws/projects/${projectId}/notices`));
     socket.onmessage = ({ data }: MessageEvent<string>) => {
       retries = 0;
-      const notice = JSON.parse(data) as Notice;
+      const notice = JSON.parse(data) as Notice | ServerNotice;
+      if (notice.type === 'server') {
+        onServer(notice.text);
+        return;
+      }
       // A lost answer is no harm: the next notice, or the next connection, says the same.
       void catchUp(projectId, notice, onTaken).catch(() => undefined);
     };

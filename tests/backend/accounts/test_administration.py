@@ -1,0 +1,94 @@
+"""What administrators do on their pages and in the terminal."""
+
+from __future__ import annotations
+
+import zipfile
+
+import pytest
+from django.conf import settings
+
+from backend.accounts.models import AuditEntry, User
+from backend.accounts.signals_out import account_leaves
+from backend.cli import admin as commands
+from backend.cli.errors import CliError
+from backend.config import server
+from backend.sessions import actions as session_actions
+from backend.sessions import drain
+from tests.backend.accounts.test_sharing import project_of
+
+
+@pytest.fixture
+def terminal(person, monkeypatch, settings_of, tmp_path):
+    """Django is set up already in the tests, and the database is that of the tests."""
+    settings_of(data_dir=tmp_path)
+    monkeypatch.setattr(server, "migrate", lambda: None)
+    return tmp_path
+
+
+def test_an_administrator_deletes_an_account_as_its_user_would(person):
+    ada, olga = person("ada", is_admin=True), person("olga")
+    project_of(olga)
+    left = []
+    account_leaves.connect(lambda sender, user, **_: left.append(user.username), weak=False)
+    ada.form(f"/admin/accounts/user/{olga.user.pk}/delete/", post="yes")
+    assert left == ["olga"]
+    assert not User.objects.filter(username="olga").exists()
+    answer = ada.form(f"/admin/accounts/user/{ada.user.pk}/delete/", post="yes")
+    assert b"only administrator" in ada.page(answer["Location"]).content
+    chosen = {"action": "delete_selected", "_selected_action": str(ada.user.pk), "post": "yes"}
+    ada.form("/admin/accounts/user/", **chosen)
+    assert User.objects.filter(username="ada").exists()
+
+
+def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkeypatch):
+    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    ada, olga = person("ada", is_admin=True), person("olga")
+    running, waiting = project_of(olga), project_of(olga, "Later")
+    olga.post(f"projects/{running}/session")
+    page = "/admin/executor_sessions/session/"
+    assert b"Let no robot start" in ada.page(page).content
+    token = ada.client.cookies[settings.CSRF_COOKIE_NAME].value
+    ada.client.post(
+        "/admin/executor_sessions/session/drain/",
+        {"message": "Back at 15:00.", "csrfmiddlewaretoken": token},
+    )
+    assert b"Back at 15:00." in ada.page("/admin/executor_sessions/session/").content
+    refused = olga.post(f"projects/{waiting}/session", expect=503)
+    assert (refused["code"], refused["hint"]) == ("draining", "Back at 15:00.")
+    olga.post(f"projects/{running}/session")  # what runs goes on
+    assert session_actions.start_queued() == 0
+    assert drain.text().endswith("those that run go on. Back at 15:00.")
+    told = []
+    assert drain.wait_for_the_last(0, told.append) == 1
+    assert told == ["Robots that run: 1. Users who wait for one: 0."]
+    drain.lift(acting_user=ada.user)
+    assert drain.text() == ""
+    olga.post(f"projects/{waiting}/session")
+    log = AuditEntry.objects.filter(action__startswith="server.").order_by("id")
+    assert [(row.actor_name, row.action) for row in log] == [
+        ("ada", "server.drain"),
+        ("ada", "server.drain_off"),
+    ]
+
+
+def test_an_administrator_exports_and_deletes_a_user_in_the_terminal(person, terminal, capsys):
+    olga = person("olga")
+    one = project_of(olga)
+    commands.export_user("olga@example.org", terminal / "olga.zip")
+    assert f"projects/Robot ({one}).zip" in zipfile.ZipFile(terminal / "olga.zip").namelist()
+    with pytest.raises(CliError, match="cannot be written"):
+        commands.export_user("olga", terminal / "nowhere" / "olga.zip")
+    with pytest.raises(CliError, match="no account"):
+        commands.delete_user("otto", yes=True)
+    commands.delete_user("olga", yes=True)
+    assert not User.objects.filter(username="olga").exists()
+    assert "olga is deleted, with 1 projects." in capsys.readouterr().out
+
+
+def test_a_drain_begins_and_ends_in_the_terminal(person, terminal, capsys):
+    person("ada", is_admin=True)
+    commands.drain(message="Back at 15:00.")
+    assert "Robots that run: 0." in capsys.readouterr().out
+    assert drain.text().endswith("Back at 15:00.")
+    commands.drain(off=True)
+    assert drain.text() == ""

@@ -7,6 +7,7 @@ import { resize } from './commands';
 import { edit, isReadOnly, select, type UniverseEditor } from './editor';
 import { ColorField, FieldGroup, NumberField } from './fields';
 import { PoseFields } from './PoseFields';
+import { TextureField } from './TextureField';
 
 interface ModelFieldsProps {
   readonly editor: UniverseEditor;
@@ -26,6 +27,12 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
       (now) => setField(now, key, field, value),
       mergeKey === undefined ? {} : { mergeKey },
     );
+  /** Without its texture a thing has no size of one repetition either. */
+  const paint = (texture: string | undefined) =>
+    edit(editor, 'texture', (now) => {
+      const { ops } = setField(now, key, 'texture', texture);
+      return { ops: texture ? ops : [...ops, ...setField(now, key, 'tile', undefined).ops] };
+    });
   const files = useProjectStore((state) => state.files);
   const wanted = FILES[shape];
   const canWeigh = shape !== 'plane' && thing.solid;
@@ -75,6 +82,7 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
           onEnd={() => select(editor, [key])}
         />
       )}
+      {shape === 'urdf' || shape === 'sdf' ? null : <TextureField value={thing.texture} onChange={paint} />}
       <FieldGroup title={t('physics')} columns={2}>
         <Switch
           size="xs"

@@ -1,8 +1,9 @@
 import { useTranslation } from 'react-i18next';
 import { setWorld } from '@/model/universe/edits';
-import type { Json, Path, Universe } from '@/model/universe/types';
+import { valueAt, type Json, type Path, type Universe } from '@/model/universe/types';
 import { edit, select, type UniverseEditor } from './editor';
 import { ColorField, FieldGroup, NumberField, TextField } from './fields';
+import { TextureField } from './TextureField';
 import classes from './worldEditor.module.css';
 
 interface WorldFieldsProps {
@@ -17,6 +18,13 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
   const { t } = useTranslation('worldEditor');
   const set = (path: Path, value: Json, mergeKey?: string) =>
     edit(editor, 'world', (now) => setWorld(now, path, value), mergeKey === undefined ? {} : { mergeKey });
+  const bare = () =>
+    edit(editor, 'texture', (now) => ({
+      ops: ['texture', 'tile']
+        .map((field) => ['ground', field])
+        .filter((path) => valueAt(now.raw, path) !== undefined)
+        .map((path) => ({ kind: 'unset', path })),
+    }));
   const [light] = universe.lights;
   return (
     <div className={classes['form']} data-testid="world-fields">
@@ -36,6 +44,10 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
         value={universe.ground.color}
         onChange={(color) => set(['ground', 'color'], color, 'ground color')}
         onEnd={() => select(editor, [])}
+      />
+      <TextureField
+        value={universe.ground.texture}
+        onChange={(texture) => (texture ? set(['ground', 'texture'], texture) : bare())}
       />
       <FieldGroup title={t('ground')} columns={2}>
         <NumberField

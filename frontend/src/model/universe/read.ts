@@ -150,7 +150,11 @@ function universeOf(raw: JsonObject): Universe {
     raw,
     name: text(raw['name'], ''),
     description: text(raw['description'], ''),
-    ground: { color: color(ground['color'], '#d8d4cc'), friction: number(ground['friction'], 0.9) },
+    ground: {
+      color: color(ground['color'], ground['texture'] ? '#ffffff' : '#d8d4cc'),
+      texture: text(ground['texture'], ''),
+      friction: number(ground['friction'], 0.9),
+    },
     things: thingsOf(raw),
     lights: lights.map((light): Light => {
       const said = isObject(light) ? light : {};
@@ -214,7 +218,8 @@ function modelOf(
     size: numbers(said['size'], wanted).map((part) => (part > 0 ? part : 1)),
     file: text(said['file'], ''),
     pose: pose(said['pose']),
-    color: color(said['color'], '#9aa4b0'),
+    color: color(said['color'], said['texture'] ? '#ffffff' : '#9aa4b0'),
+    texture: text(said['texture'], ''),
     mass: number(said['mass'], 0),
     friction: number(said['friction'], 0.6),
     restitution: number(said['restitution'], 0),

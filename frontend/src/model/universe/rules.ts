@@ -1,6 +1,8 @@
 import { checkSchema, type Issue } from './schema';
 import {
   FILES,
+  PICTURE,
+  TEXTURES,
   isObject,
   SECTIONS,
   SIZE_MEANING,
@@ -30,13 +32,18 @@ export function checkUniverse(raw: Json): Issue[] {
   if (!isObject(raw)) return found;
   const models = Array.isArray(raw['models']) ? (raw['models'] as Json[]) : [];
   const own = models.flatMap((model, index) => (isObject(model) ? checkModel(model, ['models', index]) : []));
-  return [...found, ...own, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
+  const ground = isObject(raw['ground']) ? checkPaint(raw['ground'], ['ground']) : [];
+  return [...found, ...own, ...ground, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
 }
 
 function checkModel(model: JsonObject, path: Path): Issue[] {
   const shape = model['shape'];
   if (typeof shape !== 'string' || !Object.hasOwn(SIZE_MEANING, shape)) return [];
-  const found = [...checkFile(model, shape as Shape, path), ...checkSize(model, shape as Shape, path)];
+  const found = [
+    ...checkFile(model, shape as Shape, path),
+    ...checkSize(model, shape as Shape, path),
+    ...checkPaint(model, path),
+  ];
   const isHeavy = typeof model['mass'] === 'number' && model['mass'] > 0;
   if (isHeavy && shape === 'plane') found.push({ path: [...path, 'mass'], kind: 'planeMass', params: {} });
   else if (isHeavy && model['solid'] === false) {
@@ -61,6 +68,17 @@ function checkSize(model: JsonObject, shape: Shape, path: Path): Issue[] {
   return [
     { path: at, kind: meaning.length === 0 ? 'noSize' : 'size', params: { shape, count: meaning.length } },
   ];
+}
+
+function checkPaint(painted: JsonObject, path: Path): Issue[] {
+  const texture = typeof painted['texture'] === 'string' ? painted['texture'] : '';
+  const isAssembly = painted['shape'] === 'urdf' || painted['shape'] === 'sdf';
+  if (texture && isAssembly) return [{ path: [...path, 'texture'], kind: 'noTexture', params: {} }];
+  if (texture && !(TEXTURES as readonly string[]).includes(texture) && !PICTURE.test(texture)) {
+    return [{ path: [...path, 'texture'], kind: 'texture', params: { known: TEXTURES.join(', ') } }];
+  }
+  const hasTile = painted['tile'] !== undefined && painted['tile'] !== null;
+  return hasTile && !texture ? [{ path: [...path, 'tile'], kind: 'tile', params: {} }] : [];
 }
 
 function checkLights(raw: JsonObject): Issue[] {

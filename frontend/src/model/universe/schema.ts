@@ -24,7 +24,14 @@ export function checkSchema(value: Json, root: Schema, schema: Schema = root, pa
     if (choices.includes(value)) return [];
     return [issue(path, 'choice', { choices: choices.join(', ') })];
   }
+  const kinds = schema['anyOf'];
+  if (Array.isArray(kinds)) {
+    const tried = (kinds as Schema[]).map((kind) => checkSchema(value, root, kind, path));
+    return tried.some((found) => found.length === 0) ? [] : (tried[0] ?? []);
+  }
   switch (schema['type']) {
+    case 'null':
+      return value === null ? [] : [issue(path, 'number')];
     case 'object':
       return isObject(value) ? checkObject(value, root, schema, path) : [issue(path, 'object')];
     case 'array':

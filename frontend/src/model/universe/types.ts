@@ -28,6 +28,10 @@ export const FILES: Readonly<Partial<Record<Shape, RegExp>>> = {
   sdf: /\.sdf$/i,
 };
 
+/** Textures that we ship. */
+export const TEXTURES = ['asphalt', 'brick', 'carpet', 'checker', 'grass', 'tiles', 'wood'] as const;
+export const PICTURE = /\.(png|jpe?g)$/i;
+
 export type Section = 'models' | 'actors' | 'robots';
 export const SECTIONS: readonly Section[] = ['models', 'actors', 'robots'];
 
@@ -46,6 +50,8 @@ export interface ModelThing extends Placed {
   readonly file: string;
   readonly pose: Pose;
   readonly color: string;
+  /** A texture that we ship, a picture of the project, or nothing. */
+  readonly texture: string;
   readonly mass: number;
   readonly friction: number;
   readonly restitution: number;
@@ -80,7 +86,7 @@ export interface Universe {
   readonly raw: JsonObject;
   readonly name: string;
   readonly description: string;
-  readonly ground: { readonly color: string; readonly friction: number };
+  readonly ground: { readonly color: string; readonly texture: string; readonly friction: number };
   readonly things: readonly Thing[];
   readonly lights: readonly Light[];
   readonly view: { readonly eye: Vector; readonly target: Vector };

@@ -102,6 +102,10 @@ describe('reading', () => {
     ['{id: a, shape: sphere, size: [1], pose: [0, 0, 0]}', 'exactly'],
     ['{id: a, shape: sphere, size: [1], restitution: 2}', 'range'],
     ['{shape: sphere, size: [1]}', 'missing'],
+    ['{id: a, shape: sphere, size: [1], texture: marble}', 'texture'],
+    ['{id: a, shape: sphere, size: [1], tile: [1, 1]}', 'tile'],
+    ['{id: a, shape: sphere, size: [1], texture: wood, tile: [0, 1]}', 'above'],
+    ['{id: a, shape: sdf, file: a.sdf, texture: wood}', 'noTexture'],
   ])('refuses %s', (model, kind) => {
     const text = `format: bt-studio/universe\nversion: 1\nname: x\nmodels:\n  - ${model}\n`;
     expect(problemsOf(text)).toContainEqual([kind, 5]);

@@ -2,7 +2,7 @@
 
 A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, a row a line. It is read
 in one transaction, so that it is the state of one moment, also while people work. Left out is what has a
-meaning only while a server runs: sign-ins, executors, answers kept for repeated requests.
+meaning only while a server runs: sign-ins, executors, a drain, answers kept for repeated requests.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ LEFT_OUT: Final = frozenset(
         "admin.logentry",
         "auth.permission",
         "contenttypes.contenttype",
+        "executor_sessions.drain",
         "executor_sessions.session",
         "projects.idempotencykey",
         "sessions.session",

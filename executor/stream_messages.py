@@ -56,7 +56,7 @@ class Mesh(Struct, omit_defaults=True):
 class Texture(Struct):
     """A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
 
-    It lies on shapes as `executor/render/mapping.py` says. On a mesh with `uvs` of its own it lies as they say,
+    It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
     whatever the size.
     """
 

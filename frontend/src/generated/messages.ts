@@ -134,7 +134,7 @@ export interface Shape {
 /**
  * A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
  *
- * It lies on shapes as `executor/render/mapping.py` says. On a mesh with `uvs` of its own it lies as they say,
+ * It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
  * whatever the size.
  */
 export interface Texture {

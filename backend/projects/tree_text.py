@@ -31,17 +31,24 @@ def write(diagram: str, *, base: str, ids: Sequence[str]) -> dict[str, Any]:
 def read(xml: str, diagram: str) -> dict[str, Any]:
     """The diagram that an edited text stands for; `diagram` is what it was before.
 
+    A text that is half typed is nothing out of the ordinary: it has no diagram, and findings that say why.
+
     Raises:
-        CheckFailedError: the text is no XML, or not that of this tree.
+        CheckFailedError: the diagram before cannot be read.
     """
     from translator import TranslatorError  # noqa: PLC0415
     from translator.diagram import diagram_text  # noqa: PLC0415
     from translator.tree_text import read_tree_text  # noqa: PLC0415
 
     try:
-        found = read_tree_text(xml, _tree(diagram))
+        now = _tree(diagram)
     except TranslatorError as error:
         refuse(error)
+    try:
+        found = read_tree_text(xml, now)
+    except TranslatorError as error:
+        told = [item.to_json() for item in error.diagnostics]
+        return {"xml": xml, "ranges": [], "diagram": None, "diagnostics": told}
     told = [item.to_json() for item in found.diagnostics]
     return _text(found.text) | {"diagram": diagram_text(found.tree), "diagnostics": told}
 

@@ -62,7 +62,7 @@ class TreeTextSerializer(serializers.Serializer[Any]):
 class ReadTreeDoneSerializer(TreeTextSerializer):
     """The tree that a text stands for."""
 
-    diagram = serializers.CharField()
+    diagram = serializers.CharField(allow_null=True, help_text="null: the text cannot be read.")
     diagnostics = s.DiagnosticSerializer(many=True)
 
 
@@ -90,5 +90,5 @@ class TreeDiagram(APIView):
         tags=["trees"],
     )
     def post(self, request: Request) -> Response:
-        """Reads the XML of one tree, nodes keeping their ids; 422 with `diagnostics` when it cannot be."""
+        """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
         return Response(tree_text.read(**parsed(ReadTreeSerializer, request.data)))

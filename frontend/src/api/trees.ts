@@ -18,7 +18,8 @@ export interface TreeText {
 
 /** The tree that an edited text stands for. */
 export interface ReadTree extends TreeText {
-  readonly diagram: string;
+  /** null: the text cannot be read, and the diagnostics say why. */
+  readonly diagram: string | null;
   readonly diagnostics: readonly Diagnostic[];
 }
 

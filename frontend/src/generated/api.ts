@@ -874,7 +874,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Reads the XML of one tree, nodes keeping their ids; 422 with `diagnostics` when it cannot be. */
+        /** @description Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none. */
         post: operations["read_tree_xml"];
         delete?: never;
         options?: never;
@@ -1349,7 +1349,8 @@ export interface components {
         ReadTreeDone: {
             xml: string;
             ranges: components["schemas"]["NodeRange"][];
-            diagram: string;
+            /** @description null: the text cannot be read. */
+            diagram: string | null;
             diagnostics: components["schemas"]["Diagnostic"][];
         };
         /** @description An edited text. */

@@ -49,7 +49,7 @@ function translate() {
     const type = typeIn(xml);
     if (type === undefined) {
       const diagnostics = [{ code: 'BT0701', severity: 'error' as const, message: 'no', line: 1 }];
-      return Promise.reject(new ApiError({ title: '', status: 422, code: 'check_failed', diagnostics }));
+      return Promise.resolve({ xml, ranges: [], diagram: null, diagnostics });
     }
     const now = parseDiagram(diagram);
     const next = serializeDiagram({ ...now, nodes: { n1: { ...now.nodes['n1'], type } } });

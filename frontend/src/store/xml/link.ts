@@ -202,6 +202,9 @@ export class XmlLink {
       const found = await trees.read(text, serializeDiagram(from));
       if (mine !== this.request) return;
       if (this.diagram() !== from) return this.part();
+      if (found.diagram === null) {
+        return this.set({ state: { kind: 'broken', findings: found.diagnostics } });
+      }
       this.apply(parseDiagram(found.diagram));
       this.agree(text, found.ranges, this.diagram() ?? from);
       this.set({
@@ -211,9 +214,7 @@ export class XmlLink {
       });
       this.keep();
     } catch (error) {
-      if (mine !== this.request) return;
-      if (isRefusal(error)) this.set({ state: { kind: 'broken', findings: error.diagnostics } });
-      else this.fail(error, () => void this.read());
+      if (mine === this.request) this.fail(error, () => void this.read());
     }
   }
 

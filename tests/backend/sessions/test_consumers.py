@@ -16,8 +16,7 @@ from backend.config import guard
 from backend.config.server import bind
 from backend.config.sockets import Route, serve
 from backend.sessions import actions
-from backend.sessions.consumers import ADDRESS, EXECUTOR_FAILED, NO_SUCH_SESSION
-from backend.sessions.consumers import may_use
+from backend.sessions.consumers import ADDRESS, EXECUTOR_FAILED, NO_SUCH_SESSION, may_use
 from backend.sessions.consumers import relay as relay_socket
 from tests.backend.sessions.test_sessions import launched
 

@@ -115,6 +115,8 @@ export class FlowProjection {
       selected: selection.has(id),
       data: sameContent ? known.data : data,
       ariaLabel: displayName(node),
+      // A name needs a role, also from afar, where the block shows no text.
+      ariaRole: 'group',
     };
   }
 

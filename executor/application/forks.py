@@ -19,6 +19,9 @@ _STATE: Final = struct.Struct("dq")
 def limit_forks() -> None:
     """Refuses `os.fork` once this process and those forked from it did it too often in a short time.
 
+    Who asks again while it is refused prolongs the refusal: on a machine so busy that the forked take long to
+    end, each of them would else get another share, and there would be ever more of them.
+
     It is a guard against accidents; the manager counts the processes and ends a tree that has too many.
     """
     shared = mmap.mmap(-1, mmap.PAGESIZE)  # anonymous and shared: forked processes count on
@@ -32,6 +35,7 @@ def limit_forks() -> None:
             start_s, count = now_s, 0
         _STATE.pack_into(shared, 0, start_s, count + 1)
         if count >= FORKS:
+            _STATE.pack_into(shared, 0, now_s, count)
             raise BlockingIOError(errno.EAGAIN, f"more than {FORKS} forks in {WINDOW_S:g} s")
 
     sys.addaudithook(audit)

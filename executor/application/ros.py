@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 import rclpy
 from rclpy.context import Context
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
+
+from executor.ros.spin import PatientExecutor
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -48,7 +50,7 @@ class Graph:
             self.node.create_subscription(Clock, "/clock", self._take_clock, _CLOCK_QOS)
         else:
             self.node.create_timer(WALL_PERIOD_S, self._take_wall_time)
-        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor = PatientExecutor(context=self._context)
         self._executor.add_node(self.node)
 
     def now(self) -> float:

@@ -1,4 +1,4 @@
-"""An executor that calls all that is ready, and returns when nothing is."""
+"""Executors for one thread that cost less than rclpy's: they take messages without asking about all else."""
 
 from __future__ import annotations
 
@@ -6,16 +6,88 @@ import inspect
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.event_handler import EventHandler
-from rclpy.executors import SingleThreadedExecutor, TimeoutException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor, TimeoutException
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.subscription import Subscription
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from rclpy.node import Node
 
 MOST_CALLS: Final = 1000
+_KINDS: Final = ("subscriptions", "timers", "clients", "services")
 LOOK_EVERY: Final = 50
-"""Notices of the middleware (of a wrong QoS, say) may wait for so many drains."""
+"""Notices of the middleware (of a wrong QoS, say) may wait for so many drains or waits."""
+
+
+class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
+    """Waits for messages, and calls back with those that came.
+
+    rclpy's own executor makes a new timer, a wait set of all that a node has, and a task for each wait; that
+    costs more than most callbacks. Here what is not a plain subscription only ends the wait, and is then left
+    to rclpy.
+    """
+
+    _waits = 0
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Calls what is ready, each once at most, or waits for it; raises what a callback raises."""
+        self._waits += 1
+        nodes = list(self.get_nodes())
+        goes_on = any(not task.done() for task, _, _ in self._tasks)
+        if goes_on or self._waits % LOOK_EVERY == 0 or any(map(_has_more_to_wait_for, nodes)):
+            super().spin_once(timeout_sec)
+            return
+        plain, others = self._wait(nodes, timeout_sec)
+        for subscription in plain:
+            group = subscription.callback_group
+            if group.beginning_execution(subscription):
+                try:
+                    _call_once(subscription)
+                finally:
+                    group.ending_execution(subscription)
+        if others:
+            self._cb_iter = None  # what was left over of the last look is still ready
+            super().spin_once(0)
+
+    def _wait(self, nodes: list[Node], timeout_s: float | None) -> tuple[list[Subscription], bool]:
+        """Returns the plain subscriptions that are ready, and whether anything else is."""
+        held: list[Any] = []
+        try:
+            subscriptions, timers, clients, services = (
+                [one for node in nodes for one in self._holding(node, kind, held)] for kind in _KINDS
+            )
+            guards = _hold((self._guard, self._sigint_gc), held)
+            counts = len(subscriptions), len(guards), len(timers), len(clients), len(services)
+            context = self._context.handle
+            context.__enter__()
+            held.append(context)
+            waits = rclpy_implementation.WaitSet(*counts, 0, context)
+            waits.clear_entities()
+            for add, things in (
+                (waits.add_subscription, subscriptions),
+                (waits.add_guard_condition, guards),
+                (waits.add_timer, timers),
+                (waits.add_client, clients),
+                (waits.add_service, services),
+            ):
+                for thing in things:
+                    add(thing.handle)
+            waits.wait(-1 if timeout_s is None else round(timeout_s * 1e9))
+            if not self._context.ok():
+                raise ExternalShutdownException
+            ready = set(waits.get_ready_entities("subscription"))
+            heard = [one for one in subscriptions if one.handle.pointer in ready]
+            others = any(map(waits.get_ready_entities, ("timer", "client", "service")))
+        finally:
+            for handle in held:
+                handle.__exit__(None, None, None)
+        plain = [one for one in heard if _is_plain(one)]
+        return plain, others or len(plain) < len(heard)
+
+    def _holding(self, node: Node, kind: str, held: list[Any]) -> list[Any]:
+        return _hold((one for one in getattr(node, kind) if self.can_execute(one)), held)
 
 
 class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
@@ -62,6 +134,20 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return any(_has_more(node) for node in self.get_nodes())
 
 
+def _hold(things: Iterable[Any], held: list[Any]) -> list[Any]:
+    """Keeps things from being destroyed while they are waited for; returns those that still are there."""
+    found = []
+    for thing in things:
+        handle = thing.handle
+        try:
+            handle.__enter__()
+        except rclpy_implementation.InvalidHandle:  # somebody destroyed it just now
+            continue
+        held.append(handle)
+        found.append(thing)
+    return found
+
+
 def _is_plain(subscription: Subscription) -> bool:
     is_simple = subscription._callback_type is Subscription.CallbackType.MessageOnly
     return is_simple and not inspect.iscoroutinefunction(subscription.callback)
@@ -87,6 +173,12 @@ def _has_more(node: Node) -> bool:
     # Services are only called by clients, which in lock-step are in this process too.
     if any(True for _ in node.clients) or any(not _is_plain(one) for one in node.subscriptions):
         return True
+    if any(True for _ in node.guards):
+        return True
+    return any(not isinstance(waitable, EventHandler) for waitable in node.waitables)
+
+
+def _has_more_to_wait_for(node: Node) -> bool:
     if any(True for _ in node.guards):
         return True
     return any(not isinstance(waitable, EventHandler) for waitable in node.waitables)

@@ -17,7 +17,7 @@ import sys
 from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
@@ -39,11 +39,13 @@ from executor.folders import Folders
 from executor.gate import fetch_listener
 from executor.processes import Limits, Program
 from executor.protocol import About, Session
-from executor.ram.server import RamServer
 from executor.ros.environment import ros_environment
 from executor.server import SessionServer
 from executor.shared_memory import remove_abandoned_segments
 from executor.supervisor import Supervisor
+
+if TYPE_CHECKING:
+    from executor.ram.server import RamServer
 
 __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
 
@@ -109,7 +111,11 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 def session_programs(domain_id: int) -> dict[Kind, Program]:
     """Returns the real world and application, with their limits."""
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    environment = {**ros_environment(domain_id), **threads, "PYTHONDONTWRITEBYTECODE": "1"}
+    own = {
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "PYDANTIC_DISABLE_PLUGINS": "__all__",
+    }  # it looks through all wheels
+    environment = {**ros_environment(domain_id), **threads, **own}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
         file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
@@ -140,17 +146,21 @@ class Manager:
         self._supervisor = Supervisor(
             settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
         )
-        self._server: SessionServer | RamServer = (
-            RamServer(self.session, self.take, origins=settings.origins)
-            if settings.is_ram
-            else SessionServer(self.session, self.take, token=settings.token)
-        )
+        self._server = self._make_server()
         self._folders = Folders(is_alone=settings.is_closed_off)
         self._events: deque[Event] = deque()
         self._is_handling = False
         self._timer: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._ended = loop.create_future()
+
+    def _make_server(self) -> SessionServer | RamServer:
+        settings = self._settings
+        if not settings.is_ram:
+            return SessionServer(self.session, self.take, token=settings.token)
+        from executor.ram.server import RamServer  # noqa: PLC0415 - few need it, and all would wait for it
+
+        return RamServer(self.session, self.take, origins=settings.origins)
 
     async def start(self) -> int:
         """Listens and starts both processes ahead; returns the port.

@@ -1,7 +1,18 @@
 """Universes: the worlds that robots live in, as YAML documents."""
 
-from executor.universes.loader import BUILTIN_IDS, UniverseError, builtin_path, load_builtin, parse_universe
-from executor.universes.model import Actor, Ground, Light, Model, RobotPlace, Universe
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from executor.universes.loader import (
+        BUILTIN_IDS,
+        UniverseError,
+        builtin_path,
+        load_builtin,
+        parse_universe,
+    )
+    from executor.universes.model import Actor, Ground, Light, Model, RobotPlace, Universe
 
 __all__ = [
     "BUILTIN_IDS",
@@ -16,3 +27,12 @@ __all__ = [
     "load_builtin",
     "parse_universe",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    # The manager reads documents too, and must not wait for pydantic, which takes longer than all its rest.
+    if name not in __all__:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from executor.universes import loader, model  # noqa: PLC0415
+
+    return getattr(loader, name, None) or getattr(model, name)

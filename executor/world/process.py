@@ -79,7 +79,7 @@ class WorldProcess:
         """Loads now what `start` would otherwise have to wait for."""
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
-        from executor.world import bullet, clockwork  # noqa: F401, PLC0415
+        from executor.world import bullet, clockwork, launch  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))

@@ -1,4 +1,4 @@
-import { useEffect, useMemo } from 'react';
+import { useEffect, useMemo, useState } from 'react';
 import * as THREE from 'three';
 import type { TextureCache } from './TextureCache';
 
@@ -15,8 +15,7 @@ interface GroundProps {
 
 /** The endless floor at z = 0. */
 export function Ground({ color, isDark, isSimple, picture, textures }: GroundProps) {
-  const map = useMemo(() => groundPicture(textures, picture), [textures, picture]);
-  useEffect(() => () => map?.dispose(), [map]);
+  const map = useGroundPicture(textures, picture);
   const shown = useMemo(() => {
     const [r = 0.8, g = 0.8, b = 0.8] = color;
     const ground = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
@@ -26,19 +25,33 @@ export function Ground({ color, isDark, isSimple, picture, textures }: GroundPro
     <mesh receiveShadow position={[0, 0, -0.002]}>
       <planeGeometry args={[SIDE_M, SIDE_M]} />
       {isSimple ? (
-        <meshLambertMaterial key={picture ?? ''} color={shown} map={map} />
+        <meshLambertMaterial key={map?.uuid ?? ''} color={shown} map={map} />
       ) : (
-        <meshStandardMaterial key={picture ?? ''} color={shown} map={map} roughness={0.95} metalness={0} />
+        <meshStandardMaterial key={map?.uuid ?? ''} color={shown} map={map} roughness={0.95} metalness={0} />
       )}
     </mesh>
   );
 }
 
-/** The ground's picture, with a corner at the origin of the world. */
-function groundPicture(textures?: TextureCache, name = ''): THREE.Texture | null {
-  const [width, height] = textures?.tileOf(name) ?? [1, 1];
-  const map = textures?.get(name)?.clone() ?? null;
-  map?.repeat.set(SIDE_M / width, SIDE_M / height);
-  map?.offset.set(-SIDE_M / 2 / width, -SIDE_M / 2 / height);
+/** The ground's picture, with a corner at the origin of the world; null until it is there. */
+function useGroundPicture(textures?: TextureCache, name = ''): THREE.Texture | null {
+  const [map, setMap] = useState<THREE.Texture | null>(null);
+  useEffect(() => {
+    let own: THREE.Texture | null = null;
+    let isOver = false;
+    textures?.whenLoaded(name, (texture) => {
+      if (isOver) return;
+      const [width, height] = textures.tileOf(name);
+      own = texture.clone();
+      own.repeat.set(SIDE_M / width, SIDE_M / height);
+      own.offset.set(-SIDE_M / 2 / width, -SIDE_M / 2 / height);
+      setMap(own);
+    });
+    return () => {
+      isOver = true;
+      own?.dispose();
+      setMap(null);
+    };
+  }, [textures, name]);
   return map;
 }

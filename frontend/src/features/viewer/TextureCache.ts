@@ -1,9 +1,17 @@
 import * as THREE from 'three';
 import type { Texture as TextureData } from '@/generated/messages';
 
-/** The pictures of a scene, decoded once each when they are first needed. */
+type Take = (texture: THREE.Texture) => void;
+
+interface Loading {
+  texture: THREE.Texture | null;
+  waiting: Take[];
+}
+
+/** The pictures of a scene, decoded once each. What waits for one is drawn without it until then. */
 export class TextureCache {
-  private readonly known = new Map<string, THREE.Texture>();
+  private readonly known = new Map<string, Loading>();
+  private isOver = false;
 
   constructor(
     private readonly textures: Record<string, TextureData>,
@@ -11,16 +19,18 @@ export class TextureCache {
     private readonly anisotropy = 4,
   ) {}
 
-  /** The picture of a name, or null; it repeats. */
-  get(name: string): THREE.Texture | null {
+  /** Hands out the picture of a name, which repeats, as soon as it is there; a damaged one never is. */
+  whenLoaded(name: string, take: Take): void {
     const data = this.textures[name];
-    if (!data) return null;
-    let texture = this.known.get(name);
-    if (!texture) {
-      texture = this.load(data.jpeg as Uint8Array<ArrayBuffer>);
-      this.known.set(name, texture);
+    if (!data) return;
+    const known = this.known.get(name);
+    if (known?.texture) take(known.texture);
+    else if (known) known.waiting.push(take);
+    else {
+      const loading: Loading = { texture: null, waiting: [take] };
+      this.known.set(name, loading);
+      this.load(data.jpeg as Uint8Array<ArrayBuffer>, loading);
     }
-    return texture;
   }
 
   /** Width and height of a repetition in m. */
@@ -30,21 +40,24 @@ export class TextureCache {
   }
 
   dispose(): void {
-    for (const texture of this.known.values()) texture.dispose();
+    this.isOver = true;
+    for (const { texture } of this.known.values()) texture?.dispose();
     this.known.clear();
   }
 
-  private load(jpeg: Uint8Array<ArrayBuffer>): THREE.Texture {
+  private load(jpeg: Uint8Array<ArrayBuffer>, loading: Loading): void {
     const address = URL.createObjectURL(new Blob([jpeg], { type: 'image/jpeg' }));
-    const done = () => {
-      URL.revokeObjectURL(address);
+    const end = () => URL.revokeObjectURL(address);
+    const done = (texture: THREE.Texture) => {
+      end();
+      if (this.isOver) return;
+      texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+      texture.colorSpace = THREE.SRGBColorSpace;
+      texture.anisotropy = this.anisotropy;
+      loading.texture = texture;
+      for (const take of loading.waiting.splice(0)) take(texture);
       this.onLoaded();
     };
-    // A damaged picture leaves the plain colour.
-    const texture = new THREE.TextureLoader().load(address, done, undefined, done);
-    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-    texture.colorSpace = THREE.SRGBColorSpace;
-    texture.anisotropy = this.anisotropy;
-    return texture;
+    new THREE.TextureLoader().load(address, done, undefined, end);
   }
 }

@@ -23,11 +23,15 @@ export class MaterialCache {
     let material = this.known.get(key);
     if (!material) {
       const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
-      const map = this.textures?.get(picture) ?? null;
-      const look = { color, transparent: a < 1, opacity: a, map };
-      material = this.isSimple
+      const look = { color, transparent: a < 1, opacity: a };
+      const made = this.isSimple
         ? new THREE.MeshLambertMaterial(look)
         : new THREE.MeshStandardMaterial({ ...look, roughness: 0.72, metalness: 0.04 });
+      this.textures?.whenLoaded(picture, (map) => {
+        made.map = map;
+        made.needsUpdate = true;
+      });
+      material = made;
       this.known.set(key, material);
     }
     return material;

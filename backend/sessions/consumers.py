@@ -36,7 +36,9 @@ MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
-LOST_POLLS: Final = 20
+# A container with many processes takes seconds to end after its sockets.
+LOST_POLL_S: Final = 0.1
+LOST_POLLS: Final = 60
 
 GOING_AWAY: Final = 1001
 NO_SUCH_SESSION: Final = 4404
@@ -121,7 +123,7 @@ async def _explained(session: Session, closed: Closed) -> Closed:
         session = await sync_to_async(actions.refresh)(session)
         if session.state != SessionState.READY:
             return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
-        await asyncio.sleep(POLL_S)
+        await asyncio.sleep(LOST_POLL_S)
     return closed
 
 

@@ -123,6 +123,7 @@ function portFixes(
     case 'unknown-port':
       return unknownPortFixes(id, node, port, ports);
     case 'unclosed-brace':
+      if (/^[${}\s]*$/.test(text)) return [keyFix(id, port, '')];
       return [fix('set-port', setPort(id, port, `${text.trim()}}`), { text: `${text.trim()}}` })];
     case 'empty-key':
       return [fix('set-port', setPort(id, port, '{=}'), { text: '{=}' })];

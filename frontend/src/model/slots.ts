@@ -137,7 +137,7 @@ function findSlot(field: Field, x: number, y: number): Slot | null {
 
 function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
   const hidden = new Set(moving === undefined ? [] : subtreeOf(diagram, moving));
-  const ids = Object.keys(layout.positions).filter((id) => !hidden.has(id));
+  const ids = Object.keys(layout.positions).filter((id) => id in diagram.nodes && !hidden.has(id));
   const boxOf = (id: NodeId): Box | undefined => {
     const box = layout.positions[id];
     return box && (diagram.layout === 'vertical' ? box : transposed(box));

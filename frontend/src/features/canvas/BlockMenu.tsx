@@ -34,7 +34,7 @@ import {
   toggleDisabled,
   unwrapSelection,
 } from '@/store/project/commands';
-import { setEditor } from '@/store/project/editor';
+import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { extractSelection, inlineSelection } from '@/store/project/subtrees';
 import { openBlock } from './keyboard';
@@ -75,6 +75,14 @@ function itemsFor(): Item[][] {
         setTimeout(() => {
           setEditor({ fixing: id });
         });
+      },
+    }),
+    when(node.type === 'SubTree' && vocabulary.trees.has(node.tree ?? ''), {
+      key: useEditorStore.getState().expanded[diagram.id]?.has(id) ? 'lookAway' : 'lookInside',
+      icon: IconFold,
+      keys: 'Space',
+      run: () => {
+        toggleExpanded(diagram.id, id);
       },
     }),
     when(opens, {

@@ -23,7 +23,7 @@ import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
-import { onCanvasKey, openBlock } from './keyboard';
+import { enterInside, onCanvasKey, openBlock } from './keyboard';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd } from './quickAdd/open';
 import { SlotMark } from './SlotMark';
@@ -62,10 +62,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   useReveal(treeId, tree.layout);
 
   const [projection] = useState(() => new FlowProjection());
-  const { diagram, layout, vocabulary, problems, selection } = tree;
+  const { diagram, shown, layout, vocabulary, problems, selection } = tree;
   const { nodes: resting, edges } = useMemo(
-    () => projection.project({ diagram, layout, vocabulary, problems, selection }),
-    [projection, diagram, layout, vocabulary, problems, selection],
+    () => projection.project({ diagram, shown, layout, vocabulary, problems, selection }),
+    [projection, diagram, shown, layout, vocabulary, problems, selection],
   );
   const nodes = useMemo(() => withHeld(resting, held), [resting, held]);
   const shownEdges = useMemo(
@@ -104,6 +104,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const openMenu = useCallback(
     (event: MouseEvent | globalThis.MouseEvent, node: BlockNode | null) => {
       event.preventDefault();
+      if (node?.data.inside) return;
       const { selection: chosen, select } = useProjectStore.getState();
       if (node && !chosen.includes(node.id)) select(treeId, [node.id]);
       setMenu({ x: event.clientX, y: event.clientY, onBlock: node !== null });
@@ -160,7 +161,8 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         onNodeDrag={onDrag}
         onNodeDragStop={onDrop}
         onNodeDoubleClick={(_event, node) => {
-          openBlock(diagram, node.id);
+          if (node.data.inside) enterInside(node.data.inside);
+          else openBlock(diagram, node.id);
         }}
         onNodeContextMenu={openMenu}
         onPaneContextMenu={(event) => {

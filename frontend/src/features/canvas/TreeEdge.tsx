@@ -8,7 +8,7 @@ import classes from './TreeEdge.module.css';
 
 function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
   const { id, target, data, sourceX, sourceY, targetX, targetY, selected } = props;
-  const key = liveKey(data?.tree ?? '', target);
+  const key = liveKey(data?.tree ?? '', data?.node ?? target);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
   const dx = useCarried((state) => (state.tops.has(target) ? state.dx : 0));
   const dy = useCarried((state) => (state.tops.has(target) ? state.dy : 0));

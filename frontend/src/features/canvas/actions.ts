@@ -26,7 +26,7 @@ import {
   toggleDisabled,
   unwrapSelection,
 } from '@/store/project/commands';
-import { setEditor } from '@/store/project/editor';
+import { setEditor, toggleExpanded } from '@/store/project/editor';
 import { extractSelection, inlineSelection } from '@/store/project/subtrees';
 import { useProjectStore } from '@/store/project';
 import { openQuickAddHere } from './quickAdd/open';
@@ -34,6 +34,7 @@ import { openQuickAddHere } from './quickAdd/open';
 const state = () => useProjectStore.getState();
 const history = () => state().histories[state().activeTree ?? ''];
 const hasTree = () => activeDiagram() !== null;
+const selectedNode = () => activeDiagram()?.nodes[state().selection[0] ?? ''];
 const hasSelection = () => state().selection.length > 0;
 
 /** Keys for blocks count only while the canvas has the focus: elsewhere they belong to text. */
@@ -186,6 +187,16 @@ const rows: readonly UserAction[] = [
     icon: IconBinaryTree,
     enabled: hasSelection,
     run: extractSelection,
+  },
+  {
+    id: 'canvas.look',
+    group: 'canvas',
+    labelKey: 'canvas:menu.lookInside',
+    enabled: () => selectedNode()?.type === 'SubTree',
+    run: () => {
+      const { activeTree, selection } = state();
+      if (activeTree !== null && selection[0] !== undefined) toggleExpanded(activeTree, selection[0]);
+    },
   },
   {
     id: 'canvas.inline',

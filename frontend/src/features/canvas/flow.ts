@@ -7,6 +7,7 @@ import {
   type DiagramNode,
   type NodeId,
 } from '@/model/diagram';
+import type { ExpandedTree, Inside } from '@/model/expand';
 import { visibleChildren, type Box, type Layout } from '@/model/layout';
 import { acceptsChild } from '@/model/rules';
 import { specOf, type NodeSpec, type Vocabulary } from '@/model/vocabulary';
@@ -22,13 +23,18 @@ export interface BlockData extends Record<string, unknown> {
   readonly canGrow: boolean;
   /** How many blocks are hidden below this one; 0 unless it is folded. */
   readonly folded: number;
+  /** Of a SubTree whose tree can be looked into: whether it is. */
+  readonly look: 'closed' | 'open' | null;
+  /** Its own place, of a block that is only looked at inside of a SubTree. */
+  readonly inside: Inside | null;
 }
 
 export type BlockNode = Node<BlockData, 'block'>;
-export type TreeEdge = Edge<{ tree: string; isHorizontal: boolean }, 'tree'>;
+export type TreeEdge = Edge<{ tree: string; node: NodeId; isHorizontal: boolean }, 'tree'>;
 
 export interface FlowInput {
   readonly diagram: Diagram;
+  readonly shown: ExpandedTree;
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
   readonly problems: ReadonlyMap<NodeId, ShownProblem>;
@@ -54,6 +60,13 @@ function sameData(a: BlockData, b: BlockData): boolean {
   return (Object.keys(a) as (keyof BlockData)[]).every((key) => a[key] === b[key]);
 }
 
+const isSame = (a: Inside, b: Inside): boolean => a.tree === b.tree && a.node === b.node;
+
+function lookOf(id: NodeId, node: DiagramNode, { shown, vocabulary }: FlowInput): BlockData['look'] {
+  if (node.type !== 'SubTree' || !node.tree || !vocabulary.trees.has(node.tree)) return null;
+  return shown.groups.has(id) ? 'open' : 'closed';
+}
+
 /**
  * Projects a tree to React Flow's nodes. Nodes that did not change stay the same objects, so that
  * React renders the changed ones alone.
@@ -64,14 +77,16 @@ export class FlowProjection {
 
   project(input: FlowInput): { nodes: BlockNode[]; edges: TreeEdge[] } {
     const { diagram, layout } = input;
+    const shown = input.shown.diagram;
     const drafts = new Set(diagram.drafts.flatMap((top) => subtreeOf(diagram, top)));
     const nodes = new Map<NodeId, BlockNode>();
     const edges = new Map<NodeId, TreeEdge>();
     for (const [id, box] of Object.entries(layout.positions)) {
-      const node = diagram.nodes[id];
+      const node = shown.nodes[id];
       if (!node) continue;
       nodes.set(id, this.nodeFor(id, node, box, drafts.has(id), input));
-      for (const child of visibleChildren(diagram, id)) edges.set(child, this.edgeFor(id, child, diagram));
+      for (const child of visibleChildren(shown, id))
+        edges.set(child, this.edgeFor(id, child, diagram, input.shown.inside.get(child) ?? null));
     }
     this.nodes = nodes;
     this.edges = edges;
@@ -80,6 +95,8 @@ export class FlowProjection {
 
   private nodeFor(id: NodeId, node: DiagramNode, box: Box, isDraft: boolean, input: FlowInput): BlockNode {
     const { diagram, vocabulary, problems, selection } = input;
+    const known = this.nodes.get(id);
+    const inside = input.shown.inside.get(id) ?? null;
     const data: BlockData = {
       tree: diagram.id,
       node,
@@ -88,10 +105,11 @@ export class FlowProjection {
       isDraft,
       isHorizontal: diagram.layout === 'horizontal',
       canGrow: acceptsChild(diagram, id, vocabulary),
-      folded: node.collapsed ? subtreeOf(diagram, id).length - 1 : 0,
+      folded: node.collapsed ? subtreeOf(input.shown.diagram, id).length - 1 : 0,
+      look: lookOf(id, node, input),
+      inside: known?.data.inside && inside && isSame(known.data.inside, inside) ? known.data.inside : inside,
     };
     const { x, y } = box;
-    const known = this.nodes.get(id);
     const sameContent = known !== undefined && sameData(known.data, data);
     if (
       known &&
@@ -117,16 +135,17 @@ export class FlowProjection {
       ariaLabel: displayName(node),
       // A name needs a role, also from afar, where the block shows no text.
       ariaRole: 'group',
+      ...(inside ? { draggable: false, selectable: false, connectable: false } : {}),
     };
   }
 
-  private edgeFor(parent: NodeId, child: NodeId, diagram: Diagram): TreeEdge {
+  private edgeFor(parent: NodeId, child: NodeId, diagram: Diagram, inside: Inside | null): TreeEdge {
     const known = this.edges.get(child);
     const isHorizontal = diagram.layout === 'horizontal';
     if (
       known?.source === parent &&
       known.data?.isHorizontal === isHorizontal &&
-      known.data.tree === diagram.id
+      known.data.tree === (inside?.tree ?? diagram.id)
     ) {
       return known;
     }
@@ -135,8 +154,9 @@ export class FlowProjection {
       type: 'tree',
       source: parent,
       target: child,
-      data: { tree: diagram.id, isHorizontal },
+      data: { tree: inside?.tree ?? diagram.id, node: inside?.node ?? child, isHorizontal },
       focusable: false,
+      selectable: inside === null,
     };
   }
 }

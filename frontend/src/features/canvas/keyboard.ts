@@ -1,6 +1,7 @@
 import type { KeyboardEvent } from 'react';
 import { childrenOf, parentOf, topsOf, type Diagram, type NodeId } from '@/model/diagram';
 import { setCollapsed } from '@/model/edits';
+import type { Inside } from '@/model/expand';
 import { visibleChildren } from '@/model/layout';
 import {
   activeDiagram,
@@ -11,7 +12,7 @@ import {
   reorderSelection,
   unwrapSelection,
 } from '@/store/project/commands';
-import { setEditor } from '@/store/project/editor';
+import { setEditor, toggleExpanded } from '@/store/project/editor';
 import { openAction, openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import { openQuickAddHere } from './quickAdd/open';
@@ -54,6 +55,12 @@ function walk(diagram: Diagram, id: NodeId | undefined, direction: Direction, ex
   select(diagram.id, extend ? [next, ...selection.filter((other) => other !== next)] : [next]);
 }
 
+/** Goes to the tree that a block seen inside of a SubTree belongs to. */
+export function enterInside({ tree, node }: Inside): void {
+  openTree(tree);
+  useProjectStore.getState().reveal(tree, node);
+}
+
 /** Opens what a block stands for: the code of an action, the tree of a subtree, else its name. */
 export function openBlock(diagram: Diagram, id: NodeId): void {
   const node = diagram.nodes[id];
@@ -87,7 +94,8 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
       else deleteSelection();
       return true;
     case ' ':
-      if (childrenOf(diagram, id).length > 0) {
+      if (diagram.nodes[id]?.type === 'SubTree') toggleExpanded(diagram.id, id);
+      else if (childrenOf(diagram, id).length > 0) {
         const folded = diagram.nodes[id]?.collapsed === true;
         change(folded ? 'unfold' : 'fold', [setCollapsed(id, !folded)]);
       }

@@ -26,7 +26,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
   const flow = useReactFlow();
   const grip = useRef<Grip | null>(null);
   const [held, setHeld] = useState<string | null>(null);
-  const { diagram, layout, vocabulary } = tree;
+  const { diagram, shown, layout, vocabulary } = tree;
 
   const take = useCallback(
     (node: BlockNode): Grip | null => {
@@ -37,13 +37,13 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
       const { selection } = useProjectStore.getState();
       const tops =
         selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
-      const ids = new Set(tops.flatMap((top) => subtreeOf(diagram, top)));
+      const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
       const hand = new Hand(canvas.current, node.id, new Set(tops), ids);
       const findSlot = slotFinder({ diagram, layout, vocabulary, moving: node.id });
       setHeld(node.id);
       return (grip.current = { hand, layout, findSlot });
     },
-    [diagram, layout, vocabulary, canvas],
+    [diagram, shown, layout, vocabulary, canvas],
   );
 
   const letGo = useCallback(() => {

@@ -1,13 +1,17 @@
 import { useMemo } from 'react';
 import { emptyDiagram } from '@/model/diagram';
+import { expandTrees, type ExpandedTree } from '@/model/expand';
 import { layoutTree, type Layout } from '@/model/layout';
 import type { Diagram } from '@/model/diagram';
 import type { Vocabulary } from '@/model/vocabulary';
+import { useEditorStore } from '@/store/project/editor';
 import { problemsOf, worstByNode, type ShownProblem } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 
 export interface TreeOnCanvas {
   readonly diagram: Diagram;
+  /** What is drawn: the tree with what is seen inside of its SubTrees. */
+  readonly shown: ExpandedTree;
   readonly vocabulary: Vocabulary;
   readonly layout: Layout;
   readonly problems: ReadonlyMap<string, ShownProblem>;
@@ -15,6 +19,8 @@ export interface TreeOnCanvas {
 }
 
 const NONE: readonly string[] = [];
+const CLOSED: ReadonlySet<string> = new Set();
+const NO_TREES: Readonly<Record<string, Diagram>> = {};
 
 /** Everything about a tree that the canvas draws, computed once for each change. */
 export function useTree(treeId: string): TreeOnCanvas {
@@ -23,11 +29,14 @@ export function useTree(treeId: string): TreeOnCanvas {
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const chosen = useProjectStore((state) => (state.activeTree === treeId ? state.selection : NONE));
   const diagram = useMemo(() => stored ?? emptyDiagram(treeId), [stored, treeId]);
-  const layout = useMemo(() => layoutTree(diagram, vocabulary), [diagram, vocabulary]);
+  const expanded = useEditorStore((state) => state.expanded[treeId]) ?? CLOSED;
+  const others = useProjectStore((state) => (expanded.size > 0 ? state.diagrams : NO_TREES));
+  const shown = useMemo(() => expandTrees(diagram, others, expanded), [diagram, others, expanded]);
+  const layout = useMemo(() => layoutTree(shown.diagram, vocabulary), [shown, vocabulary]);
   const problems = useMemo(
     () => worstByNode(problemsOf(diagram, vocabulary, diagnostics)),
     [diagram, vocabulary, diagnostics],
   );
   const selection = useMemo(() => new Set(chosen), [chosen]);
-  return { diagram, vocabulary, layout, problems, selection };
+  return { diagram, shown, vocabulary, layout, problems, selection };
 }

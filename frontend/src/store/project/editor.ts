@@ -27,6 +27,8 @@ interface EditorState {
   readonly slot: Slot | null;
   /** The block whose problems are shown with what mends them. */
   readonly fixing: NodeId | null;
+  /** Of each tree, the SubTrees that are looked into in place (`model/expand`). */
+  readonly expanded: Readonly<Record<string, ReadonlySet<NodeId>>>;
   readonly find: boolean;
   /** null: shown for trees that are too large to be seen at once. */
   readonly minimap: boolean | null;
@@ -39,11 +41,21 @@ export const useEditorStore = create<EditorState>()(() => ({
   dragged: null,
   slot: null,
   fixing: null,
+  expanded: {},
   find: false,
   minimap: null,
 }));
 
 export const setEditor = useEditorStore.setState;
+
+/** Looks into a SubTree on the canvas of `tree`, or no longer. */
+export function toggleExpanded(tree: string, id: NodeId): void {
+  setEditor(({ expanded }) => {
+    const next = new Set(expanded[tree]);
+    if (!next.delete(id)) next.add(id);
+    return { expanded: { ...expanded, [tree]: next } };
+  });
+}
 
 const LARGE = 14;
 

@@ -1,10 +1,10 @@
 import { Handle, Position, type NodeProps } from '@xyflow/react';
-import { IconPlus } from '@tabler/icons-react';
+import { IconChevronDown, IconChevronUp, IconPlus } from '@tabler/icons-react';
 import { memo, type CSSProperties } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setCollapsed } from '@/model/edits';
 import { change } from '@/store/project/commands';
-import { setEditor, useEditorStore } from '@/store/project/editor';
+import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { NodeSymbol } from '@/ui/NodeSymbol';
@@ -19,8 +19,8 @@ import classes from './Block.module.css';
 
 function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<BlockNode>) {
   const { t } = useTranslation('canvas');
-  const { node, spec, problem, tree, isHorizontal } = data;
-  const key = liveKey(tree, id);
+  const { node, spec, problem, tree, isHorizontal, inside } = data;
+  const key = inside ? liveKey(inside.tree, inside.node) : liveKey(tree, id);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
   const flash = useLiveStore((state) => state.flashes.get(key));
   const fault = useLiveStore((state) => state.faults.get(key));
@@ -36,6 +36,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       data-status={status}
       data-selected={selected || undefined}
       data-disabled={node.disabled || undefined}
+      data-inside={inside ? '' : undefined}
       data-draft={data.isDraft || undefined}
       data-target={isTarget || undefined}
       data-fault={fault === undefined ? undefined : ''}
@@ -63,10 +64,31 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
           }}
         />
       )}
+      {data.look && (
+        <button
+          type="button"
+          tabIndex={-1}
+          className={`${classes['folded']} nodrag`}
+          aria-expanded={data.look === 'open'}
+          title={t(data.look === 'open' ? 'look.close' : 'look.open')}
+          data-testid={`look-${id}`}
+          onClick={() => {
+            toggleExpanded(tree, id);
+          }}
+        >
+          {data.look === 'open' ? (
+            <IconChevronUp size={13} stroke={2} aria-hidden="true" />
+          ) : (
+            <IconChevronDown size={13} stroke={2} aria-hidden="true" />
+          )}
+          {t('look.short')}
+        </button>
+      )}
       {data.folded > 0 && (
         <button
           type="button"
           className={`${classes['folded']} nodrag`}
+          disabled={inside !== null}
           onClick={() => {
             change('unfold', [setCollapsed(id, false)]);
           }}

@@ -1,5 +1,6 @@
 import { Tooltip } from '@mantine/core';
 import { IconAlertTriangleFilled, IconExclamationMark, IconPencil } from '@tabler/icons-react';
+import { useEditorStore } from '@/store/project/editor';
 import type { ShownProblem } from '@/store/project/problems';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './Block.module.css';
@@ -15,6 +16,7 @@ interface ProblemMarkProps {
 /** What is wrong with a block, and what to do, where the eye is; a press offers what mends it. */
 export function ProblemMark({ problem, onOpen }: ProblemMarkProps) {
   const text = useProblemText()(problem);
+  const isOpen = useEditorStore((state) => state.fixing !== null);
   const Mark = ICONS[problem.severity];
   const shared = {
     className: `${classes['problem']} nodrag`,
@@ -27,6 +29,7 @@ export function ProblemMark({ problem, onOpen }: ProblemMarkProps) {
       multiline
       maw={320}
       openDelay={100}
+      disabled={isOpen}
       label={
         <>
           <strong>{text.message}</strong>

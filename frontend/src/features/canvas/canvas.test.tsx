@@ -1,0 +1,125 @@
+import { MantineProvider } from '@mantine/core';
+import { act, fireEvent, render, screen } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
+import { beforeEach, expect, it, vi } from 'vitest';
+import '@/i18n';
+import type { TreeNode } from '@/generated/messages';
+import { emptyDiagram, type Diagram } from '@/model/diagram';
+import { useLiveStore } from '@/store/project/live';
+import { useProjectStore } from '@/store/project';
+import { Canvas } from './Canvas';
+
+/** What the session tells of a node that runs. */
+function running(uid: number, tree_id: string, node_id: string): TreeNode {
+  return { uid, parent: 0, type: '', kind: '', name: node_id, path: node_id, node_id, tree_id };
+}
+
+const rendered = vi.hoisted((): string[] => []);
+
+// The title is a part of every block: it renders as often as its block does.
+vi.mock('./block/BlockTitle', () => ({
+  BlockTitle: ({ id }: { id: string }) => {
+    rendered.push(id);
+    return <span>{id}</span>;
+  },
+}));
+
+const leaves = Array.from({ length: 12 }, (_, index) => `n${index}`);
+const main: Diagram = {
+  ...emptyDiagram('MainTree'),
+  root: 'r',
+  nodes: {
+    r: { type: 'Sequence', children: [...leaves, 'wrong', 's'] },
+    ...Object.fromEntries(leaves.map((id) => [id, { type: 'AlwaysSuccess' }])),
+    wrong: { type: 'Sleep', ports: { msec: '{' } },
+    s: { type: 'SubTree', tree: 'Dock' },
+  },
+};
+const dock: Diagram = { ...emptyDiagram('Dock'), root: 'd', nodes: { d: { type: 'AlwaysFailure' } } };
+
+beforeEach(() => {
+  useProjectStore.getState().close();
+  useLiveStore.getState().clear();
+  for (const diagram of [dock, main])
+    useProjectStore.getState().addFile(`trees/${diagram.id}.json`, JSON.stringify(diagram));
+  useProjectStore.getState().setActiveTree('MainTree');
+  render(
+    <MantineProvider>
+      <div style={{ width: 1000, height: 800 }}>
+        <Canvas treeId="MainTree" />
+      </div>
+    </MantineProvider>,
+  );
+  rendered.length = 0;
+});
+
+it('renders the blocks whose status changed in a tick, and no others', () => {
+  const { setTree, setStatuses } = useLiveStore.getState();
+  act(() => {
+    setTree(leaves.map((id, uid) => running(uid, 'MainTree', id)));
+  });
+  act(() => {
+    setStatuses([
+      [3, 'RUNNING'],
+      [7, 'SUCCESS'],
+      [8, 'IDLE'],
+    ]);
+  });
+  expect(rendered.sort()).toEqual(['n3', 'n7']);
+});
+
+it('offers on a block what mends it', async () => {
+  const user = userEvent.setup();
+  const wrong = screen.getByTestId('node-wrong');
+  fireEvent.click(wrong.querySelector('[data-testid=problem-mark]')!);
+  const fix = screen.getByTestId('fix-box').querySelector('button')!;
+  expect(fix).toHaveFocus();
+  await user.keyboard('{Escape}');
+  expect(screen.queryByTestId('fix-box')).toBeNull();
+  fireEvent.click(wrong.querySelector('[data-testid=problem-mark]')!);
+  await user.keyboard('{Enter}');
+  expect(useProjectStore.getState().diagrams['MainTree']?.nodes['wrong']?.ports?.['msec']).toBe('{msec}');
+  expect(screen.queryByTestId('fix-box')).toBeNull();
+});
+
+it('looks into a subtree by key, shows its live status, and changes nothing', () => {
+  act(() => {
+    useProjectStore.getState().select('MainTree', ['s']);
+  });
+  fireEvent.keyDown(screen.getByTestId('canvas'), { key: ' ' });
+  expect(screen.getByTestId('node-s d')).toHaveAttribute('data-status', 'IDLE');
+  const { setTree, setStatuses } = useLiveStore.getState();
+  act(() => {
+    setTree([running(1, 'Dock', 'd')]);
+    setStatuses([[1, 'RUNNING']]);
+  });
+  expect(screen.getByTestId('node-s d')).toHaveAttribute('data-status', 'RUNNING');
+  expect(useProjectStore.getState().diagrams['MainTree']).toEqual(main);
+  fireEvent.keyDown(screen.getByTestId('canvas'), { key: ' ' });
+  expect(screen.queryByTestId('node-s d')).toBeNull();
+});
+
+// Last: after a drag, the next click is not one, for as long as the event loop has not turned.
+/** A mouse event with its window, which jsdom does not take as an argument here. */
+function mouse(type: 'mousedown' | 'mousemove' | 'mouseup', target: Element | Window, x: number): void {
+  const event = new MouseEvent(type, { clientX: x, clientY: 20, bubbles: true, cancelable: true });
+  Object.defineProperty(event, 'view', { value: window });
+  fireEvent(target, event);
+}
+
+it('renders at most three blocks for a step of the hand that carries one', () => {
+  const block = screen.getByTestId('node-n3').closest<HTMLElement>('.react-flow__node')!;
+  mouse('mousedown', block, 10);
+  mouse('mousemove', window, 20);
+  rendered.length = 0;
+  let before = '';
+  for (let x = 50; x <= 200; x += 30) {
+    mouse('mousemove', window, x);
+    // The canvas has no size here, so that it also moves away below the hand.
+    expect(block.style.translate).not.toBe(before);
+    before = block.style.translate;
+    expect(rendered.splice(0).length).toBeLessThanOrEqual(3);
+  }
+  mouse('mouseup', window, 200);
+  expect(block.style.translate).toBe('');
+});

@@ -1,0 +1,60 @@
+import type { Diagram, DiagramNode, NodeId } from './diagram';
+
+/** Where a block that is seen inside of a SubTree really stands. */
+export interface Inside {
+  readonly tree: string;
+  readonly node: NodeId;
+}
+
+/** A tree as it is drawn: with the trees inside of the SubTrees that are looked into. */
+export interface ExpandedTree {
+  readonly diagram: Diagram;
+  /** Of each block that belongs to another tree, its own place. */
+  readonly inside: ReadonlyMap<NodeId, Inside>;
+  /** The blocks inside of each SubTree that is looked into, the innermost included. */
+  readonly groups: ReadonlyMap<NodeId, readonly NodeId[]>;
+}
+
+const NOTHING: Pick<ExpandedTree, 'inside' | 'groups'> = { inside: new Map(), groups: new Map() };
+
+/** The id of a block inside of a SubTree: no diagram has such ids, since it has a blank. */
+const innerId = (outer: NodeId, inner: NodeId): NodeId => `${outer} ${inner}`;
+
+/**
+ * Puts the tree of every SubTree in `expanded` below it, to be looked at and never to be saved: its
+ * blocks have ids of their own, and no places that a user gave them in the other tree.
+ */
+export function expandTrees(
+  diagram: Diagram,
+  diagrams: Readonly<Record<string, Diagram>>,
+  expanded: ReadonlySet<NodeId>,
+): ExpandedTree {
+  if (expanded.size === 0) return { diagram, ...NOTHING };
+  const nodes: Record<NodeId, DiagramNode> = { ...diagram.nodes };
+  const inside = new Map<NodeId, Inside>();
+  const groups = new Map<NodeId, readonly NodeId[]>();
+
+  const open = (id: NodeId): NodeId[] => {
+    const node = nodes[id];
+    const tree = node?.type === 'SubTree' && node.tree ? diagrams[node.tree] : undefined;
+    if (!node || !tree || tree.root === null || !expanded.has(id)) return [];
+    const put = (inner: NodeId): NodeId[] => {
+      const found = tree.nodes[inner];
+      if (!found) return [];
+      const own = innerId(id, inner);
+      const { position: _, ...rest } = found;
+      const children = found.children?.map((child) => innerId(id, child));
+      nodes[own] = children ? { ...rest, children } : rest;
+      inside.set(own, { tree: tree.id, node: inner });
+      const below = found.collapsed ? [] : (found.children ?? []);
+      return [own, ...open(own), ...below.flatMap(put)];
+    };
+    const blocks = put(tree.root);
+    nodes[id] = { ...node, children: [innerId(id, tree.root)] };
+    groups.set(id, blocks);
+    return blocks;
+  };
+
+  for (const id of Object.keys(diagram.nodes)) open(id);
+  return { diagram: { ...diagram, nodes }, inside, groups };
+}

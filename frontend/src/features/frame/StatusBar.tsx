@@ -7,6 +7,7 @@ import {
   IconWorld,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
+import { Hint } from '@/features/onboarding/Hint';
 import { openWorlds } from '@/features/universe/worlds';
 import { useProjectStore } from '@/store/project';
 import { useWorldChoice } from '@/store/run/world';
@@ -22,6 +23,7 @@ export function StatusBar() {
       <ConnectionStatus />
       <WorldButton />
       <ProblemCount />
+      <Hint />
       <span className={classes['spacer']} />
       <SimStatus />
     </footer>

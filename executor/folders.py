@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["Folders"]
 
 KEPT_FOLDERS: Final = 3
+# What world and application need of the disk to start.
+SPARE_BYTES: Final = 16 << 20
 
 
 class Folders:
@@ -50,6 +52,8 @@ class Folders:
             return Unpacked(effect.token, str(folder), problem=(error.file, error.problems[0]))
 
     def _fill(self, folder: Path, archive_base64: str) -> None:
+        if self._is_alone and shutil.disk_usage(self._root).free < SPARE_BYTES:
+            self._sweep()
         try:
             _unpack(archive_base64, folder)
         except ArchiveError as error:

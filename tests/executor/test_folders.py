@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import shutil
 import tempfile
 
 import pytest
@@ -42,6 +43,17 @@ def test_in_a_container_what_a_run_left_makes_room_for_the_next(disk):
     assert [path.name for path in disk.iterdir()] == [made._root.name]
     made.remove()
     assert list(disk.iterdir()) == []
+
+
+def test_a_disk_that_is_nearly_full_is_swept_before_the_world_lacks_room(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / "hoard").write_text("…")
+    nearly = shutil.disk_usage(tmp_path)._replace(free=folders.SPARE_BYTES - 1)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: nearly)
+    for is_alone in (False, True):
+        assert (tmp_path / "hoard").exists()
+        assert not Folders(is_alone=is_alone).unpack(Unpack(1, app_zip())).error
+    assert not (tmp_path / "hoard").exists()
 
 
 def test_elsewhere_nothing_is_removed_and_the_reason_told(disk):

@@ -150,7 +150,9 @@ class Topics:
     def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
         """Names the nodes at one end of a topic, without our own ear and without those not yet introduced."""
         names = [
-            f"{end.node_namespace.rstrip('/')}/{end.node_name}" for end in ends if end.node_name != _NO_NAME_YET
+            f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+            for end in ends
+            if end.node_name != _NO_NAME_YET
         ]
         if own and (ours := self._node.get_fully_qualified_name()) in names:
             names.remove(ours)

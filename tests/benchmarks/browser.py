@@ -20,7 +20,7 @@ from playwright.sync_api import sync_playwright
 from tests.benchmarks import hands
 from tests.benchmarks.renders import count_renders, rendered
 from tests.benchmarks.session import Client
-from tests.benchmarks.trace import TASK, traced
+from tests.benchmarks.trace import PAINT, TASK, WORK, traced
 from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
 from tests.e2e.server import serving
 
@@ -40,14 +40,6 @@ LIVE_S = 10
 TASKS = frozenset({TASK})
 MOVES = frozenset({"pointermove", "wheel"})
 TEMPLATE = "laser_bump_and_go"
-# Input, DOM event and the frame that shows what came of it, as the browser itself times them.
-_LATENCIES = """
-window.latencies = [];
-new PerformanceObserver((list) => {
-  for (const { interactionId, duration } of list.getEntries())
-    if (interactionId) window.latencies.push(duration);
-}).observe({ type: 'event', durationThreshold: 16 });
-"""
 
 
 def main() -> None:
@@ -72,7 +64,7 @@ def wide_tree(count: int) -> dict[str, Any]:
     def grow(depth: int) -> str:
         name = f"n{len(nodes) + 1}"
         nodes[name] = {}
-        children = []
+        children: list[str] = []
         while len(children) < 4 and depth < 6 and len(nodes) < count:
             children.append(grow(depth + 1))
         inner = {"type": ("Fallback", "Sequence")[depth % 2], "name": f"step {name}", "children": children}
@@ -115,7 +107,6 @@ def page_of(browser: Browser, client: Client, *, counts: bool = False) -> Iterat
     """The start page in a fresh profile; `counts` tells which blocks render, and makes rendering dearer."""
     context = browser.new_context(viewport={"width": 1440, "height": 900})
     context.set_default_timeout(120_000)
-    context.add_init_script(_LATENCIES)
     if counts:
         count_renders(context)
     page = context.new_page()
@@ -152,7 +143,7 @@ def handling(browser: Browser, client: Client, size: int) -> None:
         frames(page, cdp, canvas, f"{size:5d} blocks, as opened")
         hands.read_at_full_size(page, canvas)
         frames(page, cdp, canvas, f"{size:5d} blocks, at 100 %")
-        interactions(page, canvas, size)
+        interactions(page, cdp, canvas, size)
     with page_of(browser, client, counts=True) as page:
         canvas = open_project(page, client, project)
         for gesture in (hands.pan, hands.drag):
@@ -194,13 +185,16 @@ def most_renders(page: Page, canvas: Locator, gesture: Gesture) -> tuple[int, in
     return most
 
 
-def interactions(page: Page, canvas: Locator, size: int) -> None:
-    """From the key or the button to the picture of what came of it."""
-    page.evaluate("() => { window.latencies = []; }")
+def interactions(page: Page, cdp: CDPSession, canvas: Locator, size: int) -> None:
+    """From the key or the button to the picture of what came of it: all that the main thread does for it."""
     slowest: dict[str, float] = {}
-    for name in hands.use_keys(page, canvas):
-        taken = page.evaluate("() => window.latencies.splice(0)")
-        slowest[name] = max([slowest.get(name, 0.0), *taken])
+    keys = hands.use_keys(page, canvas)
+    while True:
+        with traced(cdp) as trace:
+            name = next(keys, None)
+        if name is None:
+            break
+        slowest[name] = max(slowest.get(name, 0.0), trace.total_ms(WORK | PAINT))
     row(size, "to the paint: " + ", ".join(f"{name} {ms:.0f} ms" for name, ms in slowest.items()))
 
 
@@ -229,7 +223,7 @@ def ticks_of(page: Page) -> list[dict[str, Any]]:
     ticks: list[dict[str, Any]] = []
 
     def note(text: str | bytes) -> None:
-        if isinstance(text, str) and (message := json.loads(text)).get("type") == "tick":
+        if isinstance(text, str) and (message := json.loads(text)).get("command") == "tick":
             ticks.append(message["data"])
 
     page.on("websocket", lambda socket: socket.on("framereceived", note))

@@ -30,6 +30,8 @@ WORK = frozenset(
         "Layout",
     }
 )
+# What the main thread does for the picture after that; other threads rasterise it.
+PAINT = frozenset({"PrePaint", "Paint", "Layerize", "Commit"})
 Event = dict[str, Any]
 
 

@@ -7,6 +7,7 @@ import asyncio
 import pytest
 from asgiref.sync import sync_to_async
 from django.conf import settings
+from django.db import connections
 from django.utils import timezone
 
 from backend.accounts.models import User
@@ -53,6 +54,7 @@ def closed_after(browser, project, deed):
         await sync_to_async(deed)()
         told = await heard.get()
         await serving
+        await sync_to_async(connections.close_all)()  # of the thread that served, which nobody else ends
         return told["type"], told["code"]
 
     kind, code = asyncio.run(listen())

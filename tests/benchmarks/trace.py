@@ -60,7 +60,8 @@ class Trace:
             if event["name"] not in names or event["ts"] < end:
                 continue
             end = event["ts"] + event["dur"]
-            spans.append((event["ts"] / 1000, event.get("tdur", event["dur"]) / 1000))
+            own: float = event["tdur"] if "tdur" in event else event["dur"]
+            spans.append((event["ts"] / 1000, own / 1000))
         return spans
 
     def total_ms(self, names: frozenset[str] = WORK) -> float:

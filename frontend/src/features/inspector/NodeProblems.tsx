@@ -34,11 +34,7 @@ export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
             <Mark size={16} aria-hidden="true" />
             <span>
               <strong>{message}</strong> {hint}
-              <QuickFixes
-                tree={diagram.id}
-                fixes={fixesFor(problem, diagram, vocabulary)}
-                onDone={onFixed}
-              />
+              <QuickFixes tree={diagram.id} fixes={fixesFor(problem, diagram, vocabulary)} onDone={onFixed} />
             </span>
           </li>
         );

@@ -35,13 +35,13 @@ def timeline_tells_what_nodes_did(studio: Studio) -> None:
     panel(studio, "Timeline")
     forward = row(studio, "Forward")
     expect(forward).to_have_attribute("aria-label", re.compile(r"running; ran"))
-    forward.click()
-    expect(studio.at("node-statistics").locator("[data-key=runs] dd")).not_to_have_text("0")
     forward.focus()
     studio.page.keyboard.press("ArrowUp")
     expect(studio.page.locator(":focus")).to_have_attribute("aria-label", re.compile("^Turn"))
     studio.page.keyboard.press("Enter")
     expect(studio.at("inspector")).to_have_attribute("aria-label", "Turn")
+    forward.click()
+    expect(studio.at("node-statistics").locator("[data-key=runs] dd")).not_to_have_text("0")
     pictures(studio, "timeline")
 
 

@@ -184,7 +184,7 @@ def optical_frame(camera: Camera) -> str:
 def _data(pixels: NDArray[Any]) -> array.array[int]:
     """An array of the right type is taken over as it is; bytes or a list are copied one by one."""
     data = array.array("B")
-    data.frombytes(memoryview(np.ascontiguousarray(pixels)).cast("B"))  # its bytes, copied once
+    data.frombytes(np.ascontiguousarray(pixels).reshape(-1).view(np.uint8).data)  # its bytes, copied once
     return data
 
 

@@ -31,7 +31,7 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     ] = None,
 ) -> None:
     """Serves one session of world and application."""
-    from executor.manager import main
+    from executor.manager.manager import main
 
     arguments = ["--host", host, "--port", str(port), *(["--ram"] if ram else [])]
     for origin in allow_origin or []:

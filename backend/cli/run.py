@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from executor.headless import HeadlessOptions
-    from executor.report import Report
+    from executor.headless.live import HeadlessOptions
+    from executor.headless.report import Report
     from translator import Project
 
 LOCKSTEP_DURATION_S = 60.0
@@ -50,7 +50,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         if lockstep:
             done = _in_lockstep(opened, universe, robot, seed, duration)
         else:
-            from executor.headless import HeadlessOptions
+            from executor.headless.live import HeadlessOptions
 
             done = _in_real_time(opened, HeadlessOptions(universe, seed, duration, robot, record))
     except TranslatorError as error:
@@ -70,7 +70,7 @@ def _in_lockstep(
     project: Project, universe: str | None, robot: str | None, seed: int, duration: float | None
 ) -> Report:
     from backend.cli.errors import CliError
-    from executor.lockstep import LockstepOptions, run_lockstep
+    from executor.headless.lockstep import LockstepOptions, run_lockstep
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
 
@@ -90,7 +90,7 @@ def _in_lockstep(
 
 def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
     from backend.cli.errors import CliError
-    from executor.headless import HeadlessError, run_headless
+    from executor.headless.live import HeadlessError, run_headless
     from translator import to_app_zip
 
     def progress(so_far: Report) -> None:

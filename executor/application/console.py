@@ -8,8 +8,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.channel import ChannelClosed
-from executor.output import LINE_CHARACTERS, RateLimit
+from executor.supervision.channel import ChannelClosed
+from executor.supervision.output import LINE_CHARACTERS, RateLimit
 
 if TYPE_CHECKING:
     from collections.abc import Callable

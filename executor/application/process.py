@@ -18,9 +18,9 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.channel import Channel, ChannelClosed
-from executor.confine import die_with_parent
 from executor.ros.environment import ros_environment
+from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.confine import die_with_parent
 
 if TYPE_CHECKING:
     from executor.application.locate import Place

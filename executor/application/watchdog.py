@@ -8,8 +8,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-from executor.channel import ChannelClosed
-from executor.confine import INTERRUPT_SIGNAL
+from executor.supervision.channel import ChannelClosed
+from executor.supervision.confine import INTERRUPT_SIGNAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable

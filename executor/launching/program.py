@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 
-from executor.confine import die_with_parent
+from executor.supervision.confine import die_with_parent
 
 
 def main() -> None:

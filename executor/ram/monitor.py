@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from executor.mirror import Mirror
+    from executor.session.mirror import Mirror
 
 __all__ = ["update_text"]
 

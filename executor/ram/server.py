@@ -23,18 +23,18 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from executor import messages
-from executor.events import ClientJoined, ClientLeft, CommandCame, Event, Send
-from executor.ladder import State, is_legal
-from executor.outbox import ControlOutbox
 from executor.ram.monitor import update_text
 from executor.ram.translate import RamError, error_text, state_name, to_native
+from executor.session.events import ClientJoined, ClientLeft, CommandCame, Event, Send
+from executor.session.ladder import State, is_legal
+from executor.stream.outbox import ControlOutbox
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from websockets.http11 import Request, Response
 
-    from executor.protocol import Session
+    from executor.session.protocol import Session
 
 __all__ = ["RamServer", "is_loopback"]
 

@@ -12,7 +12,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import messages
-from executor.ladder import State
+from executor.session.ladder import State
 from executor.universes.loader import BUILTIN_IDS
 
 if TYPE_CHECKING:

@@ -140,7 +140,7 @@ def robot_ids() -> tuple[str, ...]:
 
 
 def preview_path(robot_id: str) -> Path:
-    """Returns where the picture of a robot that we ship is; `executor.previews` draws it."""
+    """Returns where the picture of a robot that we ship is; `executor.generate.previews` draws it."""
     return _FOLDER / robot_id / "preview.webp"
 
 

@@ -10,7 +10,7 @@ import signal
 import sys
 from pathlib import Path
 
-from executor.gate import fetch_listener
+from executor.manager.gate import fetch_listener
 from executor.tools.server import ToolsServer
 
 _log = logging.getLogger(__name__)

@@ -39,7 +39,7 @@ def builtin_path(universe_id: str) -> Path:
 
 
 def preview_path(universe_id: str) -> Path:
-    """Returns where the picture of a universe that we ship is; `executor.previews` draws it."""
+    """Returns where the picture of a universe that we ship is; `executor.generate.previews` draws it."""
     return _FOLDER / "previews" / f"{universe_id}.webp"
 
 

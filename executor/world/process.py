@@ -1,7 +1,7 @@
 """The world as a process of its own: `python -m executor.world.process --channel-fd N`.
 
-It is told what to do by messages on its channel, and answers by messages; `executor/protocol.py` is the
-other end. The process may be started ahead of its use: it warms up, and waits for ``start``.
+It is told what to do by messages on its channel, and answers by messages; `executor/session/protocol.py`
+is the other end. The process may be started ahead of its use: it warms up, and waits for ``start``.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
-from executor.channel import Channel, ChannelClosed
-from executor.confine import die_with_parent
 from executor.messages import CameraPose
 from executor.ros.environment import has_tf, ros_environment
+from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.confine import die_with_parent
 from executor.universes.document import DocumentError, Problem
 from executor.world.interface import WorldError
 

@@ -16,8 +16,8 @@ import numpy as np
 import simplejpeg
 
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
-from executor.pose_codec import pack
 from executor.render.interface import look_at
+from executor.stream.pose_codec import pack
 from executor.world.adaptation import LEVELS, Adaptation, Level
 
 if TYPE_CHECKING:

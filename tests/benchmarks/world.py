@@ -109,7 +109,8 @@ def physics() -> None:
 
 def lockstep(example: str, duration_s: float) -> None:
     """Runs an example in lock-step in a fresh process."""
-    command = [sys.executable, str(ROOT / "tests/executor/lockstep_run.py"), str(ROOT / "examples" / example)]
+    program = ROOT / "tests" / "executor" / "headless" / "lockstep_run.py"
+    command = [sys.executable, str(program), str(ROOT / "examples" / example)]
     done = subprocess.run(
         [*command, str(duration_s), "1"],
         env={**os.environ, "PYTHONPATH": str(ROOT)},
@@ -126,7 +127,7 @@ def lockstep(example: str, duration_s: float) -> None:
 
 def processes() -> None:
     """Starts a world and a plain rclpy program, and counts what arrives."""
-    from executor.channel import Channel, socket_pair
+    from executor.supervision.channel import Channel, socket_pair
 
     environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
     ours, theirs = socket_pair()

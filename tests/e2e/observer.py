@@ -20,7 +20,7 @@ import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from executor.pose_codec import POSE_BYTES, unpack
+from executor.stream.pose_codec import POSE_BYTES, unpack
 
 _ids = itertools.count(1)
 

@@ -17,7 +17,7 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed
 
 from executor.messages import Camera, Poses, Scan, Scene, View
-from executor.pose_codec import POSE_BYTES, unpack
+from executor.stream.pose_codec import POSE_BYTES, unpack
 from translator import load, to_app_zip
 
 ROOT = Path(__file__).parents[2]

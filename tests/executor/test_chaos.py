@@ -14,12 +14,12 @@ from pathlib import Path
 import psutil
 import pytest
 
-from executor.ladder import State
-from executor.manager import Manager, ManagerSettings
-from executor.shared_memory import FOLDER, remove_abandoned_segments
+from executor.manager.manager import Manager, ManagerSettings
+from executor.session.ladder import State
+from executor.supervision.shared_memory import FOLDER, remove_abandoned_segments
 from tests.budget import count
+from tests.executor.manager.test_server import FAKE, RUN, manager
 from tests.executor.session_client import TOKEN, SessionClient, run_data
-from tests.executor.test_server import FAKE, RUN, manager
 
 COMMANDS = ["run", "pause", "resume", "terminate_application", "disconnect", "reset_world"]
 PROGRAMS = {FAKE, "executor.world.process", "executor.application.process"}

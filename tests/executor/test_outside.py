@@ -9,8 +9,8 @@ import sys
 
 import pytest
 
-from executor.manager import outside_domain_id
-from tests.executor.play import DATA, Play
+from executor.manager.manager import outside_domain_id
+from tests.executor.session.play import DATA, Play
 from tests.executor.session_client import ROOT, SessionClient, manager_process, run_data
 
 DOMAIN_ID = 83

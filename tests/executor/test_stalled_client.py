@@ -6,10 +6,10 @@ import msgspec
 import numpy as np
 
 from executor.messages import Camera, Poses
-from executor.outbox import PACE_S, StreamOutbox
-from executor.pose_codec import pack, unpack
+from executor.stream.outbox import PACE_S, StreamOutbox
+from executor.stream.pose_codec import pack, unpack
+from tests.executor.manager.test_server import manager
 from tests.executor.session_client import SessionClient
-from tests.executor.test_server import manager
 
 _encode = msgspec.msgpack.Encoder().encode
 FRAMES = 1500

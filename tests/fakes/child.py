@@ -11,9 +11,9 @@ import time
 
 import msgspec
 
-from executor.channel import Channel, ChannelClosed
-from executor.confine import die_with_parent
 from executor.messages import View
+from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.confine import die_with_parent
 
 FRAME = msgspec.msgpack.encode(View(t=0.0, width=1, height=1, jpeg=b""))
 READY = {"type": "ready", "renderer": "fake", "tf": False, "universe": "Fake"}

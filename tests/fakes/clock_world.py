@@ -6,8 +6,8 @@ import argparse
 import os
 import time
 
-from executor.channel import Channel, ChannelClosed
-from executor.confine import die_with_parent
+from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.confine import die_with_parent
 
 PERIOD_S = 0.02
 

@@ -22,7 +22,7 @@ from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
-from executor.gate import fetch_listener
+from executor.manager.gate import fetch_listener
 
 REPOSITORY = Path(__file__).parents[2]
 

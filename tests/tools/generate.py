@@ -14,9 +14,9 @@ ROOT: Final = Path(__file__).resolve().parent.parent.parent
 GENERATORS: Final = (
     [sys.executable, "-m", "tests.tree_gardener.reference_page"],
     [sys.executable, "-m", "translator.reference"],
-    [sys.executable, "-m", "executor.protocol_page"],
+    [sys.executable, "-m", "executor.generate.protocol_page"],
     [sys.executable, "-m", "executor.universes.reference"],
-    [sys.executable, "-m", "executor.typescript"],
+    [sys.executable, "-m", "executor.generate.typescript"],
     [sys.executable, "-m", "backend.config.reference"],
     ["npm", "run", "--silent", "--prefix", "frontend", "generate"],
 )

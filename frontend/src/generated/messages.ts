@@ -1,4 +1,5 @@
-// Generated from executor/messages.py by `python -m executor.typescript`. Do not edit.
+// Generated from executor/messages.py by `python -m executor.generate.typescript`.
+// Do not edit.
 
 export const PROTOCOL = "bt-studio.v1";
 

@@ -13,7 +13,7 @@ from typing import Any
 import yaml
 
 from backend.catalog.library import files_of
-from executor.lockstep import LockstepOptions, run_lockstep
+from executor.headless.lockstep import LockstepOptions, run_lockstep
 
 Models = list[dict[str, Any]]
 

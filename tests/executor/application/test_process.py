@@ -13,9 +13,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from executor.manager import Manager, ManagerSettings, free_domain_id, session_programs
-from executor.processes import Limits, Program
+from executor.manager.manager import Manager, ManagerSettings, free_domain_id, session_programs
 from executor.ros.environment import ros_environment
+from executor.supervision.processes import Limits, Program
 from tests.executor.session_client import TOKEN, SessionClient
 
 ROOT = Path(__file__).parents[3]

@@ -17,12 +17,12 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from executor import messages
-from executor.manager import Manager, ManagerSettings
+from executor.manager.manager import Manager, ManagerSettings
 from executor.ram.monitor import update_text
 from executor.ram.server import REFUSED, is_loopback
 from executor.ram.translate import RamError, to_native
 from tests.budget import count
-from tests.executor.test_server import empty_zip, manager
+from tests.executor.manager.test_server import empty_zip, manager
 
 CODE = f"data:application/zip;base64,{empty_zip()}"
 
@@ -202,7 +202,7 @@ def test_our_own_zips_bring_their_settings(settings, expected):
 
 
 def test_the_monitor_nests_nodes_by_name():
-    from executor.mirror import Mirror
+    from executor.session.mirror import Mirror
 
     mirror = Mirror()
     nodes = [(1, 0, "root"), (2, 1, "a"), (3, 1, "a"), (4, 2, "")]

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from executor.channel import Channel, socket_pair
 from executor.ros.environment import ros_environment
+from executor.supervision.channel import Channel, socket_pair
 
 ROOT = Path(__file__).parents[3]
 DOMAIN_ID = 32

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from executor.channel import Channel, socket_pair
 from executor.ros.environment import has_tf, ros_environment
+from executor.supervision.channel import Channel, socket_pair
 from tests.executor.ros.test_delivery import wait_for
 
 ROOT = Path(__file__).parents[3]

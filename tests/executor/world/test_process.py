@@ -10,10 +10,10 @@ from typing import Any
 import msgspec
 import pytest
 
-from executor.channel import Channel, socket_pair
 from executor.messages import Poses, Scene, Sim
-from executor.pose_codec import POSE_BYTES, unpack
 from executor.ros.environment import ros_environment
+from executor.stream.pose_codec import POSE_BYTES, unpack
+from executor.supervision.channel import Channel, socket_pair
 
 ROOT = Path(__file__).parents[3]
 DOMAIN_ID = 33

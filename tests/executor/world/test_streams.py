@@ -10,8 +10,8 @@ import simplejpeg
 from numpy.typing import NDArray
 
 from executor.messages import FRAMES, Camera, CameraPose, Poses, Scan, Scene, View
-from executor.pose_codec import POSE_BYTES, unpack
 from executor.render import Viewpoint
+from executor.stream.pose_codec import POSE_BYTES, unpack
 from executor.universes import load_builtin
 from executor.world.bullet import BulletWorld
 from executor.world.sensors import Sensors

@@ -23,7 +23,7 @@ const POSE_BYTES = 16;
 const METRES_PER_UNIT = 1e-4;
 const TURN_PER_UNIT = 1 / (32767 * Math.SQRT2);
 
-/** Calls with each pose of a frame; how they are packed stands in `executor/pose_codec.py`. */
+/** Calls with each pose of a frame; how they are packed stands in `executor/stream/pose_codec.py`. */
 export function forEachPose(frame: Poses, visit: (id: number, pose: Float32Array) => void): void {
   const { buffer, byteOffset, byteLength } = frame.poses;
   const bytes = new DataView(buffer, byteOffset, byteLength);

@@ -15,7 +15,7 @@ from backend.sessions.keeper.service import ended_at
 from backend.sessions.keeper.unix_http import ask
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.docker import DockerLauncher
-from executor.gate import fetch_listener
+from executor.manager.gate import fetch_listener
 from tests.backend.sessions.conftest import spec
 from tests.fakes.docker import gate_of
 

@@ -1,0 +1,115 @@
+"""Draws the chooser's pictures of universes and robots: `python -m executor.generate.previews [ID …]`.
+
+They are committed, so that the start page needs no renderer. Draw one again when what it shows has changed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import sys
+from typing import TYPE_CHECKING, Final
+
+import cv2
+
+from executor.render import Viewpoint, look_at, make_renderer
+from executor.robots import robot_ids
+from executor.robots.config import preview_path as robot_preview
+from executor.universes import BUILTIN_IDS, load_builtin, parse_universe
+from executor.universes.loader import preview_path as universe_preview
+from executor.world.bullet import BulletWorld
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from executor.render import Renderer
+    from executor.universes import Universe
+
+SIZE: Final = (480, 270)
+MOST_BYTES: Final = 30_000
+FOV: Final = 1.05
+SETTLE_STEPS: Final = 480  # people are on their way, robots stand on their wheels
+_DRAWN_AT: Final = 2  # times the size, for smooth edges
+_ROBOT_FOV: Final = 0.7
+_ROBOT_DISTANCE: Final = 4.6  # in radii, for the height of the picture
+_QUALITIES: Final = (86, 78, 70, 60, 45, 30)
+_STAGE: Final = """
+format: bt-studio/universe
+version: 1
+name: stage
+ground: {color: "#dfe3e8"}
+robots: [{id: robot, model: %s}]
+lights: [{direction: [-0.45, 0.5, -0.8], intensity: 1.0}]
+"""
+
+
+def universe_picture(renderer: Renderer, universe_id: str) -> bytes:
+    """Returns the picture of a universe as WebP."""
+    universe = load_builtin(universe_id)
+    return _webp(_draw(renderer, universe, look_at(universe.view.eye, universe.view.target, FOV)))
+
+
+def robot_picture(renderer: Renderer, robot_id: str) -> bytes:
+    """Returns the picture of a robot as WebP, near or far by its size."""
+    universe = parse_universe(_STAGE % robot_id)
+    middle, radius = _ball_round(universe)
+    away = radius * _ROBOT_DISTANCE
+    eye = (middle[0] + 0.62 * away, middle[1] - 0.66 * away, middle[2] + 0.42 * away)
+    return _webp(_draw(renderer, universe, look_at(eye, middle, _ROBOT_FOV)))
+
+
+def _draw(renderer: Renderer, universe: Universe, view: Viewpoint) -> NDArray[np.uint8]:
+    world = BulletWorld(universe)
+    world.step(SETTLE_STEPS)
+    renderer.load(world.scene)
+    picture = renderer.draw(world.poses(), view, SIZE[0] * _DRAWN_AT, SIZE[1] * _DRAWN_AT)
+    world.close()
+    small: NDArray[np.uint8] = cv2.resize(picture, SIZE, interpolation=cv2.INTER_AREA)
+    return small
+
+
+def _ball_round(universe: Universe) -> tuple[tuple[float, float, float], float]:
+    """Returns the middle and the radius of a ball round a universe's robot, in m."""
+    world = BulletWorld(universe)
+    world.step(SETTLE_STEPS)
+    low, high = world.robots[0].bounds
+    world.close()
+    middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+    return middle, math.dist(low, high) / 2
+
+
+def _webp(picture: NDArray[np.uint8]) -> bytes:
+    bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
+    for quality in _QUALITIES:
+        data = cv2.imencode(".webp", bgr, [cv2.IMWRITE_WEBP_QUALITY, quality])[1].tobytes()
+        if len(data) <= MOST_BYTES:
+            return data
+    raise ValueError("a preview does not fit into its size")
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Draws the pictures that were named, or all."""
+    parser = argparse.ArgumentParser(prog="python -m executor.generate.previews", description=__doc__)
+    parser.add_argument("ids", nargs="*", metavar="ID")
+    wanted = parser.parse_args(arguments).ids
+    renderer = make_renderer()
+    for universe_id in BUILTIN_IDS:
+        if not wanted or universe_id in wanted:
+            _write(universe_preview(universe_id), universe_picture(renderer, universe_id))
+    for robot_id in robot_ids():
+        if not wanted or robot_id in wanted:
+            _write(robot_preview(robot_id), robot_picture(renderer, robot_id))
+    renderer.close()
+
+
+def _write(path: Path, data: bytes) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(data)
+    sys.stdout.write(f"{path} {len(data)} bytes\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,300 @@
+"""Runs a project with its world in one process, in lock-step: sensors, then the tick, then the actuators.
+
+Time is simulated, so a run is as fast as the machine and comes out the same every time. The application is
+the real one on a real rclpy node: Fast DDS delivers within a process before `publish` returns, so that
+publishing and then calling what is ready is all the waiting that there is.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import shutil
+import sys
+import tempfile
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.headless.report import NodeCount, Report, quantiles
+from executor.ros.environment import lockstep_environment
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.ros.spin import DrainingExecutor
+    from executor.world.bullet import BulletWorld
+    from translator import Project
+    from tree_gardener import Status, TickError, Tree
+    from tree_gardener.node import Node as TreeNode
+
+    Progress = Callable[[float], None]
+
+PERIOD_STEPS: Final = 4  # steps between looks at the world's topics, as in real time
+TRAJECTORY_HZ: Final = 10.0
+MESSAGE_MODULES: Final = ("geometry_msgs", "nav_msgs", "sensor_msgs", "std_msgs")
+
+
+@dataclass(frozen=True)
+class LockstepOptions:
+    """How to run; None leaves it to the project."""
+
+    universe: str | None = None
+    robot: str | None = None
+    seed: int = 0
+    duration_s: float = 60.0
+    tick_hz: float | None = None
+    on_finish: str | None = None
+    on_error: str | None = None
+
+
+def run_lockstep(
+    project: Project | Mapping[str, bytes] | Path,
+    options: LockstepOptions | None = None,
+    *,
+    progress: Progress | None = None,
+    watch: Callable[[BulletWorld], None] | None = None,
+) -> Report:
+    """Runs a project until its tree ends or the time is over.
+
+    Args:
+        project: opened already, or its files by path, or where it is.
+        options: what differs from the project's own settings.
+        progress: called about once a simulated second with the simulated time.
+        watch: called before each tick with the world, for measurements.
+
+    Raises:
+        TranslatorError: the project has errors.
+        DocumentError: the universe or the robot does not exist or is wrong.
+        LoadError: an action cannot be loaded.
+        TickError: the setup of an action raised.
+    """
+    _use_environment()
+    run = _Run(_open(project), options or LockstepOptions())
+    try:
+        return run.play(progress, watch)
+    finally:
+        run.close()
+
+
+class _Run:
+    """One run: world, application and what connects them."""
+
+    def __init__(self, project: Project, options: LockstepOptions) -> None:
+        from rclpy.context import Context  # noqa: PLC0415 - ROS reads the environment when it is loaded
+
+        settings = project.settings
+        self._options = options
+        self._tick_hz = options.tick_hz or settings.tick_hz
+        self._on_finish = options.on_finish or settings.on_finish
+        self._on_error = options.on_error or settings.on_error
+        self._report = Report()
+        self._durations: list[float] = []
+        self._context = Context()
+        self._stack: list[Callable[[], object]] = []
+        self._world = self._make_world(project)
+        self._stack.append(self._world.close)
+        self._join_ros()
+        self._tree = self._make_tree(project)
+        self._counts = [NodeCount(node.path) for node in self._tree.nodes]
+
+    def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
+        """Ticks until the end."""
+        from tree_gardener.runner import Runner  # noqa: PLC0415 - after the environment
+
+        runner = Runner(
+            self._tree,
+            tick_hz=self._tick_hz,
+            on_finish=self._on_finish,
+            on_error=self._on_error,
+            fault=self._note_fault,
+        )
+        began_s = time.perf_counter()
+        ticks = math.floor(self._options.duration_s * self._tick_hz + 1e-9)
+        for number in range(ticks):
+            self._advance(round(number / self._tick_hz / self._world.step_s))
+            self._executor.drain()
+            if watch is not None:
+                watch(self._world)
+            status = self._tick(runner)
+            self._node.poll()
+            self._sample(number)
+            if progress is not None and number % max(1, round(self._tick_hz)) == 0:
+                progress(self._world.time_s)
+            if runner.is_finished:
+                self._report.root_status = (status or runner.status).name
+                break
+        else:
+            self._advance(round(ticks / self._tick_hz / self._world.step_s))
+            self._report.root_status = runner.status.name
+        return self._finish(began_s, runner.statistics.overruns)
+
+    def close(self) -> None:
+        """Takes all down, in reverse."""
+        while self._stack:
+            self._stack.pop()()
+
+    # --- setting up ---
+
+    def _make_world(self, project: Project) -> BulletWorld:
+        from executor.world.launch import make_world  # noqa: PLC0415 - slow to load
+
+        universe = self._options.universe or project.settings.universe
+        own = project.files.get(f"universes/{universe}.yaml")
+        robot = self._options.robot or project.settings.robot
+        text = own.decode("utf-8") if own is not None else universe
+        folder = Path(tempfile.mkdtemp(prefix="bt-studio-assets-"))
+        self._stack.append(lambda: shutil.rmtree(folder, ignore_errors=True))
+        _write_assets(project, folder)
+        return make_world(text, seed=self._options.seed, robot=robot, assets=folder)
+
+    def _join_ros(self) -> None:
+        import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
+        from rclpy.node import Node  # noqa: PLC0415
+        from rclpy.parameter import Parameter  # noqa: PLC0415
+
+        from executor.render import make_renderer  # noqa: PLC0415
+        from executor.ros.node import WorldNode  # noqa: PLC0415
+        from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
+        from executor.world.sensors import Sensors  # noqa: PLC0415
+
+        rclpy.init(context=self._context)
+        self._stack.append(self._context.try_shutdown)
+        self._sensors = Sensors(self._world, make_renderer)
+        self._stack.append(self._sensors.close)
+        renamed = {place.id: place.topics for place in self._world.universe.robots}
+        self._node = WorldNode(self._world, self._context, topics=renamed, clock_hz=self._tick_hz)
+        self._stack.append(self._node.close)
+        self._application = Node(
+            "application",
+            context=self._context,
+            parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, True)],  # noqa: FBT003
+        )
+        self._stack.append(self._application.destroy_node)
+        self._executor: DrainingExecutor = DrainingExecutor(context=self._context)
+        self._executor.add_node(self._application)
+        self._stack.append(self._executor.shutdown)
+
+    def _make_tree(self, project: Project) -> Tree:
+        from translator import self_contained  # noqa: PLC0415
+        from tree_gardener import Tree  # noqa: PLC0415 - after the environment
+
+        for package in MESSAGE_MODULES:  # programs use `geometry_msgs.msg` after `import geometry_msgs`
+            __import__(f"{package}.msg")
+        app = project.files.get("self_contained_tree.xml")
+        text = app.decode("utf-8") if app is not None else self_contained(project)
+        tree = Tree.from_xml(text, clock=_WorldClock(self._world))
+        tree.setup(node=self._application)
+        self._stack.append(tree.shutdown)
+        tree.add_hook(after=self._count)
+        return tree
+
+    # --- running ---
+
+    def _advance(self, until_step: int) -> None:
+        """Steps the world up to a step, and has its sensors measure on the way as in real time."""
+        done = round(self._world.time_s / self._world.step_s)
+        if done == 0:
+            self._node.publish(self._sensors)
+        while done < until_step:
+            count = min(until_step - done, PERIOD_STEPS - done % PERIOD_STEPS)
+            self._world.step(count)
+            done += count
+            self._sensors.changed()
+            if done % PERIOD_STEPS == 0 or done == until_step:
+                self._node.publish(self._sensors)
+
+    def _tick(self, runner: Any) -> Status | None:
+        began_s = time.perf_counter()
+        status: Status | None = runner.tick_due(self._world.time_s)
+        self._durations.append(time.perf_counter() - began_s)
+        return status
+
+    def _count(self, node: TreeNode, status: Status) -> None:
+        count = self._counts[node.uid - 1]
+        count.ticks += 1
+        name = status.name.lower()
+        if hasattr(count, name):
+            setattr(count, name, getattr(count, name) + 1)
+
+    def _note_fault(self, error: TickError) -> None:
+        self._report.errors.append(
+            {
+                "node_path": error.path,
+                "node_id": error.node_id,
+                "file": error.file,
+                "line": error.line,
+                "message": error.message,
+                "traceback": error.traceback_text,
+                "t": self._world.time_s,
+            }
+        )
+
+    def _sample(self, tick: int) -> None:
+        every = max(1, round(self._tick_hz / TRAJECTORY_HZ))
+        if tick % every or not self._world.robots:
+            return
+        robot = self._world.robots[0]
+        x, y, yaw = robot.pose
+        self._report.trajectory.append([round(v, 6) for v in (self._world.time_s, x, y, yaw)])
+        for lidar in robot.config.lidars[:1]:
+            nearest = float(self._sensors.scan(robot, lidar).ranges.min())
+            best = self._report.min_range_m
+            if math.isfinite(nearest) and (best is None or nearest < best):
+                self._report.min_range_m = round(nearest, 6)
+
+    def _finish(self, began_s: float, overruns: int) -> Report:
+        report = self._report
+        report.wall_time_s = time.perf_counter() - began_s
+        report.sim_time_s = self._world.time_s
+        report.real_time_factor = report.sim_time_s / max(report.wall_time_s, 1e-9)
+        report.ticks = self._tree.tick_number
+        report.tick_ms, report.overruns = quantiles(self._durations), overruns
+        report.nodes = self._counts
+        if self._world.robots:
+            robot = self._world.robots[0]
+            report.distance_m, report.collisions = round(robot.distance_m, 6), robot.collisions
+        return report
+
+
+class _WorldClock:
+    """Simulated time for Delay, Timeout and Sleep."""
+
+    def __init__(self, world: BulletWorld) -> None:
+        self._world = world
+
+    def now(self) -> float:
+        """Simulated seconds."""
+        return self._world.time_s
+
+    def sleep(self, duration_s: float) -> None:
+        """Within a tick simulated time stands still, so there is nothing to wait for."""
+
+
+def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
+    from translator import Project, open_files, open_path  # noqa: PLC0415 - slow to load
+
+    if isinstance(project, Project):
+        return project
+    if isinstance(project, Mapping):
+        return open_files(project)
+    return open_path(project)
+
+
+def _write_assets(project: Project, folder: Path) -> None:
+    """Writes the project's robots and assets where the world finds them."""
+    for name, data in project.files.items():
+        if name.startswith(("assets/", "robots/")):
+            path = folder / name
+            if not path.resolve().is_relative_to(folder.resolve()):
+                raise ValueError(f"{name!r} leads out of the project")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+
+
+def _use_environment() -> None:
+    """Shuts other processes out, unless ROS was loaded already with an environment of its own."""
+    if "rclpy" not in sys.modules:
+        os.environ.update(lockstep_environment())

@@ -1,0 +1,1 @@
+"""The manager of one session: the rim around the state machine."""

@@ -1,0 +1,90 @@
+"""Where a session unpacks the apps that it is sent."""
+
+from __future__ import annotations
+
+import errno
+import shutil
+import tempfile
+from collections import deque
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from executor.launching.reader import read_launch_files
+from executor.manager.archive import ArchiveError, unpack
+from executor.session.events import Unpacked
+from executor.universes.document import DocumentError
+
+if TYPE_CHECKING:
+    from executor.session.events import Unpack
+
+__all__ = ["Folders"]
+
+KEPT_FOLDERS: Final = 3
+# What world and application need of the disk to start.
+SPARE_BYTES: Final = 16 << 20
+
+
+class Folders:
+    """A folder for each app, of which the oldest are removed.
+
+    Args:
+        is_alone: whether nobody but this session uses the place of temporary files, as in a container. When
+            it is full, what earlier runs left there is removed then, or no run could follow on one of those.
+    """
+
+    def __init__(self, *, is_alone: bool) -> None:
+        self._is_alone = is_alone
+        self._root = Path(tempfile.mkdtemp(prefix="bt-studio-"))
+        self._kept: deque[Path] = deque()
+
+    def unpack(self, effect: Unpack) -> Unpacked:
+        """Unpacks one app; what is wrong with it is told."""
+        folder = self._root / str(effect.token)
+        self._kept.append(folder)
+        if len(self._kept) > KEPT_FOLDERS:
+            shutil.rmtree(self._kept.popleft(), ignore_errors=True)
+        try:
+            self._fill(folder, effect.archive_base64)
+            return Unpacked(effect.token, str(folder), plan=read_launch_files(folder))
+        except ArchiveError as error:
+            return Unpacked(effect.token, error=str(error))
+        except DocumentError as error:
+            return Unpacked(effect.token, str(folder), problem=(error.file, error.problems[0]))
+
+    def _fill(self, folder: Path, archive_base64: str) -> None:
+        if self._is_alone and shutil.disk_usage(self._root).free < SPARE_BYTES:
+            self._sweep()
+        try:
+            _unpack(archive_base64, folder)
+        except ArchiveError as error:
+            if not self._is_alone or not _is_out_of_room(error):
+                raise
+            shutil.rmtree(folder, ignore_errors=True)
+            self._sweep()
+            _unpack(archive_base64, folder)
+
+    def _sweep(self) -> None:
+        for path in Path(tempfile.gettempdir()).iterdir():
+            if path == self._root:
+                continue
+            if path.is_dir() and not path.is_symlink():
+                shutil.rmtree(path, ignore_errors=True)
+            else:
+                path.unlink(missing_ok=True)
+
+    def remove(self) -> None:
+        """Removes them all."""
+        shutil.rmtree(self._root, ignore_errors=True)
+
+
+def _unpack(archive_base64: str, folder: Path) -> None:
+    try:
+        folder.mkdir()
+    except OSError as error:
+        raise ArchiveError(f"it cannot be unpacked: {error}") from error
+    unpack(archive_base64, folder)
+
+
+def _is_out_of_room(error: ArchiveError) -> bool:
+    cause = error.__cause__
+    return isinstance(cause, OSError) and cause.errno in {errno.ENOSPC, errno.EDQUOT}

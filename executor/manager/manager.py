@@ -1,0 +1,309 @@
+"""The manager of one session: the state machine between its sockets and its processes.
+
+`python -m executor.manager` serves a session until its parent ends, it is told to stop, or nobody comes
+back within the grace period. Nothing that it started is left then.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import logging
+import os
+import random
+import signal
+import socket
+import sys
+from collections import deque
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+from executor.manager.folders import Folders
+from executor.manager.gate import fetch_listener
+from executor.manager.server import SessionServer
+from executor.ros.environment import ros_environment
+from executor.session.events import (
+    EndSession,
+    Event,
+    Interrupt,
+    Kill,
+    Kind,
+    Retire,
+    Send,
+    Spawn,
+    Tell,
+    TimePassed,
+    Unpack,
+)
+from executor.session.protocol import About, Session
+from executor.supervision.confine import die_with_parent
+from executor.supervision.processes import Limits, Program
+from executor.supervision.shared_memory import remove_abandoned_segments
+from executor.supervision.supervisor import Supervisor
+
+if TYPE_CHECKING:
+    from executor.ram.server import RamServer
+
+__all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
+
+_log = logging.getLogger(__name__)
+
+VERSION: Final = "0.1.0"
+LAST_DOMAIN_ID: Final = 100
+LARGEST_DOMAIN_ID: Final = 232
+# Who shares out the work on a small picture spends more on sharing, and sessions have but one machine.
+FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
+
+
+@dataclass(frozen=True)
+class ManagerSettings:
+    """How a manager is run.
+
+    Attributes:
+        port: 0 takes a free one.
+        token: what clients must show; "" asks for none.
+        domain_id: of the session's ROS graph; None takes one that nobody uses.
+        grace_s: how long a session without clients lives; 0 for ever.
+        listener: a unix socket to listen at besides.
+        is_closed_off: whether no other program can reach its ROS graph, since it runs in a container.
+        is_ram: whether it speaks the RAM dialect, to one client of this machine and without a token.
+        origins: pages that may drive it then, besides those of this machine.
+    """
+
+    host: str = "127.0.0.1"
+    port: int = 7163
+    token: str = ""
+    domain_id: int | None = None
+    grace_s: float = 300.0
+    is_closed_off: bool = False
+    is_ram: bool = False
+    origins: tuple[str, ...] = ()
+    programs: dict[Kind, Program] | None = None
+    listener: socket.socket | None = None
+
+
+def free_domain_id() -> int:
+    """Returns a ROS domain in which no participant of this host listens."""
+    for domain_id in random.sample(range(1, LAST_DOMAIN_ID + 1), LAST_DOMAIN_ID):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            try:
+                # The first participant's port for unicast discovery, by the RTPS specification.
+                probe.bind(("127.0.0.1", 7400 + 250 * domain_id + 10))
+            except OSError:
+                continue
+            return domain_id
+    raise OSError("every ROS domain of this host is in use")
+
+
+def outside_domain_id() -> int:
+    """Returns the ROS domain that the user's own programs are in, by the environment."""
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    return int(text) if text.isdecimal() and int(text) <= LARGEST_DOMAIN_ID else 0
+
+
+def _environment_bytes(name: str, default_mb: int) -> int:
+    return int(os.environ.get(name, str(default_mb))) << 20
+
+
+def session_programs(domain_id: int) -> dict[Kind, Program]:
+    """Returns the real world and application, with their limits."""
+    threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
+    own = {
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "PYDANTIC_DISABLE_PLUGINS": "__all__",
+    }  # it looks through all wheels
+    environment = {**ros_environment(domain_id), **threads, **own}
+    limits = Limits(
+        memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
+        file_bytes=_environment_bytes("BT_STUDIO_APPLICATION_FILE_MB", 1024),
+        processes=int(os.environ.get("BT_STUDIO_APPLICATION_PROCESSES", "64")),
+        cpu_s=int(os.environ.get("BT_STUDIO_APPLICATION_CPU_S", "0")) or None,
+    )
+    return {
+        "world": Program((sys.executable, "-m", "executor.world.process"), environment),
+        "application": Program((sys.executable, "-m", "executor.application.process"), environment, limits),
+    }
+
+
+class Manager:
+    """One session with its sockets and processes; `run` it on an event loop."""
+
+    def __init__(self, settings: ManagerSettings) -> None:
+        self.domain_id = settings.domain_id if settings.domain_id is not None else free_domain_id()
+        self._settings = settings
+        loop = asyncio.get_running_loop()
+        about = About(
+            version=VERSION,
+            ros_domain_id=self.domain_id,
+            ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
+            outside_domain_id=outside_domain_id(),
+            grace_s=settings.grace_s,
+        )
+        self.session = Session(about, now_s=loop.time())
+        self._supervisor = Supervisor(
+            settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
+        )
+        self._server = self._make_server()
+        self._folders = Folders(is_alone=settings.is_closed_off)
+        self._events: deque[Event] = deque()
+        self._is_handling = False
+        self._timer: asyncio.TimerHandle | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._ended = loop.create_future()
+
+    def _make_server(self) -> SessionServer | RamServer:
+        settings = self._settings
+        if not settings.is_ram:
+            return SessionServer(self.session, self.take, token=settings.token)
+        from executor.ram.server import RamServer  # noqa: PLC0415 - few need it, and all would wait for it
+
+        return RamServer(self.session, self.take, origins=settings.origins)
+
+    async def start(self) -> int:
+        """Listens and starts both processes ahead; returns the port.
+
+        Raises:
+            OSError: the port is in use.
+        """
+        port = await self._server.start(self._settings.host, self._settings.port)
+        if self._settings.listener is not None and isinstance(self._server, SessionServer):
+            await self._server.start_at(self._settings.listener)
+        self._do_all(self.session.prestart())
+        self._set_timer()
+        return port
+
+    async def wait(self) -> str:
+        """Returns why the session is to end."""
+        return str(await self._ended)
+
+    def end(self, reason: str) -> None:
+        """Has `wait` return."""
+        if not self._ended.done():
+            self._ended.set_result(reason)
+
+    async def close(self) -> None:
+        """Ends all connections and processes."""
+        if self._timer is not None:
+            self._timer.cancel()
+        await self._server.close()
+        await self._supervisor.close()
+        if self._tasks:
+            await asyncio.wait(self._tasks)
+        self._folders.remove()
+        await asyncio.to_thread(remove_abandoned_segments)
+
+    def take(self, event: Event) -> None:
+        """Lets the state machine handle an event. Those that effects cause wait for their turn."""
+        self._events.append(event)
+        if self._is_handling:
+            return
+        self._is_handling = True
+        try:
+            while self._events:
+                now_s = asyncio.get_running_loop().time()
+                self._do_all(self.session.handle(self._events.popleft(), now_s))
+        finally:
+            self._is_handling = False
+        self._set_timer()
+
+    def _do_all(self, effects: list[Any]) -> None:
+        for effect in effects:
+            match effect:
+                case Send():
+                    self._server.send(effect)
+                case Spawn() | Tell() | Interrupt() | Retire() | Kill():
+                    self._supervisor.apply(effect)
+                case Unpack():
+                    task = asyncio.get_running_loop().create_task(self._unpack(effect))
+                    self._tasks.add(task)
+                    task.add_done_callback(self._tasks.discard)
+                case EndSession():
+                    self.end(effect.reason)
+
+    def _set_timer(self) -> None:
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        deadline_s = self.session.deadline_s
+        if deadline_s is not None and not self._ended.done():
+            self._timer = asyncio.get_running_loop().call_at(deadline_s, self.take, TimePassed())
+
+    async def _unpack(self, effect: Unpack) -> None:
+        self.take(await asyncio.to_thread(self._folders.unpack, effect))
+
+    def _on_frame(self, message: dict[str, Any]) -> None:
+        self._server.send_frame(message)
+
+
+async def serve(settings: ManagerSettings, ready_fd: int | None = None) -> str:
+    """Serves one session; returns why it ended.
+
+    Raises:
+        OSError: the port is in use.
+    """
+    manager = Manager(settings)
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        loop.add_signal_handler(number, manager.end, f"got {number.name}")
+    try:
+        port = await manager.start()
+        ready = msgspec.json.encode({"port": port, "domain_id": manager.domain_id, "pid": os.getpid()})
+        if ready_fd is not None:
+            os.write(ready_fd, ready + b"\n")
+            os.close(ready_fd)
+        else:
+            sys.stderr.write(f"The manager listens on {settings.host}:{port}.\n")
+        return await manager.wait()
+    finally:
+        await manager.close()
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command line of the manager; returns the exit status."""
+    parser = argparse.ArgumentParser(prog="python -m executor.manager", description=__doc__)
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, default=7163)
+    parser.add_argument("--token-env", default="", help="environment variable that holds the token")
+    parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
+    parser.add_argument(
+        "--allow-origin", action="append", default=[], help="page that may drive a --ram manager"
+    )
+    parser.add_argument("--ready-fd", type=int, help="where to write the port, as a line of JSON")
+    parser.add_argument("--domain-id", type=int, help="ROS domain of the session")
+    parser.add_argument(
+        "--grace", type=float, help="seconds that a session lives without clients; 300, with --ram for ever"
+    )
+    parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
+    parser.add_argument("--session", default="", help="the session's id, for the gate")
+    options = parser.parse_args(arguments)
+    grace_s = options.grace if options.grace is not None else 0.0 if options.ram else 300.0
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
+    logging.getLogger("websockets").setLevel(logging.WARNING)
+    if options.ready_fd is not None:
+        die_with_parent()
+    token = os.environ.pop(options.token_env, "") if options.token_env else ""
+    try:
+        listener = fetch_listener(options.gate, options.session, token) if options.gate else None
+    except OSError as error:
+        sys.stderr.write(f"bt-studio manager: no socket from the gate {options.gate}: {error}\n")
+        return 1
+    settings = ManagerSettings(
+        options.host,
+        options.port,
+        token,
+        options.domain_id,
+        grace_s,
+        is_closed_off=listener is not None,
+        is_ram=options.ram,
+        origins=tuple(options.allow_origin),
+        listener=listener,
+    )
+    try:
+        _log.info("ended: %s", asyncio.run(serve(settings, options.ready_fd)))
+    except OSError as error:
+        sys.stderr.write(f"bt-studio manager: cannot listen on {options.host}:{options.port}: {error}\n")
+        return 1
+    return 0

@@ -1,0 +1,280 @@
+"""The session's two sockets on loopback: `/control` (JSON) and `/stream` (MessagePack), and `/health`.
+
+The server knows no rules: it decodes commands for the state machine and sends what that has to say.
+A frame that is no command is answered with an error, and the socket stays.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hmac
+import logging
+import time
+from http import HTTPStatus
+from typing import TYPE_CHECKING, Any, Final
+from urllib.parse import parse_qs, urlsplit
+
+import msgspec
+from msgspec import UNSET, Struct
+from websockets.asyncio.server import Server, ServerConnection, serve, unix_serve
+from websockets.exceptions import ConnectionClosed
+
+from executor.manager.metrics import CONTENT_TYPE, Traffic, metrics_text
+from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
+from executor.session.events import (
+    ClientJoined,
+    ClientLeft,
+    CommandCame,
+    Event,
+    Send,
+    StreamClosed,
+    StreamOpened,
+    StreamPaced,
+)
+from executor.stream.outbox import ControlOutbox, StreamOutbox
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Callable
+
+    from websockets.http11 import Request, Response
+
+    from executor.session.protocol import Session
+
+__all__ = ["SessionServer"]
+
+_log = logging.getLogger(__name__)
+
+MAX_COMMAND_BYTES: Final = 128 << 20
+MAX_CLIENTS: Final = 32
+HEARTBEAT_S: Final = 15.0
+_encode = msgspec.json.Encoder().encode
+
+
+class SessionServer:
+    """Serves one session.
+
+    Args:
+        session: asked for ids and snapshots.
+        report: takes events.
+        token: clients must send it as `Authorization: Bearer`; "" asks for none.
+    """
+
+    def __init__(self, session: Session, report: Callable[[Event], None], *, token: str) -> None:
+        self._session = session
+        self._report = report
+        self._token = token
+        self._controls: dict[str, ControlOutbox] = {}
+        self._streams: dict[str, StreamOutbox] = {}
+        self._seq = 0
+        self.traffic = Traffic()
+        self._servers: list[Server] = []
+
+    async def start(self, host: str, port: int) -> int:
+        """Listens; returns the port.
+
+        Raises:
+            OSError: the port is in use.
+        """
+        server = await serve(self._serve, host, port, **self._options)
+        self._servers.append(server)
+        return int(next(iter(server.sockets)).getsockname()[1])
+
+    async def start_at(self, listener: socket.socket) -> None:
+        """Listens at a unix socket that was made elsewhere, too."""
+        self._servers.append(await unix_serve(self._serve, sock=listener, **self._options))
+
+    @property
+    def _options(self) -> dict[str, Any]:
+        return {
+            "process_request": self._check_request,
+            "max_size": MAX_COMMAND_BYTES,
+            "compression": None,
+            "ping_interval": HEARTBEAT_S,
+            "ping_timeout": HEARTBEAT_S,
+            "server_header": None,
+        }
+
+    async def close(self) -> None:
+        """Closes all connections."""
+        for server in self._servers:
+            server.close()
+            await server.wait_closed()
+
+    def send(self, effect: Send) -> None:
+        """Queues an event for a client, or for all."""
+        self.traffic.refusals += effect.name == "error"
+        self.traffic.events += 1
+        payload = msgspec.Raw(_encode(effect.payload))
+        if effect.client is not None:
+            self._queue(effect.client, effect.name, payload, effect.request)
+            return
+        data = self._envelope(effect.name, payload, None)
+        for outbox in self._controls.values():
+            outbox.put(data, is_reply=False)
+
+    def send_frame(self, message: dict[str, Any]) -> None:
+        """Queues a frame of the world for its client; None stands for all."""
+        client, stream, data = message.get("client"), message.get("stream"), message.get("data")
+        if not isinstance(data, bytes) or not isinstance(stream, str):
+            return
+        self.traffic.frames += 1
+        now_s = time.monotonic()
+        for name, outbox in list(self._streams.items()) if client is None else self._stream_of(client):
+            outbox.put(stream, data)
+            lost = outbox.lost_share(now_s)
+            if lost is not None:
+                self._report(StreamPaced(name, lost))
+
+    def _stream_of(self, client: str) -> list[tuple[str, StreamOutbox]]:
+        outbox = self._streams.get(client)
+        return [] if outbox is None else [(client, outbox)]
+
+    # --- requests ---------------------------------------------------------------------------------
+
+    def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
+        path = urlsplit(request.path).path
+        if path == "/health":
+            return self._health(connection)
+        if path == "/metrics":
+            return self._metrics(connection)
+        if not self._is_authorized(request):
+            return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
+        if path not in {"/control", "/stream"}:
+            return connection.respond(
+                HTTPStatus.NOT_FOUND, "There are /control, /stream, /health and /metrics.\n"
+            )
+        if len(self._controls) >= MAX_CLIENTS:
+            return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many clients.\n")
+        return None
+
+    def _is_authorized(self, request: Request) -> bool:
+        given = request.headers.get("Authorization", "")
+        return not self._token or hmac.compare_digest(given.encode(), f"Bearer {self._token}".encode())
+
+    def _health(self, connection: ServerConnection) -> Response:
+        body = {
+            "status": "ok",
+            "state": self._session.state.value,
+            "clients": len(self._controls),
+            "streams": len(self._streams),
+            "tick": self._session.mirror.tick,
+        }
+        response = connection.respond(HTTPStatus.OK, _encode(body).decode() + "\n")
+        del response.headers["Content-Type"]
+        response.headers["Content-Type"] = "application/json"
+        return response
+
+    def _metrics(self, connection: ServerConnection) -> Response:
+        self.traffic.clients, self.traffic.streams = len(self._controls), len(self._streams)
+        response = connection.respond(HTTPStatus.OK, metrics_text(self._session, self.traffic))
+        del response.headers["Content-Type"]
+        response.headers["Content-Type"] = CONTENT_TYPE
+        return response
+
+    # --- connections ------------------------------------------------------------------------------
+
+    async def _serve(self, connection: ServerConnection) -> None:
+        assert connection.request is not None  # noqa: S101 - the handshake is over
+        url = urlsplit(connection.request.path)
+        asked = parse_qs(url.query).get("client", [None])[0]
+        with contextlib.suppress(ConnectionClosed):
+            if url.path == "/control":
+                await self._serve_control(connection, asked)
+            else:
+                await self._serve_stream(connection, asked)
+
+    async def _serve_control(self, connection: ServerConnection, asked: str | None) -> None:
+        client = self._session.clients.client_id(asked)
+        outbox = self._controls[client] = ControlOutbox(lambda: self._snapshot_message(client))
+        self._report(ClientJoined(client))
+        sender = asyncio.create_task(_send_all(connection, outbox))
+        try:
+            async for frame in connection:
+                self._take(client, frame)
+        finally:
+            sender.cancel()
+            del self._controls[client]
+            self._report(ClientLeft(client))
+
+    async def _serve_stream(self, connection: ServerConnection, client: str | None) -> None:
+        if client is None or client not in self._controls:
+            await connection.close(4404, "open /control first and name its client_id")
+            return
+        # A client that opens a second one has lost the first.
+        outbox = self._streams[client] = StreamOutbox()
+        self._report(StreamOpened(client))
+        sender = asyncio.create_task(_send_all(connection, outbox))
+        try:
+            async for _ in connection:
+                pass
+        finally:
+            sender.cancel()
+            if self._streams.get(client) is outbox:
+                del self._streams[client]
+                self._report(StreamClosed(client))
+
+    # --- messages ---------------------------------------------------------------------------------
+
+    def _take(self, client: str, frame: str | bytes) -> None:
+        request = ""
+        self.traffic.commands += 1
+        try:
+            if isinstance(frame, bytes):
+                raise msgspec.DecodeError("commands are text frames")
+            message = msgspec.json.decode(frame, type=ClientMessage)
+            request = message.id
+            kind = COMMANDS.get(message.command)
+            if kind is None:
+                self._refuse(client, request, "unknown_command", f"There is no command {message.command!r}.")
+                return
+            data = _decode_data(message.data, kind)
+        except (msgspec.DecodeError, RecursionError, UnicodeError) as error:
+            code = "bad_data" if request else "bad_frame"
+            self._refuse(client, request, code, f"The command is refused: {error}.")
+            return
+        self._report(CommandCame(client, request, message.command, data))
+
+    def _refuse(self, client: str, request: str, code: str, text: str) -> None:
+        self.traffic.refusals += 1
+        self._queue(client, "error", msgspec.Raw(_encode(Error(code, text))), request)
+
+    def _queue(self, client: str, name: str, payload: msgspec.Raw, request: str | None) -> None:
+        outbox = self._controls.get(client)
+        if outbox is not None:
+            outbox.put(self._envelope(name, payload, request), is_reply=request is not None)
+
+    def _envelope(self, name: str, payload: msgspec.Raw, request: str | None) -> bytes:
+        self._seq += 1
+        message = ServerMessage(
+            id=f"e{self._seq}" if request is None else request,
+            command=name,
+            data=payload,
+            seq=self._seq,
+            t=self._session.sim_time_s,
+            tick=self._session.mirror.tick or UNSET,
+        )
+        return _encode(message)
+
+    def _snapshot_message(self, client: str) -> bytes:
+        self.traffic.snapshots += 1
+        _log.info("client %s is too slow and gets a snapshot", client)
+        return self._envelope("snapshot", msgspec.Raw(_encode(self._session.mirror.snapshot())), None)
+
+
+def _decode_data(data: msgspec.Raw, kind: type[Struct]) -> Struct:
+    if bytes(data).strip() == b"null":
+        data = msgspec.Raw(b"{}")
+    if kind is Empty:
+        # What older clients send along with these commands has no meaning.
+        return Empty()
+    return msgspec.json.decode(data, type=kind)
+
+
+async def _send_all(connection: ServerConnection, outbox: ControlOutbox | StreamOutbox) -> None:
+    is_text = isinstance(outbox, ControlOutbox)
+    with contextlib.suppress(ConnectionClosed):
+        while True:
+            data = await outbox.take()
+            await connection.send(data, text=is_text)

@@ -1,0 +1,129 @@
+"""The session's ladder as data: its states, and what each command does in which of them.
+
+The state machine (`executor.session.protocol`), its tests and `docs/reference/protocol.md` all read `TABLE`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Final
+
+__all__ = ["TABLE", "Row", "State", "is_legal", "where"]
+
+
+class State(StrEnum):
+    """A rung of the ladder, from the ground up; PAUSED is as high as APPLICATION_RUNNING."""
+
+    IDLE = "idle"
+    CONNECTED = "connected"
+    UNIVERSE_READY = "universe_ready"
+    VISUALIZATION_READY = "visualization_ready"
+    APPLICATION_RUNNING = "application_running"
+    PAUSED = "paused"
+
+    @property
+    def height(self) -> int:
+        """How many rungs are below."""
+        return min(list(State).index(self), 4)
+
+    def reaches(self, other: State) -> bool:
+        """Whether this rung is at least as high as `other`."""
+        return self.height >= other.height
+
+
+ANY: Final = frozenset(State)
+WORLD_UP: Final = frozenset(s for s in State if s.reaches(State.UNIVERSE_READY))
+HAS_APPLICATION: Final = frozenset({State.APPLICATION_RUNNING, State.PAUSED})
+RUNNABLE: Final = HAS_APPLICATION | {State.VISUALIZATION_READY}
+WORLD_STANDS: Final = WORLD_UP - {State.APPLICATION_RUNNING}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One command of the protocol.
+
+    Attributes:
+        sources: the states in which it is legal.
+        target: the state that it leads to; None leaves the state as it is.
+        is_step: it takes time: others of its kind are refused until it ends, `cancel` ends it early.
+        for_viewers: clients that do not drive may send it too.
+        does: one sentence for the reference page.
+    """
+
+    sources: frozenset[State]
+    target: State | None
+    is_step: bool
+    for_viewers: bool
+    does: str
+
+
+def _move(sources: frozenset[State], target: State, does: str) -> Row:
+    return Row(sources, target, is_step=True, for_viewers=False, does=does)
+
+
+def _act(sources: frozenset[State], does: str, *, is_step: bool = False, for_viewers: bool = False) -> Row:
+    return Row(sources, None, is_step, for_viewers, does)
+
+
+TABLE: Final[dict[str, Row]] = {
+    "connect": _move(frozenset({State.IDLE}), State.CONNECTED, "Begins the session."),
+    "launch_universe": _move(
+        frozenset({State.CONNECTED}), State.UNIVERSE_READY, "Starts world and robots, paused."
+    ),
+    "prepare_visualization": _move(
+        frozenset({State.UNIVERSE_READY}), State.VISUALIZATION_READY, "Opens the streams."
+    ),
+    "run_application": _move(
+        RUNNABLE, State.APPLICATION_RUNNING, "(Re)starts the application and un-pauses the world."
+    ),
+    "run": _move(
+        ANY,
+        State.APPLICATION_RUNNING,
+        "Climbs all missing rungs; a world that is up already is reset, another universe replaces it.",
+    ),
+    "restart_application": _move(
+        RUNNABLE, State.APPLICATION_RUNNING, "Starts the application of the last run again."
+    ),
+    "pause": _move(
+        frozenset({State.APPLICATION_RUNNING}), State.PAUSED, "Stops ticks and simulated time together."
+    ),
+    "resume": _move(
+        frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Goes on with ticks and simulated time."
+    ),
+    "terminate_application": _move(
+        RUNNABLE,
+        State.VISUALIZATION_READY,
+        "Ends the application, sends a zero `/cmd_vel` and pauses the world.",
+    ),
+    "terminate_visualization": _move(
+        frozenset({State.VISUALIZATION_READY}), State.UNIVERSE_READY, "Closes the streams."
+    ),
+    "terminate_universe": _move(frozenset({State.UNIVERSE_READY}), State.CONNECTED, "Ends the world."),
+    "disconnect": _move(ANY, State.IDLE, "Ends everything, in order."),
+    "cancel": _act(ANY, "Ends the step that is going on; the ladder stays on the last rung reached."),
+    "step": _act(frozenset({State.PAUSED}), "One tick, and `1/tick_hz` of simulated time.", is_step=True),
+    "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
+    "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
+    "reset_world": _act(WORLD_UP, "Puts everything where it was at the start."),
+    "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard.", is_step=True),
+    "teleop": _act(WORLD_UP, "Drives the robot by hand."),
+    "move_body": _act(WORLD_STANDS, "Puts a body somewhere."),
+    "subscribe": _act(ANY, "Asks for a stream, or changes how it is sent.", for_viewers=True),
+    "unsubscribe": _act(ANY, "Ends a stream.", for_viewers=True),
+    "list_topics": _act(WORLD_UP, "Answers with a `topics` event.", for_viewers=True),
+    "echo_topic": _act(WORLD_UP, "Sends the messages of a topic.", for_viewers=True),
+    "publish_topic": _act(WORLD_UP, "Publishes one message."),
+    "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
+    "restart_node": _act(HAS_APPLICATION, "Starts an extra node of the launch files again."),
+}
+
+
+def is_legal(state: State, command: str) -> bool:
+    """Whether the command may be sent in this state."""
+    return state in TABLE[command].sources
+
+
+def where(command: str) -> str:
+    """Names the states in which a command is legal, for people."""
+    return ", ".join(state for state in State if state in TABLE[command].sources)

@@ -1,0 +1,118 @@
+"""What the manager knows of the running tree and world, so that a late joiner gets it whole.
+
+`Mirror.apply` takes every event that clients are sent; `Mirror.snapshot` is what a client that saw all
+of them would know.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import TYPE_CHECKING, Final
+
+from executor.messages import (
+    Blackboard,
+    BlackboardEntry,
+    Fault,
+    LaunchNode,
+    LaunchNodes,
+    Log,
+    NodeStatus,
+    Sim,
+    Snapshot,
+    StateChanged,
+    Tick,
+    Tree,
+)
+from executor.session.ladder import State
+
+if TYPE_CHECKING:
+    from msgspec import Struct
+
+__all__ = ["Mirror"]
+
+LOG_LINES: Final = 500
+FAULTS: Final = 50
+ENTRIES: Final = 5000
+SMOOTHING: Final = 0.1
+
+
+class Mirror:
+    """The state of a session as its clients see it."""
+
+    def __init__(self) -> None:
+        self.state = State.IDLE
+        self.tree: Tree | None = None
+        self.statuses: dict[int, NodeStatus] = {}
+        self.blackboard: dict[tuple[str, str], BlackboardEntry] = {}
+        self.logs: deque[Log] = deque(maxlen=LOG_LINES)
+        self.launch_nodes: list[LaunchNode] = []
+        self.faults: deque[Fault] = deque(maxlen=FAULTS)
+        self.tick = 0
+        self.tick_ms = 0.0
+        self.tick_hz = 0.0
+        self.speed = 1.0
+        self.real_time_factor = 0.0
+        self.universe = ""
+
+    def begin_run(self, tick_hz: float) -> None:
+        """Forgets the run before."""
+        self.tree = None
+        self.statuses.clear()
+        self.blackboard.clear()
+        self.faults.clear()
+        self.tick = 0
+        self.tick_ms = 0.0
+        self.tick_hz = tick_hz
+
+    def apply(self, event: Struct) -> None:
+        """Takes one event that is sent to all clients."""
+        match event:
+            case StateChanged():
+                self.state = State(event.state)
+            case Tree():
+                self.tree = event
+                self.statuses = {node.uid: "IDLE" for node in event.nodes}
+            case Tick():
+                self.tick = event.n
+                self.tick_ms += (event.duration_ms - self.tick_ms) * (SMOOTHING if self.tick > 1 else 1.0)
+                self.statuses.update(event.changed)
+            case Blackboard():
+                self._apply_entries(event.entries)
+            case Log():
+                self.logs.append(event)
+            case LaunchNodes():
+                self.launch_nodes = event.nodes
+            case Fault():
+                self.faults.append(event)
+            case Sim():
+                self.speed = event.speed
+                self.real_time_factor = event.real_time_factor
+            case _:
+                pass
+
+    def tick_load(self) -> dict[str, float]:
+        """How long a tick takes of late, and how long it may take, in ms."""
+        return {"tick_ms": self.tick_ms, "tick_budget_ms": 1000.0 / self.tick_hz if self.tick_hz else 0.0}
+
+    def snapshot(self) -> Snapshot:
+        """Returns everything that a client needs before it can follow the deltas."""
+        return Snapshot(
+            state=self.state.value,
+            tree=self.tree,
+            statuses=list(self.statuses.items()),
+            blackboard=list(self.blackboard.values()),
+            logs=list(self.logs),
+            faults=list(self.faults),
+            tick_hz=self.tick_hz,
+            speed=self.speed,
+            universe=self.universe,
+            launch_nodes=self.launch_nodes,
+        )
+
+    def _apply_entries(self, entries: list[BlackboardEntry]) -> None:
+        for entry in entries:
+            key = (entry.scope, entry.key)
+            if entry.removed:
+                self.blackboard.pop(key, None)
+            elif key in self.blackboard or len(self.blackboard) < ENTRIES:
+                self.blackboard[key] = entry

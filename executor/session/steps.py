@@ -1,0 +1,450 @@
+"""What each command does: steps that take time as generators, the others as plain functions.
+
+A step yields a `Wait` and is resumed with what it waited for; `StepFailed` is raised into it when that
+cannot come any more, when it is too late, or when the step is cancelled. A step that fails leaves the
+ladder on the last rung that it reached.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final, cast
+
+from executor import messages
+from executor.launching.model import LaunchPlan
+from executor.session.ladder import HAS_APPLICATION, State
+
+if TYPE_CHECKING:
+    from msgspec import Struct
+
+    from executor.session.child import Child
+    from executor.session.events import Unpacked
+    from executor.session.protocol import Session
+
+__all__ = ["STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
+
+LAUNCH_TIMEOUT_S: Final = 60.0
+LOAD_TIMEOUT_S: Final = 60.0
+UNPACK_TIMEOUT_S: Final = 30.0
+TICK_PATIENCE_S: Final = 1.0
+INTERRUPT_PATIENCE_S: Final = 1.0
+WORLD_GRACE_S: Final = 2.0
+REPLY_TIMEOUT_S: Final = 5.0
+EXIT_TIMEOUT_S: Final = 10.0
+
+
+class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
+    """The step cannot be done; code, message and hint are for the client."""
+
+    def __init__(self, code: str, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+        self.message = message
+        self.hint = hint
+
+
+@dataclass(frozen=True)
+class Wait:
+    """What a step waits for: until `until` returns something, or raises `StepFailed`."""
+
+    until: Callable[[], Any]
+    timeout_s: float
+    too_late: str
+
+
+@dataclass
+class LastRun:
+    """What was started last, to start it again."""
+
+    universe: messages.LaunchUniverse | None = None
+    application: messages.RunApplication | None = None
+    folder: str = ""
+    plan: LaunchPlan = field(default_factory=LaunchPlan)
+    domain_id: int = 0
+    is_outside: bool = False
+
+
+Step = Generator[Wait, Any, None]
+
+
+# --- helpers --------------------------------------------------------------------------------------
+
+
+def _message_of(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
+    """Returns a condition: the child sent one of these messages; it fails if the child is gone."""
+
+    def until() -> dict[str, Any] | None:
+        for type_ in types:
+            if (message := child.said(type_)) is not None:
+                return message
+        if not child.is_alive:
+            raise StepFailed("process_died", f"The {child.kind} {child.exit_reason}.", _last_words(child))
+        return None
+
+    return until
+
+
+def _gone(child: Child) -> Callable[[], bool | None]:
+    return lambda: None if child.is_alive else True
+
+
+def _last_words(child: Child) -> str:
+    return "\n".join(child.last_lines[-5:])
+
+
+def stop_moving(session: Session) -> None:
+    """Freezes the world, with the robot at rest."""
+    session.tell("world", "stop_robot")
+    session.tell("world", "pause")
+
+
+def _progress(session: Session, rung: messages.Rung, fraction: float, message: str) -> None:
+    session.emit(messages.Progress(rung, fraction, message))
+
+
+# --- rungs ----------------------------------------------------------------------------------------
+
+
+def _connect(session: Session, _: Struct) -> Step:
+    session.enter(State.CONNECTED)
+    session.replenish()
+    yield from ()
+
+
+def _launch_universe(session: Session, data: Struct) -> Step:
+    data = cast("messages.LaunchUniverse", data)
+    _progress(session, "launch_universe", 0.0, "Starting the simulated world")
+    session.run.universe = data
+    _aim(session, data)
+    universe, assets = data.universe, ""
+    if isinstance(universe, messages.UniverseDocument):
+        if universe.assets_zip_base64:
+            unpacked = yield _unpacking(session, universe.assets_zip_base64)
+            assets = _folder_of(unpacked, "assets")
+        universe = universe.document
+    world = session.child("world")
+    world.is_started = True
+    session.tell(
+        "world",
+        "start",
+        universe=universe,
+        assets=assets,
+        robot=data.robot,
+        seed=data.seed,
+        speed=data.speed,
+        domain_id=_domain_of(session, data),
+    )
+    try:
+        reply = yield Wait(
+            _message_of(world, "ready", "error"), LAUNCH_TIMEOUT_S, "The world did not become ready in time."
+        )
+        if reply["type"] == "error":
+            hint = str(reply.get("hint", ""))
+            raise StepFailed(str(reply.get("code") or "launch_failed"), str(reply.get("message", "")), hint)
+    except StepFailed:
+        session.run.universe = None
+        session.drop("world")
+        session.replenish()
+        raise
+    session.mirror.universe = str(reply.get("universe") or data.universe)
+    session.mirror.speed = data.speed
+    session.resume_echoes()
+    _progress(session, "launch_universe", 1.0, "The world is ready")
+    session.enter(State.UNIVERSE_READY)
+
+
+def _prepare_visualization(session: Session, _: Struct) -> Step:
+    session.open_streams()
+    _progress(session, "prepare_visualization", 1.0, "The streams are open")
+    session.enter(State.VISUALIZATION_READY)
+    yield from ()
+
+
+def _unpacking(session: Session, archive_base64: str) -> Wait:
+    return Wait(session.unpack(archive_base64), UNPACK_TIMEOUT_S, "The archive took too long to unpack.")
+
+
+def _folder_of(unpacked: Unpacked, what: str) -> str:
+    if unpacked.error:
+        raise StepFailed("bad_archive", f"The {what} archive is refused: {unpacked.error}.")
+    return unpacked.folder
+
+
+def _take_folder(session: Session, unpacked: Unpacked) -> None:
+    session.run.folder = _folder_of(unpacked, "application's")
+    session.run.plan = unpacked.plan
+    if unpacked.problem is not None:
+        file, problem = unpacked.problem
+        session.emit(messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line))
+        text = f"{file}:{problem.line}:{problem.column}: {problem.message}."
+        raise StepFailed("bad_launch_file", text, problem.hint)
+
+
+def _run_application(session: Session, data: Struct) -> Step:
+    data = cast("messages.RunApplication", data)
+    if session.state in HAS_APPLICATION:
+        yield from _terminate_application(session, data)
+    unpacked = yield _unpacking(session, data.app_zip_base64)
+    _take_folder(session, unpacked)
+    session.run.application = data
+    application = _start_application(session)
+    yield from _await_application(session, application)
+
+
+def _restart_application(session: Session, data: Struct) -> Step:
+    if session.run.application is None:
+        raise StepFailed("nothing_to_restart", "No application was run yet.", "Press Run.")
+    if session.state in HAS_APPLICATION:
+        yield from _terminate_application(session, data)
+    yield from _await_application(session, _start_application(session))
+
+
+def _start_application(session: Session) -> Child:
+    data = session.run.application
+    assert data is not None  # noqa: S101 - both callers set it
+    session.mirror.begin_run(data.tick_hz)
+    _progress(session, "run_application", 0.0, "Loading the tree and its actions")
+    application = session.child("application")
+    application.is_started = True
+    session.tell(
+        "application",
+        "start",
+        app_dir=session.run.folder,
+        tick_hz=data.tick_hz,
+        on_finish=data.on_finish,
+        on_error=data.on_error,
+        domain_id=session.run.domain_id,
+        outside=session.run.is_outside,
+    )
+    session.nodes.start(session, session.run.plan)
+    return application
+
+
+def _await_application(session: Session, application: Child) -> Step:
+    try:
+        reply = yield Wait(
+            _message_of(application, "fault", "ready"),
+            LOAD_TIMEOUT_S,
+            "The application did not finish loading in time: a module or a setup() hangs.",
+        )
+        if reply["type"] == "fault":
+            raise StepFailed("load_failed", str(reply.get("message")), str(reply.get("hint", "")))
+    except StepFailed:
+        if session.children.get("application") is application:
+            session.drop("application")
+        session.replenish()
+        raise
+    _progress(session, "run_application", 1.0, "The application runs")
+    session.tell("world", "resume")
+    session.tell("application", "resume")
+    session.enter(State.APPLICATION_RUNNING)
+
+
+def _run(session: Session, data: Struct) -> Step:
+    """Climbs all rungs; the application loads while the world starts."""
+    data = cast("messages.Run", data)
+    if session.state in HAS_APPLICATION:
+        yield from _terminate_application(session, data)
+    if session.state is State.IDLE:
+        yield from _connect(session, data)
+    if session.state.reaches(State.UNIVERSE_READY):
+        if _is_same_world(session.run.universe, data.universe):
+            session.tell("world", "reset")
+            if not session.run.is_outside:
+                session.tell("world", "set_speed", speed=data.universe.speed)
+        else:
+            yield from _end_world(session)
+    unpacking = _unpacking(session, data.application.app_zip_base64)
+    unpacked = yield unpacking
+    _take_folder(session, unpacked)
+    session.run.application = data.application
+    _aim(session, data.universe)
+    application = _start_application(session)
+    try:
+        if not session.state.reaches(State.UNIVERSE_READY):
+            yield from _launch_universe(session, data.universe)
+    except StepFailed:
+        session.drop("application")
+        session.replenish()
+        raise
+    if not session.state.reaches(State.VISUALIZATION_READY):
+        yield from _prepare_visualization(session, data)
+    yield from _await_application(session, application)
+
+
+def _aim(session: Session, data: messages.LaunchUniverse) -> None:
+    """Notes into which ROS graph the application and its extra nodes go."""
+    session.run.is_outside = data.universe == "none"
+    session.run.domain_id = _domain_of(session, data)
+
+
+def _domain_of(session: Session, data: messages.LaunchUniverse) -> int:
+    if data.universe != "none":
+        return session.about.ros_domain_id
+    return session.about.outside_domain_id if data.domain_id is None else data.domain_id
+
+
+def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniverse) -> bool:
+
+    def key(launch: messages.LaunchUniverse) -> tuple[object, ...]:
+        return launch.universe, launch.robot, launch.seed, launch.domain_id
+
+    return old is not None and key(old) == key(new)
+
+
+# --- running --------------------------------------------------------------------------------------
+
+
+def _pause(session: Session, _: Struct) -> Step:
+    application = session.child("application")
+    application.forget("paused")
+    session.tell("application", "pause")
+    session.tell("world", "pause")
+    try:
+        yield Wait(_message_of(application, "paused"), TICK_PATIENCE_S, "tick")
+    except StepFailed as failure:
+        if failure.code != "timeout":
+            raise
+        yield from _end_hanging_tick(session, application)
+        raise StepFailed(
+            "tick_hangs",
+            f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
+            "An action's update() must return soon; let it return RUNNING while work goes on.",
+        ) from None
+    session.enter(State.PAUSED)
+
+
+def _end_hanging_tick(session: Session, application: Child) -> Step:
+    """Breaks the tick off, so that the application names its node; kills it if that does not help."""
+    session.interrupt(application)
+    try:
+        yield Wait(
+            lambda: application.said("finished") or _gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
+        )
+    except StepFailed as failure:
+        if failure.code != "timeout":
+            raise
+    if session.state in HAS_APPLICATION:
+        if application.said("finished") is None:
+            node = application.hanging_node
+            message = f"The tick hung{f' in {node}' if node else ''}, and the application was killed."
+            session.emit(messages.Fault("timeout", message, node_path=node))
+            session.emit(messages.Finished("IDLE", "process_died", message))
+        stop_moving(session)
+        session.enter(State.VISUALIZATION_READY, "The tick did not return.")
+    if session.children.get("application") is application:
+        session.drop("application")
+    session.replenish()
+
+
+def _resume(session: Session, _: Struct) -> Step:
+    application = session.child("application")
+    application.forget("resumed")
+    session.tell("world", "resume")
+    session.tell("application", "resume")
+    yield Wait(
+        _message_of(application, "resumed"), REPLY_TIMEOUT_S, "The application did not resume in time."
+    )
+    session.enter(State.APPLICATION_RUNNING)
+
+
+def _step(session: Session, _: Struct) -> Step:
+    application = session.child("application")
+    application.forget("stepped")
+    session.tell("application", "step")
+    try:
+        yield Wait(_message_of(application, "stepped", "finished"), REPLY_TIMEOUT_S, "tick")
+    except StepFailed as failure:
+        if failure.code != "timeout":
+            raise
+        yield from _end_hanging_tick(session, application)
+        raise StepFailed("tick_hangs", "The tick did not return and was ended.") from None
+    if session.state is State.PAUSED:
+        session.tell("world", "step", dt_s=1.0 / session.mirror.tick_hz)
+
+
+def _set_blackboard(session: Session, data: Struct) -> Step:
+    data = cast("messages.SetBlackboard", data)
+    application = session.child("application")
+    application.forget("blackboard_set")
+    session.tell("application", "set_blackboard", scope=data.scope, key=data.key, value=data.value)
+    late = "The application did not answer in time."
+    reply = yield Wait(_message_of(application, "blackboard_set"), REPLY_TIMEOUT_S, late)
+    if reply.get("error"):
+        raise StepFailed("bad_data", str(reply["error"]))
+
+
+# --- down the ladder ------------------------------------------------------------------------------
+
+
+def _terminate_application(session: Session, _: Struct) -> Step:
+    if session.state not in HAS_APPLICATION:
+        return
+    application = session.child("application")
+    application.is_stopping = True
+    session.tell("application", "stop")
+    stop_moving(session)
+    try:
+        yield Wait(_gone(application), TICK_PATIENCE_S, "stop")
+    except StepFailed as failure:
+        if failure.code != "timeout":
+            raise
+        yield from _end_hanging_tick(session, application)
+
+
+def _terminate_visualization(session: Session, _: Struct) -> Step:
+    session.close_streams()
+    session.enter(State.UNIVERSE_READY)
+    yield from ()
+
+
+def _end_world(session: Session) -> Step:
+    """Leaves the rungs above `connected`, one by one."""
+    if session.state in HAS_APPLICATION:
+        yield from _terminate_application(session, messages.Empty())
+    if session.state is State.VISUALIZATION_READY:
+        yield from _terminate_visualization(session, messages.Empty())
+    if session.state is State.UNIVERSE_READY:
+        session.drop("world", grace_s=WORLD_GRACE_S)
+        session.run.universe = None
+        session.enter(State.CONNECTED)
+
+
+def _terminate_universe(session: Session, _: Struct) -> Step:
+    session.drop("world", grace_s=WORLD_GRACE_S)
+    session.run.universe = None
+    session.enter(State.CONNECTED)
+    session.replenish()
+    yield from _all_gone(session)
+
+
+def _all_gone(session: Session) -> Step:
+    yield Wait(lambda: None if session.leaving else True, EXIT_TIMEOUT_S, "A process does not end.")
+
+
+def _disconnect(session: Session, _: Struct) -> Step:
+    yield from _end_world(session)
+    session.drop("application")
+    session.drop("world")
+    yield from _all_gone(session)
+    if session.state is not State.IDLE:
+        session.enter(State.IDLE)
+
+
+STEPS: Final[dict[str, Callable[[Session, Struct], Step]]] = {
+    "connect": _connect,
+    "launch_universe": _launch_universe,
+    "prepare_visualization": _prepare_visualization,
+    "run_application": _run_application,
+    "run": _run,
+    "restart_application": _restart_application,
+    "pause": _pause,
+    "resume": _resume,
+    "step": _step,
+    "set_blackboard": _set_blackboard,
+    "terminate_application": _terminate_application,
+    "terminate_visualization": _terminate_visualization,
+    "terminate_universe": _terminate_universe,
+    "disconnect": _disconnect,
+}

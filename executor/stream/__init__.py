@@ -1,0 +1,1 @@
+"""What goes over the stream socket, and what waits to."""

@@ -1,0 +1,100 @@
+"""What waits to be sent to one client. Neither queue grows without bounds, however slow the client."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import deque
+from typing import TYPE_CHECKING, Final
+
+from executor.stream.frames import supersede
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["ControlOutbox", "StreamOutbox"]
+
+MAX_MESSAGES: Final = 4000
+MAX_BYTES: Final = 16 << 20
+PICTURES: Final = ("camera", "view")
+PACE_S: Final = 0.5
+
+
+class ControlOutbox:
+    """Messages in order. A client too slow for them is given a fresh snapshot in place of the backlog.
+
+    Args:
+        snapshot: makes the bytes of a snapshot message.
+    """
+
+    def __init__(self, snapshot: Callable[[], bytes]) -> None:
+        self._snapshot = snapshot
+        self._messages: deque[tuple[bytes, bool]] = deque()
+        self._bytes = 0
+        self._needs_snapshot = False
+        self._filled = asyncio.Event()
+
+    def put(self, data: bytes, *, is_reply: bool) -> None:
+        """Queues a message; replies are never dropped."""
+        if len(self._messages) >= MAX_MESSAGES or self._bytes + len(data) > MAX_BYTES:
+            self._drop_backlog()
+        if not self._needs_snapshot or is_reply:
+            self._messages.append((data, is_reply))
+            self._bytes += len(data)
+        self._filled.set()
+
+    async def take(self) -> bytes:
+        """Returns the next message."""
+        await self._filled.wait()
+        if self._messages:
+            data, _ = self._messages.popleft()
+            self._bytes -= len(data)
+        else:
+            self._needs_snapshot = False
+            data = self._snapshot()
+        if not self._messages and not self._needs_snapshot:
+            self._filled.clear()
+        return data
+
+    def _drop_backlog(self) -> None:
+        self._messages = deque(m for m in self._messages if m[1])
+        self._bytes = sum(len(data) for data, _ in self._messages)
+        self._needs_snapshot = True
+
+
+class StreamOutbox:
+    """The latest frame of each stream. A scene goes before the poses in it."""
+
+    def __init__(self) -> None:
+        self._pictures = self._lost = 0
+        self._reported_s: float | None = None
+        self._frames: dict[str, bytes] = {}
+        self._filled = asyncio.Event()
+
+    def put(self, stream: str, data: bytes) -> None:
+        """Queues a frame in place of the one of that stream that still waits."""
+        if stream == "scene":
+            self._frames.pop("poses", None)
+        waiting = self._frames.get(stream)
+        self._frames[stream] = data if waiting is None else supersede(waiting, data)
+        if stream in PICTURES:
+            self._pictures += 1
+            self._lost += waiting is not None
+        self._filled.set()
+
+    def lost_share(self, now_s: float) -> float | None:
+        """Returns the share of pictures that newer ones overtook, every `PACE_S`; else None."""
+        if not self._pictures or (self._reported_s is not None and now_s - self._reported_s < PACE_S):
+            return None
+        share = self._lost / self._pictures
+        is_first, self._reported_s = self._reported_s is None, now_s
+        self._pictures = self._lost = 0
+        return None if is_first else share
+
+    async def take(self) -> bytes:
+        """Returns the frame that has waited longest, the scene first."""
+        await self._filled.wait()
+        stream = "scene" if "scene" in self._frames else next(iter(self._frames))
+        data = self._frames.pop(stream)
+        if not self._frames:
+            self._filled.clear()
+        return data

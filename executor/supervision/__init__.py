@@ -1,0 +1,1 @@
+"""Child processes: starting them, listening to them, confining and ending them."""

@@ -1,0 +1,311 @@
+"""Messages between the manager and its children: length-prefixed MessagePack over a socket pair.
+
+The child's side (`Channel`) is synchronous and may be used from any thread; the manager's side
+(`AsyncChannel`) lives on an event loop. Both are bounded: messages of type ``frame`` are droppable, and
+of those that wait the latest of a client's stream wins, unless they say ``"keep": True`` (a scene, which
+later frames build upon). All other messages are control messages and are never dropped; a peer that
+does not read them for `STALL_TIMEOUT_S` is taken for dead.
+
+    ChannelError
+    └── ChannelClosed    the other end is gone, or was given up
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import select
+import socket
+import struct
+import threading
+import time
+from collections import deque
+from typing import Any, Final
+
+import msgspec
+
+from executor.stream.frames import supersede
+
+__all__ = ["AsyncChannel", "Channel", "ChannelClosed", "ChannelError", "Message", "encode", "socket_pair"]
+
+Message = dict[str, Any]
+FrameKey = tuple[Any, Any]
+
+MAX_MESSAGE_BYTES: Final = 256 * 1024 * 1024
+MAX_QUEUED_BYTES: Final = 64 * 1024 * 1024
+SOCKET_BUFFER_BYTES: Final = 256 * 1024
+STALL_TIMEOUT_S: Final = 10.0
+_PREFIX: Final = struct.Struct("<I")
+
+
+class ChannelError(Exception):
+    """The other end broke the protocol of the channel."""
+
+
+class ChannelClosed(ChannelError):  # noqa: N818 - it is an event more than an error
+    """The other end is gone."""
+
+
+def socket_pair() -> tuple[socket.socket, socket.socket]:
+    """Returns the manager's and the child's end of a new channel."""
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+    for end in (ours, theirs):
+        end.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SOCKET_BUFFER_BYTES)
+    return ours, theirs
+
+
+def encode(message: Message) -> bytes:
+    """Returns the bytes of a message with its length before them."""
+    body = msgspec.msgpack.encode(message)
+    if len(body) > MAX_MESSAGE_BYTES:
+        raise ChannelError(
+            f"a {message.get('type')} message of {len(body)} bytes is too large for the channel"
+        )
+    return _PREFIX.pack(len(body)) + body
+
+
+def decode(body: bytes | bytearray | memoryview) -> Message:
+    """Returns the message in `body`; raises `ChannelError` if it is none."""
+    try:
+        message = msgspec.msgpack.decode(body)
+    except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
+        raise ChannelError(f"not a message: {error}") from error
+    if not isinstance(message, dict) or not isinstance(message.get("type"), str):
+        raise ChannelError("a message needs a type")
+    return message
+
+
+def _is_droppable(message: Message) -> bool:
+    return message["type"] == "frame" and not message.get("keep")
+
+
+def _frame_key(message: Message) -> FrameKey:
+    return (message.get("client"), message.get("stream"))
+
+
+class _Outbox:
+    """What waits to be written: control messages in order, then the latest frame of each stream."""
+
+    def __init__(self) -> None:
+        self.control: deque[bytes] = deque()
+        self.frames: dict[FrameKey, Message] = {}
+        self.control_bytes = 0
+
+    def __bool__(self) -> bool:
+        return bool(self.control or self.frames)
+
+    def put(self, message: Message) -> None:
+        if _is_droppable(message):
+            waiting = self.frames.pop(_frame_key(message), None)
+            if waiting is not None:
+                message = {**message, "data": supersede(waiting["data"], message["data"])}
+            self.frames[_frame_key(message)] = message
+            return
+        if message["type"] == "frame":
+            self.frames.pop(_frame_key(message), None)  # older than what is to be kept
+        data = encode(message)
+        self.control.append(data)
+        self.control_bytes += len(data)
+
+    def take(self) -> bytes:
+        if self.control:
+            data = self.control.popleft()
+            self.control_bytes -= len(data)
+            return data
+        return encode(self.frames.pop(next(iter(self.frames))))
+
+
+class Channel:
+    """The child's end of a channel, made from the file descriptor that the child was given.
+
+    Args:
+        fd: the descriptor; the channel owns it from now on.
+    """
+
+    def __init__(self, fd: int) -> None:
+        os.set_inheritable(fd, False)  # noqa: FBT003 - positional only
+        self._socket = socket.socket(fileno=fd)
+        self._socket.settimeout(0)
+        self._received = bytearray()
+        self._outbox = _Outbox()
+        self._writing = b""
+        self._changed = threading.Condition()
+        self._closed = False
+        self._writer: threading.Thread | None = None
+        # A program that an action forks must not write into our stream.
+        os.register_at_fork(after_in_child=self._abandon)
+
+    def fileno(self) -> int:
+        """The descriptor to wait on; call `receive(0)` until it returns None when it is readable."""
+        return self._socket.fileno()
+
+    def send(self, message: Message) -> None:
+        """Queues a message; writes it at once where that does not block.
+
+        Raises:
+            ChannelClosed: the manager is gone, or has not read for `STALL_TIMEOUT_S`.
+        """
+        with self._changed:
+            deadline = time.monotonic() + STALL_TIMEOUT_S
+            while self._outbox.control_bytes > MAX_QUEUED_BYTES and not self._closed:
+                if not self._changed.wait(deadline - time.monotonic()):
+                    self._close()
+            if self._closed:
+                raise ChannelClosed("the manager is gone")
+            self._outbox.put(message)
+            self._write_some()
+            if self._outbox or self._writing:
+                self._start_writer()
+                self._changed.notify_all()
+
+    def receive(self, timeout_s: float | None = None) -> Message | None:
+        """Returns the next message, or None if none came in time. None as time waits for ever.
+
+        Raises:
+            ChannelClosed: the manager is gone.
+            ChannelError: what came is not a message.
+        """
+        deadline = None if timeout_s is None else time.monotonic() + timeout_s
+        while True:
+            message = self._take_received()
+            if message is not None:
+                return message
+            left = None if deadline is None else max(0.0, deadline - time.monotonic())
+            if not self._poll(select.POLLIN, left):
+                return None
+            self._read()
+
+    def flush(self, timeout_s: float = STALL_TIMEOUT_S) -> bool:
+        """Waits until all is written; tells whether it was."""
+        with self._changed:
+            return (
+                self._changed.wait_for(lambda: self._closed or not (self._outbox or self._writing), timeout_s)
+                and not self._closed
+            )
+
+    def close(self) -> None:
+        """Ends the channel; what was not yet written is lost. May be called twice."""
+        with self._changed:
+            self._close()
+
+    def _take_received(self) -> Message | None:
+        if len(self._received) < _PREFIX.size:
+            return None
+        (length,) = _PREFIX.unpack_from(self._received)
+        if length > MAX_MESSAGE_BYTES:
+            raise ChannelError(f"a message of {length} bytes is too large")
+        end = _PREFIX.size + length
+        if len(self._received) < end:
+            return None
+        body = bytes(memoryview(self._received)[_PREFIX.size : end])
+        del self._received[:end]
+        return decode(body)
+
+    def _read(self) -> None:
+        try:
+            data = self._socket.recv(1 << 20)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            raise ChannelClosed("the manager is gone") from error
+        if not data:
+            raise ChannelClosed("the manager closed the channel")
+        self._received += data
+
+    def _poll(self, event: int, timeout_s: float | None) -> bool:
+        fd = self._socket.fileno()
+        if fd < 0:
+            raise ChannelClosed("the channel is closed")
+        poll = select.poll()
+        poll.register(fd, event)
+        return bool(poll.poll(None if timeout_s is None else timeout_s * 1000))
+
+    def _write_some(self) -> None:
+        while self._writing or self._outbox:
+            if not self._writing:
+                self._writing = self._outbox.take()
+            try:
+                sent = self._socket.send(self._writing, socket.MSG_NOSIGNAL)
+            except BlockingIOError:
+                return
+            except OSError:
+                self._close()
+                return
+            self._writing = self._writing[sent:]
+
+    def _start_writer(self) -> None:
+        if self._writer is None:
+            self._writer = threading.Thread(target=self._write_backlog, name="channel", daemon=True)
+            self._writer.start()
+
+    def _write_backlog(self) -> None:
+        while True:
+            with self._changed:
+                self._changed.wait_for(lambda: self._closed or self._outbox or self._writing)
+                if self._closed:
+                    return
+            try:
+                writable = self._poll(select.POLLOUT, STALL_TIMEOUT_S)
+            except (ChannelClosed, OSError, ValueError):
+                writable = False
+            with self._changed:
+                if writable:
+                    self._write_some()
+                else:
+                    self._close()
+                self._changed.notify_all()
+
+    def _close(self) -> None:
+        self._closed = True
+        self._socket.close()
+        self._changed.notify_all()
+
+    def _abandon(self) -> None:
+        self._closed = True
+        self._socket.close()
+        self._changed = threading.Condition()
+
+
+class AsyncChannel:
+    """The manager's end of a channel; make it with `AsyncChannel.open`."""
+
+    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self._reader = reader
+        self._writer = writer
+
+    @classmethod
+    async def open(cls, ours: socket.socket) -> AsyncChannel:
+        """Takes over the manager's end of a socket pair."""
+        ours.settimeout(0)
+        return cls(*await asyncio.open_connection(sock=ours))
+
+    def send(self, message: Message) -> None:
+        """Writes a message without waiting.
+
+        Raises:
+            ChannelClosed: the child is gone, or lets too much pile up.
+        """
+        if self._writer.is_closing():
+            raise ChannelClosed("the process is gone")
+        if self._writer.transport.get_write_buffer_size() > MAX_QUEUED_BYTES:
+            raise ChannelClosed("the process does not read its messages")
+        self._writer.write(encode(message))
+
+    async def receive(self) -> Message:
+        """Returns the next message.
+
+        Raises:
+            ChannelClosed: the child is gone.
+            ChannelError: what came is not a message.
+        """
+        try:
+            (length,) = _PREFIX.unpack(await self._reader.readexactly(_PREFIX.size))
+            if length > MAX_MESSAGE_BYTES:
+                raise ChannelError(f"a message of {length} bytes is too large")
+            return decode(await self._reader.readexactly(length))
+        except (asyncio.IncompleteReadError, OSError) as error:
+            raise ChannelClosed("the process closed its channel") from error
+
+    def close(self) -> None:
+        """Ends the channel. May be called twice."""
+        self._writer.close()

@@ -1,0 +1,286 @@
+"""One child process and all that it starts: spawning, listening, and ending the whole tree."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import resource
+import signal
+import subprocess
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final
+
+import psutil
+
+from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
+from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
+from executor.supervision.output import LineReader
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Callable, Iterable, Mapping
+
+__all__ = ["ChildProcess", "Limits", "Program"]
+
+MARK: Final = "BT_STUDIO_CHILD"
+DRAIN_TIMEOUT_S: Final = 0.5
+KILL_ROUNDS: Final = 200
+CPU_GRACE_S: Final = 5
+CLOSED_CHANNEL_GRACE_S: Final = 1.0
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a child may use. Memory is of the process first (an allocation fails), then of its tree."""
+
+    memory_bytes: int | None = None
+    file_bytes: int | None = None
+    processes: int | None = None
+    cpu_s: int | None = None
+
+
+@dataclass(frozen=True)
+class Program:
+    """What to start for a kind of child; `--channel-fd N` is added where it has a channel."""
+
+    arguments: tuple[str, ...]
+    environment: Mapping[str, str] = field(default_factory=dict)
+    limits: Limits = field(default_factory=Limits)
+    has_channel: bool = True
+
+
+class ChildProcess:
+    """A running child.
+
+    Args:
+        program: what to run.
+        on_message: takes each message of the child, and its output as `log` messages.
+
+    Make it with `spawn`; `wait` returns once the process and its whole tree are gone.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        popen: subprocess.Popen[bytes],
+        mark: str,
+        on_message: Callable[[dict[str, Any]], None],
+    ) -> None:
+        self.pid = popen.pid
+        self._mark = mark
+        self.reason = ""
+        self._program = program
+        self._popen = popen
+        self._on_message = on_message
+        self._channel: AsyncChannel | None = None
+        self.exited = asyncio.get_running_loop().create_future()
+        clock = asyncio.get_running_loop().time
+        self._out = LineReader("info", on_message, clock)
+        self._err = LineReader("warning", on_message, clock)
+        self._readers: list[asyncio.Task[None]] = []
+
+    @classmethod
+    async def spawn(cls, program: Program, on_message: Callable[[dict[str, Any]], None]) -> ChildProcess:
+        """Starts a child. Call it from a thread that lives as long as the manager.
+
+        Raises:
+            OSError: the program cannot be started.
+        """
+        mark = os.urandom(8).hex()
+        ours = None
+        if program.has_channel:
+            ours, theirs = socket_pair()
+            with theirs:
+                try:
+                    popen = cls._start(program, theirs.fileno(), mark)
+                except OSError:
+                    ours.close()
+                    raise
+        else:
+            popen = cls._start(program, None, mark)
+        child = cls(program, popen, mark, on_message)
+        child._limit()
+        await child._listen(ours)
+        return child
+
+    @staticmethod
+    def _start(program: Program, channel_fd: int | None, mark: str) -> subprocess.Popen[bytes]:
+        own = {PARENT_VARIABLE: str(os.getpid()), MARK: mark, "PYTHONUNBUFFERED": "1"}
+        return subprocess.Popen(
+            [*program.arguments, *([] if channel_fd is None else ["--channel-fd", str(channel_fd)])],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            pass_fds=[] if channel_fd is None else [channel_fd],
+            start_new_session=True,
+            env={**os.environ, **program.environment, **own},
+        )
+
+    @property
+    def last_lines(self) -> tuple[str, ...]:
+        """The last lines of its error output."""
+        return tuple(self._err.last_lines)
+
+    def tell(self, message: dict[str, Any]) -> None:
+        """Sends a message; to a child that is gone, or does not read, it is lost."""
+        if self._channel is None:
+            return
+        try:
+            self._channel.send(message)
+        except ChannelClosed as error:
+            self.kill(f"was ended: {error}")
+
+    def interrupt(self) -> None:
+        """Asks the child to break off its tick."""
+        with contextlib.suppress(ProcessLookupError):
+            self._popen.send_signal(INTERRUPT_SIGNAL)
+
+    def ask_to_end(self) -> None:
+        """Tells a child without a channel that it is over, as Ctrl+C would; others were told."""
+        if not self._program.has_channel:
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self.pid, signal.SIGINT)
+
+    def kill(self, reason: str = "") -> None:
+        """Kills the child's process group; `wait` sees to the rest of its tree."""
+        self.reason = self.reason or reason
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.pid, signal.SIGKILL)
+
+    async def wait(self) -> None:
+        """Returns when nothing of the child is left, and `reason` says how it ended."""
+        await self.exited
+        code = self._popen.wait()
+        self.reason = self.reason or _exit_reason(code, self._program.limits)
+        self.kill()
+        await asyncio.wait(self._readers, timeout=DRAIN_TIMEOUT_S)
+        await self._end_tree()
+        await asyncio.wait(self._readers, timeout=DRAIN_TIMEOUT_S)
+        for reader in self._readers:
+            reader.cancel()
+        await asyncio.gather(*self._readers, return_exceptions=True)
+        if self._channel is not None:
+            self._channel.close()
+
+    def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
+        """Ends a child whose tree, among all that descends from this process, uses more than it may."""
+        limits = self._program.limits
+        tree = self._tree(descendants)
+        if limits.processes is not None and len(tree) > limits.processes:
+            self.kill(f"was ended: it had {len(tree)} processes, more than the {limits.processes} allowed")
+        elif (allowed := limits.memory_bytes) is not None and (used := _used_bytes(tree, allowed)) > allowed:
+            self.kill(
+                f"was ended: it used {used >> 20} MB of memory, more than the {allowed >> 20} MB allowed"
+            )
+
+    def tree(self) -> list[psutil.Process]:
+        """The child and all living processes that come from it, also those that left its group."""
+        return self._tree(psutil.Process().children(recursive=True))
+
+    def _tree(self, descendants: Iterable[psutil.Process]) -> list[psutil.Process]:
+        family = {self.pid}
+        found = []
+        # Parents come before their children, so one pass sees whole branches.
+        for process in descendants:
+            with contextlib.suppress(psutil.Error, OSError), process.oneshot():
+                if process.status() == psutil.STATUS_ZOMBIE:
+                    continue
+                if process.pid in family or process.ppid() in family or self._is_marked(process):
+                    family.add(process.pid)
+                    found.append(process)
+        return found
+
+    def _is_marked(self, process: psutil.Process) -> bool:
+        return os.getsid(process.pid) == self.pid or process.environ().get(MARK) == self._mark
+
+    def _limit(self) -> None:
+        limits = self._program.limits
+        wanted = {
+            resource.RLIMIT_DATA: limits.memory_bytes,
+            resource.RLIMIT_FSIZE: limits.file_bytes,
+            resource.RLIMIT_CORE: 0,
+        }
+        for which, value in wanted.items():
+            if value is not None:
+                with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
+                    resource.prlimit(self.pid, which, (value, value))
+        if limits.cpu_s is not None:
+            with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
+                # The soft limit tells by its signal what happened; at the hard one it would be killed.
+                resource.prlimit(self.pid, resource.RLIMIT_CPU, (limits.cpu_s, limits.cpu_s + CPU_GRACE_S))
+
+    async def _listen(self, ours: socket.socket | None) -> None:
+        loop = asyncio.get_running_loop()
+        pidfd = os.pidfd_open(self.pid)
+        loop.add_reader(pidfd, self._on_exit, pidfd)
+        for pipe, reader in ((self._popen.stdout, self._out), (self._popen.stderr, self._err)):
+            stream = asyncio.StreamReader()
+            await loop.connect_read_pipe(lambda s=stream: asyncio.StreamReaderProtocol(s), pipe)  # type: ignore[misc]
+            self._readers.append(loop.create_task(reader.read(stream)))
+        if ours is not None:
+            self._channel = await AsyncChannel.open(ours)
+            self._readers.append(loop.create_task(self._read_channel(self._channel)))
+
+    async def _read_channel(self, channel: AsyncChannel) -> None:
+        try:
+            while True:
+                self._on_message(await channel.receive())
+        except ChannelClosed:
+            # Usually it is just ending. Without its channel nobody could tell it to stop.
+            await asyncio.wait([self.exited], timeout=CLOSED_CHANNEL_GRACE_S)
+            self.kill("was ended: it closed its channel" if not self.exited.done() else "")
+        except ChannelError as error:
+            self.kill(f"was ended: it broke its channel ({error})")
+
+    def _on_exit(self, pidfd: int) -> None:
+        asyncio.get_running_loop().remove_reader(pidfd)
+        os.close(pidfd)
+        self.exited.set_result(None)
+
+    async def _end_tree(self) -> None:
+        killed: set[int] = set()
+        for round_ in range(KILL_ROUNDS):
+            left = self.tree()
+            self._reap(killed)
+            if not left:
+                return
+            for process in left:
+                with contextlib.suppress(psutil.Error):
+                    process.kill()
+                    killed.add(process.pid)
+            await asyncio.sleep(0.005 if round_ < 20 else 0.05)
+
+    def _reap(self, killed: set[int]) -> None:
+        """Collects what ended after it was left to us as an orphan."""
+        for process in psutil.Process().children():
+            with contextlib.suppress(psutil.Error, OSError):
+                is_ours = process.pid in killed or os.getsid(process.pid) == self.pid
+                if is_ours and process.status() == psutil.STATUS_ZOMBIE:
+                    os.waitpid(process.pid, os.WNOHANG)
+
+
+def _exit_reason(code: int, limits: Limits) -> str:
+    if code == -signal.SIGXCPU:
+        return f"was ended: it used more than the {limits.cpu_s} s of CPU time allowed"
+    if code == -signal.SIGXFSZ and limits.file_bytes is not None:
+        return f"was ended: it wrote a file of more than the {limits.file_bytes >> 20} MB allowed"
+    if code < 0:
+        with contextlib.suppress(ValueError):
+            return f"was killed by {signal.Signals(-code).name}"
+    return f"ended with exit code {code}"
+
+
+def _used_bytes(tree: Iterable[psutil.Process], limit: int) -> int:
+    """Memory of a tree. The exact count takes long, so it is made only where the rough one is too high."""
+    tree = list(tree)
+    rough = _sum_up(tree, lambda process: process.memory_info().rss)
+    return rough if rough <= limit else _sum_up(tree, lambda process: process.memory_full_info().pss)
+
+
+def _sum_up(tree: Iterable[psutil.Process], measure: Callable[[psutil.Process], int]) -> int:
+    total = 0
+    for process in tree:
+        with contextlib.suppress(psutil.Error):
+            total += measure(process)
+    return total

@@ -1,0 +1,174 @@
+"""Starts, watches and ends the children of a session, as the state machine's effects ask."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+import os
+import sys
+from typing import TYPE_CHECKING, Any, Final
+
+import psutil
+
+from executor.session.events import (
+    ChildExited,
+    ChildSaid,
+    Effect,
+    Event,
+    Interrupt,
+    Kill,
+    Kind,
+    Retire,
+    Spawn,
+    Tell,
+)
+from executor.supervision.confine import adopt_orphans
+from executor.supervision.descendants import Descendants
+from executor.supervision.processes import ChildProcess, Program
+from executor.supervision.shared_memory import remove_abandoned_segments
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine, Mapping
+
+__all__ = ["Supervisor"]
+
+_log = logging.getLogger(__name__)
+
+CHECK_INTERVAL_S: Final = 0.25
+
+
+class Supervisor:
+    """The children of one session.
+
+    Args:
+        programs: what to start for each kind of child.
+        report: takes `ChildSaid` and `ChildExited`, on the event loop.
+        on_frame: takes the `frame` messages, which do not concern the state machine.
+        reaps_all: whether every other child of this process is an orphan that a child left behind.
+    """
+
+    def __init__(
+        self,
+        programs: Mapping[Kind, Program],
+        report: Callable[[Event], None],
+        on_frame: Callable[[dict[str, Any]], None],
+        *,
+        reaps_all: bool = False,
+    ) -> None:
+        self._reaps_all = reaps_all
+        self._programs = programs
+        self._report = report
+        self._on_frame = on_frame
+        self._children: dict[tuple[Kind, int], ChildProcess] = {}
+        self._waiting: dict[tuple[Kind, int], list[Effect]] = {}
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._checker: asyncio.Task[None] | None = None
+        self._descendants = Descendants()
+        adopt_orphans()
+
+    def apply(self, effect: Spawn | Tell | Interrupt | Retire | Kill) -> None:
+        """Does what an effect asks; results come as events."""
+        key = (effect.kind, effect.number)
+        if isinstance(effect, Spawn):
+            self._waiting[key] = []
+            self._do(self._live(effect))
+        elif key in self._waiting:
+            self._waiting[key].append(effect)  # it is just being started
+        elif (child := self._children.get(key)) is not None:
+            self._apply_to(child, effect)
+
+    async def close(self) -> None:
+        """Kills all children and returns when nothing is left of them."""
+        if self._checker is not None:
+            self._checker.cancel()
+        while self._tasks:
+            for child in self._children.values():
+                child.kill()
+            await asyncio.wait(self._tasks, timeout=0.1)
+
+    @property
+    def pids(self) -> list[int]:
+        """The process ids of the children."""
+        return [child.pid for child in self._children.values()]
+
+    def _apply_to(self, child: ChildProcess, effect: Effect) -> None:
+        match effect:
+            case Tell():
+                child.tell(effect.message)
+            case Interrupt():
+                child.interrupt()
+            case Retire():
+                self._do(self._retire(child, effect.grace_s))
+            case Kill():
+                child.kill("was ended")
+            case _:
+                raise TypeError(effect)
+
+    def _do(self, coroutine: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _live(self, spawn: Spawn) -> None:
+        """The whole life of a child."""
+        key = (spawn.kind, spawn.number)
+
+        def on_message(message: dict[str, Any]) -> None:
+            if message["type"] == "frame":
+                self._on_frame(message)
+            else:
+                self._report(ChildSaid(spawn.kind, spawn.number, message))
+
+        try:
+            child = await ChildProcess.spawn(self._program(spawn), on_message)
+        except OSError as error:
+            self._waiting.pop(key)
+            self._report(ChildExited(spawn.kind, spawn.number, f"could not be started: {error}"))
+            return
+        self._children[key] = child
+        if self._checker is None:
+            self._checker = asyncio.get_running_loop().create_task(self._check_limits())
+        for effect in self._waiting.pop(key):
+            self._apply_to(child, effect)
+        await child.wait()
+        del self._children[key]
+        await asyncio.to_thread(remove_abandoned_segments)
+        _log.info("%s %d %s", spawn.kind, child.pid, child.reason)
+        self._report(ChildExited(spawn.kind, spawn.number, child.reason, child.last_lines))
+
+    def _program(self, spawn: Spawn) -> Program:
+        if spawn.node is None:
+            return self._programs[spawn.kind]
+        # An extra node may use as much as the application itself.
+        application = self._programs["application"]
+        command = (sys.executable, "-m", "executor.launching.program", spawn.folder, *spawn.node.command)
+        environment = {**application.environment, **dict(spawn.node.environment)}
+        return Program(command, environment, application.limits, has_channel=False)
+
+    async def _retire(self, child: ChildProcess, grace_s: float) -> None:
+        child.ask_to_end()
+        with contextlib.suppress(TimeoutError):
+            await asyncio.wait_for(asyncio.shield(child.exited), grace_s)
+        child.kill("was ended")
+
+    async def _check_limits(self) -> None:
+        while True:
+            await asyncio.sleep(CHECK_INTERVAL_S)
+            there = self._descendants.look()
+            for (kind, _), child in list(self._children.items()):
+                if kind != "world":
+                    child.check_limits(there)
+            if self._reaps_all:
+                self._reap_orphans(there)
+
+    def _reap_orphans(self, descendants: list[psutil.Process]) -> None:
+        pids, own = self.pids, os.getpid()
+        for process in descendants:
+            with contextlib.suppress(psutil.Error, OSError), process.oneshot():
+                if (
+                    process.pid not in pids
+                    and process.ppid() == own
+                    and process.status() == psutil.STATUS_ZOMBIE
+                ):
+                    os.waitpid(process.pid, os.WNOHANG)

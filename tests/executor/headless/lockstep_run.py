@@ -1,0 +1,37 @@
+"""Runs a project in lock-step in a process of its own, and prints its report and measurements as JSON."""
+
+import contextlib
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+from executor.headless import lockstep
+from executor.headless.lockstep import LockstepOptions, run_lockstep
+from executor.world.bullet import BulletWorld
+
+
+def main() -> None:
+    project, duration_s, seed = Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3])
+    ticks: list[list[Any]] = []
+
+    def watch(world: BulletWorld) -> None:
+        x, y, _ = world.robots[0].pose
+        away = [math.dist((x, y), actor.position) for actor in world.actors]
+        ticks.append([world.time_s, away[0] if away else None, None])
+
+    count = lockstep._Run._count
+
+    def note(run: Any, node: Any, status: Any) -> None:
+        count(run, node, status)
+        if node.type == "DetectPerson":
+            ticks[-1][2] = status.name == "SUCCESS"
+
+    lockstep._Run._count = note  # type: ignore[method-assign]
+    with contextlib.redirect_stdout(sys.stderr):
+        report = run_lockstep(project, LockstepOptions(duration_s=duration_s, seed=seed), watch=watch)
+    print(json.dumps({"report": report.to_json(), "same": report.without_wall_times(), "ticks": ticks}))  # noqa: T201 - the result
+
+
+main()

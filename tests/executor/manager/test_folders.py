@@ -1,0 +1,76 @@
+"""Where apps are unpacked, also when an earlier run has filled the disk."""
+
+from __future__ import annotations
+
+import errno
+import shutil
+import tempfile
+
+import pytest
+
+from executor.manager import folders
+from executor.manager.archive import ArchiveError
+from executor.manager.folders import Folders
+from executor.session.events import Unpack
+from tests.executor.session_client import app_zip
+
+
+@pytest.fixture
+def disk(tmp_path, monkeypatch):
+    """A place for temporary files that has no room while `hoard` is there."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / "hoard").mkdir()
+    (tmp_path / "hoard" / "big").write_text("…")
+    (tmp_path / "more").symlink_to(tmp_path / "hoard")
+    real = folders.unpack
+
+    def unpack(archive, folder):
+        if (tmp_path / "hoard").exists():
+            try:
+                raise OSError(errno.ENOSPC, "No space left on device")
+            except OSError as error:
+                raise ArchiveError("it cannot be unpacked: No space left on device") from error
+        real(archive, folder)
+
+    monkeypatch.setattr(folders, "unpack", unpack)
+    return tmp_path
+
+
+def test_in_a_container_what_a_run_left_makes_room_for_the_next(disk):
+    made = Folders(is_alone=True)
+    done = made.unpack(Unpack(1, app_zip()))
+    assert not done.error
+    assert [path.name for path in disk.iterdir()] == [made._root.name]
+    made.remove()
+    assert list(disk.iterdir()) == []
+
+
+def test_a_disk_that_is_nearly_full_is_swept_before_the_world_lacks_room(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    (tmp_path / "hoard").write_text("…")
+    nearly = shutil.disk_usage(tmp_path)._replace(free=folders.SPARE_BYTES - 1)
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: nearly)
+    for is_alone in (False, True):
+        assert (tmp_path / "hoard").exists()
+        assert not Folders(is_alone=is_alone).unpack(Unpack(1, app_zip())).error
+    assert not (tmp_path / "hoard").exists()
+
+
+def test_elsewhere_nothing_is_removed_and_the_reason_told(disk):
+    done = Folders(is_alone=False).unpack(Unpack(1, app_zip()))
+    assert "No space left" in done.error
+    assert (disk / "hoard" / "big").exists()
+
+
+def test_a_folder_that_cannot_be_made_is_told(disk):
+    made = Folders(is_alone=False)
+    made.remove()
+    assert "cannot be unpacked" in made.unpack(Unpack(1, app_zip())).error
+
+
+def test_only_the_newest_are_kept(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    made = Folders(is_alone=False)
+    for token in range(1, 6):
+        assert not made.unpack(Unpack(token, app_zip())).error
+    assert sorted(path.name for path in made._root.iterdir()) == ["3", "4", "5"]

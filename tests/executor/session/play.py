@@ -1,0 +1,158 @@
+"""Sessions written as plays: say what happens, look at what comes out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from msgspec import convert
+
+from executor.messages import COMMANDS
+from executor.session.events import (
+    ChildExited,
+    ChildSaid,
+    ClientJoined,
+    CommandCame,
+    Effect,
+    Event,
+    Interrupt,
+    Kill,
+    Kind,
+    Retire,
+    Send,
+    Spawn,
+    Tell,
+    TimePassed,
+    Unpack,
+    Unpacked,
+)
+from executor.session.ladder import State
+from executor.session.protocol import About, Session
+
+UNIVERSE: dict[str, Any] = {"universe": "walled_room", "seed": 1}
+APPLICATION: dict[str, Any] = {"app_zip_base64": "eA==", "tick_hz": 20.0}
+DATA: dict[str, dict[str, Any]] = {
+    "launch_universe": UNIVERSE,
+    "run_application": APPLICATION,
+    "run": {"universe": UNIVERSE, "application": APPLICATION},
+    "set_tick_rate": {"tick_hz": 10.0},
+    "set_speed": {"speed": 2.0},
+    "set_blackboard": {"scope": "", "key": "k", "value": 1},
+    "teleop": {"linear": 0.1, "angular": 0.0},
+    "move_body": {"id": "crate", "pose": [0, 0, 0, 0, 0, 0]},
+    "subscribe": {"stream": "poses"},
+    "unsubscribe": {"stream": "poses"},
+    "echo_topic": {"topic": "/scan"},
+    "publish_topic": {"topic": "/x", "type": "std_msgs/msg/String", "message": {"data": "x"}},
+    "describe_type": {"type": "std_msgs/msg/String"},
+    "restart_node": {"id": "launch/extra.launch.yaml:talker"},
+}
+
+
+class Play:
+    """A session with a driver and well-behaved children, unless told otherwise."""
+
+    def __init__(self, *, driver: str = "d", obedient: bool = True) -> None:
+        self.session = Session(About(version="test", ros_domain_id=41))
+        self.now = 0.0
+        self.obedient = obedient
+        self.effects: list[Effect] = []
+        self._requests = 0
+        self.happens(ClientJoined(driver))
+
+    @property
+    def state(self) -> State:
+        return self.session.state
+
+    def happens(self, event: Event) -> list[Effect]:
+        """Lets an event happen, and what obedient children do about it; returns all effects."""
+        effects = self.session.handle(event, self.now)
+        self.effects += effects
+        if self.obedient:
+            for effect in list(effects):
+                for answer in self.answers(effect):
+                    effects += self.happens(answer)
+        return effects
+
+    def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
+        """What obedient children and the manager do about an effect."""
+        match effect:
+            case Tell(message={"request": token}):
+                return [self._said(effect, "answer", request=token)]
+            case Tell(kind="world", message={"type": "start"}):
+                return [self._said(effect, "ready", renderer="egl", tf=True, universe="Walled room")]
+            case Tell(kind="application", message={"type": "start"}):
+                return [self._said(effect, "ready")]
+            case Tell(kind="application", message={"type": "pause"}):
+                return [self._said(effect, "paused")]
+            case Tell(kind="application", message={"type": "resume"}):
+                return [self._said(effect, "resumed")]
+            case Tell(kind="application", message={"type": "step"}):
+                return [self._said(effect, "stepped")]
+            case Tell(kind="application", message={"type": "set_blackboard"}):
+                return [self._said(effect, "blackboard_set")]
+            case Tell(kind="application", message={"type": "stop"}):
+                return [ChildExited(effect.kind, effect.number, "ended with exit code 0")]
+            case Retire() | Kill():
+                return [ChildExited(effect.kind, effect.number, "was killed")]
+            case Unpack():
+                return [Unpacked(effect.token, "/somewhere")]
+            case _:
+                return []
+
+    @staticmethod
+    def _said(effect: Tell, type_: str, **fields: Any) -> ChildSaid:
+        return ChildSaid(effect.kind, effect.number, {"type": type_, **fields})
+
+    def command(self, name: str, client: str = "d", **data: Any) -> str:
+        """Sends a command; returns the id of the request."""
+        self._requests += 1
+        request = f"r{self._requests}"
+        payload = convert(data or DATA.get(name, {}), COMMANDS[name])
+        self.happens(CommandCame(client, request, name, payload))
+        return request
+
+    def child_says(self, child: Kind, type_: str, **fields: Any) -> None:
+        number = self.session.children[child].number
+        self.happens(ChildSaid(child, number, {"type": type_, **fields}))
+
+    def child_dies(self, kind: Kind, reason: str = "was killed by SIGKILL", *lines: str) -> None:
+        self.happens(ChildExited(kind, self.session.children[kind].number, reason, lines))
+
+    def later(self, seconds: float) -> None:
+        self.now += seconds
+        self.happens(TimePassed())
+
+    def reply(self, request: str) -> str | None:
+        """What a request was answered with: `ack`, the code of an error, or None."""
+        for effect in self.effects:
+            if isinstance(effect, Send) and effect.request == request:
+                return "ack" if effect.name == "ack" else effect.payload.code  # type: ignore[attr-defined]
+        return None
+
+    def sent(self, name: str, client: str | None = None) -> list[Any]:
+        """The payloads of the events of one kind that went to all clients, or to one."""
+        return [
+            e.payload for e in self.effects if isinstance(e, Send) and e.name == name and e.client == client
+        ]
+
+    def told(self, kind: Kind) -> list[str]:
+        """The types of messages that a kind of child was sent."""
+        return [e.message["type"] for e in self.effects if isinstance(e, Tell) and e.kind == kind]
+
+    def did(self, effect_type: type[Spawn | Kill | Retire | Interrupt]) -> list[str]:
+        """Which kinds of children were spawned, killed, …"""
+        return [e.kind for e in self.effects if isinstance(e, effect_type)]
+
+    def climb(self, state: State) -> None:
+        """Climbs to a state."""
+        way = {
+            State.IDLE: [],
+            State.CONNECTED: ["connect"],
+            State.UNIVERSE_READY: ["connect", "launch_universe"],
+            State.VISUALIZATION_READY: ["connect", "launch_universe", "prepare_visualization"],
+            State.APPLICATION_RUNNING: ["run"],
+            State.PAUSED: ["run", "pause"],
+        }[state]
+        for name in way:
+            assert self.reply(self.command(name)) == "ack"
+        assert self.state is state

@@ -1,0 +1,160 @@
+"""Who drives and who watches, and what each is told: joining, leaving, coming back, the mirror."""
+
+from __future__ import annotations
+
+import msgspec
+
+from executor.session.events import (
+    ClientJoined,
+    ClientLeft,
+    EndSession,
+    StreamClosed,
+    StreamOpened,
+    StreamPaced,
+    Tell,
+)
+from executor.session.ladder import State
+from executor.session.mirror import Mirror
+from tests.executor.session.play import Play
+
+
+def test_the_first_client_drives_and_gets_a_snapshot():
+    play = Play()
+    play.happens(ClientJoined("v"))
+    (first,), (second,) = play.sent("introspection", "d"), play.sent("introspection", "v")
+    assert (first.role, second.role) == ("driver", "viewer")
+    assert first.protocol == "bt-studio.v1"
+    assert len(play.sent("snapshot", "v")) == 1
+
+
+def test_a_page_that_is_loaded_again_drives_at_once():
+    play = Play()
+    play.happens(ClientLeft("d"))
+    play.happens(ClientJoined("again"))
+    assert play.sent("introspection", "again")[0].role == "driver"
+
+
+def test_a_client_may_come_back_under_its_id():
+    play = Play()
+    clients = play.session.clients
+    assert clients.client_id("d") != "d"  # somebody is there under that name
+    play.happens(ClientLeft("d"))
+    assert clients.client_id("d") == "d"
+    assert clients.client_id("never seen") != "never seen"
+
+
+def test_a_viewer_takes_over_when_the_driver_stays_away():
+    play = Play()
+    play.happens(ClientJoined("v"))
+    play.happens(ClientLeft("d"))
+    assert play.session.deadline_s == 5.0
+    play.later(4.9)
+    assert play.session.clients.role("v") == "viewer"
+    play.later(0.1)
+    assert play.sent("introspection", "v")[-1].role == "driver"
+
+
+def test_the_session_ends_when_nobody_comes_back():
+    play = Play()
+    play.command("run")
+    play.happens(ClientLeft("d"))
+    assert play.session.deadline_s == 300.0
+    play.later(299)
+    assert play.state is State.APPLICATION_RUNNING
+    play.later(1)
+    assert any(isinstance(e, EndSession) for e in play.effects)
+
+
+def test_coming_back_in_time_keeps_the_session():
+    play = Play()
+    play.command("run")
+    play.happens(ClientLeft("d"))
+    play.later(299)
+    play.happens(ClientJoined("d"))
+    play.later(1000)
+    assert not any(isinstance(e, EndSession) for e in play.effects)
+    assert play.sent("introspection", "d")[-1].role == "driver"
+
+
+def test_streams_flow_between_prepare_and_terminate_visualization():
+    play = Play()
+    play.command("subscribe", stream="camera", max_hz=10.0, width=320)
+    play.happens(StreamOpened("d"))
+    play.climb(State.UNIVERSE_READY)
+    assert "subscribe" not in play.told("world")
+    play.command("prepare_visualization")
+    (subscribe,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "subscribe")
+    assert subscribe.message == {
+        "type": "subscribe",
+        "client": "d",
+        "stream": "camera",
+        "max_hz": 10.0,
+        "width": 320,
+        "camera_pose": None,
+    }
+    play.command("terminate_visualization")
+    assert play.told("world")[-1] == "unsubscribe"
+
+
+def test_the_world_hears_which_client_is_slow():
+    play = Play()
+    play.happens(StreamOpened("d"))
+    play.happens(StreamPaced("d", 0.5))
+    assert "pace" not in play.told("world")
+    play.climb(State.VISUALIZATION_READY)
+    play.happens(StreamPaced("d", 0.5))
+    (told,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "pace")
+    assert told.message == {"type": "pace", "client": "d", "lost": 0.5}
+
+
+def test_a_stream_socket_that_opens_again_is_served_whole():
+    play = Play()
+    play.command("run")
+    play.command("subscribe")
+    assert "subscribe" not in play.told("world")
+    play.happens(StreamOpened("d"))
+    play.happens(StreamClosed("d"))
+    play.happens(StreamOpened("d"))
+    assert [t for t in play.told("world") if "subscribe" in t] == ["subscribe", "unsubscribe", "subscribe"]
+
+
+def test_topic_messages_go_to_those_who_listen():
+    play = Play()
+    play.command("run")
+    play.happens(ClientJoined("v"))
+    play.command("echo_topic", client="v", topic="/scan", max_hz=5.0)
+    play.child_says(
+        "world", "topic_message", topic="/scan", message_type="sensor_msgs/msg/LaserScan", message={}
+    )
+    assert len(play.sent("topic_message", "v")) == 1
+    assert play.sent("topic_message", "d") == []
+    play.happens(ClientLeft("v"))
+    last = [e.message for e in play.effects if isinstance(e, Tell) and e.kind == "world"][-1]
+    assert last == {"type": "echo_topic", "topic": "/scan", "max_hz": 0.0}
+
+
+def test_deltas_applied_to_a_snapshot_equal_a_new_snapshot():
+    play = Play()
+    play.command("run")
+    node = {"uid": 1, "parent": 0, "type": "Forward", "kind": "Action", "name": "go", "path": "go"}
+    play.child_says("application", "tree", nodes=[node | {"node_id": "n1", "tree_id": "MainTree"}])
+    play.effects.clear()
+    early = play.session.mirror.snapshot()
+    play.child_says("application", "tick", n=1, changed=[[1, "RUNNING"]], flashed=[], duration_ms=0.1, t=0.5)
+    entry = {"scope": "", "key": "speed", "type": "float", "value": 0.3}
+    play.child_says("application", "blackboard", entries=[entry, entry | {"key": "gone"}])
+    play.child_says("application", "blackboard", entries=[entry | {"key": "gone", "removed": True}])
+    play.child_says("application", "log", level="info", text="hello", node_id="n1")
+    play.command("pause")
+
+    late = Mirror()
+    late.tree, late.tick_hz, late.universe = early.tree, early.tick_hz, early.universe
+    late.state, late.statuses = State(early.state), dict(early.statuses)
+    late.logs.extend(early.logs)
+    for name in ("state-changed", "tick", "blackboard", "log", "fault"):
+        for payload in play.sent(name):
+            late.apply(payload)
+    assert msgspec.to_builtins(late.snapshot()) == msgspec.to_builtins(play.session.mirror.snapshot())
+    assert late.snapshot().statuses == [(1, "RUNNING")]
+    assert [e.key for e in late.snapshot().blackboard] == ["speed"]
+    assert play.session.sim_time_s == 0.5

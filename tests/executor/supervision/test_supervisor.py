@@ -1,0 +1,221 @@
+"""Children that behave and children that do not: nothing is left, and the reason is told."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from executor.session.events import ChildExited, ChildSaid, Kill, Retire, Spawn, Tell
+from executor.supervision.output import LineReader, RateLimit
+from executor.supervision.processes import Limits, Program
+from executor.supervision.supervisor import Supervisor
+
+ROOT = Path(__file__).parents[3]
+FAKE = ROOT / "tests" / "fakes" / "child.py"
+
+
+def program(habit, **limits):
+    return Program((sys.executable, str(FAKE), habit), {"PYTHONPATH": str(ROOT)}, Limits(**limits))
+
+
+def fakes_alive():
+    """The fake children that are still there."""
+    children = psutil.Process().children(recursive=True)
+    living = [p for p in children if p.is_running() and p.status() != psutil.STATUS_ZOMBIE]
+    return [p for p in living if FAKE.name in " ".join(p.cmdline())]
+
+
+class Stage:
+    def __init__(self, habit, **limits):
+        self.events = asyncio.Queue()
+        self.frames = []
+        self.seen = []
+        self.supervisor = Supervisor(
+            {"application": program(habit, **limits)}, self.events.put_nowait, self.frames.append
+        )
+        self.supervisor.apply(Spawn("application", 1))
+
+    def tell(self, type_, **fields):
+        self.supervisor.apply(Tell("application", 1, {"type": type_, **fields}))
+
+    async def until(self, wanted):
+        async with asyncio.timeout(20):
+            while True:
+                event = await self.events.get()
+                self.seen.append(event)
+                if wanted(event):
+                    return event
+
+    async def exit(self):
+        return await self.until(lambda e: isinstance(e, ChildExited))
+
+    async def said(self, type_):
+        return await self.until(lambda e: isinstance(e, ChildSaid) and e.message["type"] == type_)
+
+
+@contextlib.asynccontextmanager
+async def stage(habit, **limits):
+    it = Stage(habit, **limits)
+    try:
+        yield it
+    finally:
+        await it.supervisor.close()
+        assert fakes_alive() == []
+
+
+async def test_a_good_child_answers_and_ends_when_told():
+    async with stage("good") as it:
+        it.tell("start")
+        await it.said("ready")
+        it.tell("subscribe", client="c", stream="poses")
+        it.tell("pause")
+        await it.said("paused")
+        assert [f["stream"] for f in it.frames] == ["poses"]
+        it.tell("stop")
+        it.supervisor.apply(Retire("application", 1, 5.0))
+        assert (await it.exit()).reason == "ended with exit code 0"
+
+
+@pytest.mark.parametrize(
+    ("habit", "reason"), [("dies_at_start", "exit code 3"), ("dies_when_started", "exit code 4")]
+)
+async def test_a_child_that_dies_tells_code_and_last_words(habit, reason):
+    async with stage(habit) as it:
+        it.tell("start")
+        event = await it.exit()
+        assert reason in event.reason
+        assert event.last_lines == ("last words",)
+
+
+@pytest.mark.parametrize("habit", ["never_ready", "ignores_signals", "good"])
+async def test_any_child_can_be_killed(habit):
+    async with stage(habit) as it:
+        it.supervisor.apply(Kill("application", 1))
+        assert (await it.exit()).reason == "was ended"
+
+
+async def test_a_child_that_ignores_stop_is_ended_after_its_grace():
+    async with stage("ignores_signals") as it:
+        it.supervisor.apply(Retire("application", 1, 0.2))
+        assert (await it.exit()).reason == "was ended"
+
+
+async def test_a_child_killed_from_outside_is_told_by_its_signal():
+    async with stage("good") as it:
+        it.tell("start")
+        await it.said("ready")
+        os.kill(it.supervisor.pids[0], 9)
+        assert (await it.exit()).reason == "was killed by SIGKILL"
+
+
+@pytest.mark.parametrize(
+    ("habit", "reason"), [("closes_pipe", "closed its channel"), ("talks_rubbish", "broke its channel")]
+)
+async def test_a_child_without_a_channel_is_ended(habit, reason):
+    async with stage(habit) as it:
+        assert reason in (await it.exit()).reason
+
+
+async def test_a_flood_of_output_is_limited_and_counted():
+    async with stage("floods") as it:
+        it.tell("start")
+        await it.said("ready")
+        it.tell("stop")
+        await it.exit()
+        logs = [e for e in it.seen if isinstance(e, ChildSaid) and e.message["type"] == "log"]
+        assert 1000 <= len(logs) < 5000
+
+
+async def test_a_daemon_that_left_the_group_is_ended_too():
+    async with stage("daemon") as it:
+        it.tell("start")
+        await it.said("ready")
+        it.tell("stop")
+        await it.exit()
+        assert fakes_alive() == []
+
+
+async def test_too_many_processes_are_ended():
+    async with stage("forks", processes=20) as it:
+        it.tell("start")
+        assert "more than the 20 allowed" in (await it.exit()).reason
+
+
+async def test_too_much_memory_is_refused_to_the_process():
+    async with stage("leaks", memory_bytes=300 << 20) as it:
+        it.tell("start")
+        event = await it.exit()
+        assert "exit code 1" in event.reason or "memory" in event.reason
+
+
+@pytest.mark.parametrize(
+    ("habit", "limits", "reason"),
+    [
+        ("burns", {"cpu_s": 1}, "was ended: it used more than the 1 s of CPU time allowed"),
+        ("writes", {"file_bytes": 3 << 20}, "was ended: it wrote a file of more than the 3 MB allowed"),
+    ],
+)
+async def test_a_limit_that_is_hit_is_named(habit, limits, reason):
+    async with stage(habit, **limits) as it:
+        it.tell("start")
+        assert (await it.exit()).reason == reason
+
+
+async def test_a_program_that_does_not_exist_is_told():
+    events = asyncio.Queue()
+    supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)
+    supervisor.apply(Spawn("world", 1))
+    event = await asyncio.wait_for(events.get(), 10)
+    assert "could not be started" in event.reason
+    await supervisor.close()
+
+
+def test_children_die_with_their_manager():
+    script = f"""
+import asyncio, sys, time
+sys.path.insert(0, {str(ROOT)!r})
+from tests.executor.supervision.test_supervisor import Stage
+async def main():
+    it = Stage("good")
+    it.tell("start")
+    await it.said("ready")
+    print(it.supervisor.pids[0], flush=True)
+    await asyncio.sleep(60)
+asyncio.run(main())
+"""
+    manager = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+    child = psutil.Process(int(manager.stdout.readline()))
+    manager.kill()
+    manager.wait()
+    manager.stdout.close()
+    gone, alive = psutil.wait_procs([child], timeout=10)
+    assert (len(gone), alive) == (1, [])
+
+
+def test_the_rate_limit_lets_a_burst_through_and_counts_the_rest():
+    limit = RateLimit(per_s=10, burst=5)
+    assert [limit.admits(0.0) for _ in range(7)] == [True] * 5 + [False] * 2
+    assert limit.take_held_back() == 2
+    assert limit.admits(0.1)
+    assert not limit.admits(0.1)
+
+
+def test_lines_are_cut_and_given_their_level():
+    said = []
+    reader = LineReader("info", said.append, time.monotonic)
+    reader.feed(b"[WARN] [12.5] [node]: low ba")
+    reader.feed(b"ttery\nplain\r\n\xff\n" + b"x" * 9000)
+    assert [(m["level"], m["text"]) for m in said[:3]] == [
+        ("warning", "[WARN] [12.5] [node]: low battery"),
+        ("info", "plain"),
+        ("info", "\ufffd"),
+    ]
+    assert len(said[3]["text"]) == 4000

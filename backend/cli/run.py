@@ -28,6 +28,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         bool, typer.Option("--lockstep", help="As fast as the machine can, and always the same.")
     ] = False,
     seed: Annotated[int, typer.Option(help="Of everything random in the universe.")] = 0,
+    viewer: Annotated[  # noqa: FBT002 - typer's way
+        bool,
+        typer.Option("--serve-viewer/--headless", help="Show the run on a page; its link is printed first."),
+    ] = False,
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
     record: Annotated[
         Path | None,
@@ -42,6 +46,9 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
 
     if lockstep and record is not None:
         raise typer.BadParameter("a run in lock-step has no stream to record", param_hint="--record")
+    if lockstep and viewer:
+        text = "lock-step is too fast to look at; leave out one of the two"
+        raise typer.BadParameter(text, param_hint="--serve-viewer")
     if lockstep and universe == "none":
         text = "lock-step needs a simulated world; run against an outside graph in real time"
         raise typer.BadParameter(text, param_hint="--universe")
@@ -52,7 +59,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         else:
             from executor.headless.live import HeadlessOptions
 
-            done = _in_real_time(opened, HeadlessOptions(universe, seed, duration, robot, record))
+            done = _in_real_time(opened, HeadlessOptions(universe, seed, duration, robot, record, viewer))
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from error
     document = json.dumps(done.to_json(), ensure_ascii=False, indent=2) + "\n"

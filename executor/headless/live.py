@@ -6,11 +6,10 @@ import asyncio
 import base64
 import contextlib
 import io
-import math
 import secrets
 import time
 import zipfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
@@ -18,21 +17,24 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 from executor import messages
+from executor.headless.measured import Measured
 from executor.headless.recording import Recording
-from executor.headless.report import NodeCount, Report, quantiles
+from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
-from executor.stream.pose_codec import POSE_BYTES, unpack
 from executor.universes import BUILTIN_IDS, builtin_path
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable
     from pathlib import Path
 
-    from translator import Project
+    from executor.headless.report import Report
+    from translator import Project, Settings
 
 __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 
 TRAJECTORY_HZ: Final = 10.0
+VIEW_HZ: Final = 15.0
+FIGURES_EVERY_S: Final = 0.2
 _decode_frame = msgspec.msgpack.Decoder(
     messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
 ).decode
@@ -51,88 +53,7 @@ class HeadlessOptions:
     duration_s: float | None = None
     robot: str | None = None
     recording: Path | None = None
-
-
-@dataclass
-class _Measured:
-    """What the events and frames of a run add up to."""
-
-    report: Report = field(default_factory=Report)
-    period_ms: float = 50.0
-    finished: bool = False
-    _paths: dict[int, NodeCount] = field(default_factory=dict)
-    _running: set[int] = field(default_factory=set)
-    _durations_s: list[float] = field(default_factory=list)
-    _base: int = -1
-    _start_s: float | None = None
-
-    def take_event(self, name: str, data: dict[str, Any], time_s: float) -> None:
-        report = self.report
-        match name:
-            case "tree":
-                self._paths = {node["uid"]: NodeCount(node["path"]) for node in data["nodes"]}
-                report.nodes = list(self._paths.values())
-            case "tick":
-                self._take_tick(data, time_s)
-            case "sim":
-                report.distance_m, report.collisions = data["distance_m"], data["collisions"]
-            case "fault":
-                report.errors.append(data)
-            case "finished":
-                report.root_status, self.finished = data["status"], True
-            case _:
-                pass
-
-    def _take_tick(self, data: dict[str, Any], time_s: float) -> None:
-        ticks = data["n"] - self.report.ticks
-        self.report.ticks = data["n"]
-        self._start_s = time_s if self._start_s is None else self._start_s
-        self.report.sim_time_s = time_s - self._start_s
-        self._durations_s.append(data["duration_ms"] / 1000.0)
-        for uid, status in data["changed"]:
-            (self._running.add if status == "RUNNING" else self._running.discard)(uid)
-        for uid in self._running:
-            self._paths[uid].ticks += ticks
-            self._paths[uid].running += ticks
-        for uid, status in data["changed"] + data["flashed"]:
-            node = self._paths[uid]
-            node.success += status == "SUCCESS"
-            node.failure += status == "FAILURE"
-            node.ticks += status in {"SUCCESS", "FAILURE"}
-
-    def take_frame(self, frame: object) -> None:
-        match frame:
-            case messages.Scene():
-                robots = (o.id for o in frame.objects if o.kind == "robot")
-                self._base = next(robots, -1)
-            case messages.Poses():
-                ids = list(memoryview(frame.ids).cast("H"))
-                if self._base in ids:
-                    at = ids.index(self._base) * POSE_BYTES
-                    pose = unpack(frame.poses[at : at + POSE_BYTES])
-                    self.report.trajectory.append(_trajectory_point(frame.t, pose))
-            case messages.Scan():
-                ranges = [r for r in memoryview(frame.ranges).cast("f") if math.isfinite(r) and r > 0]
-                nearest = [*ranges, *([] if self.report.min_range_m is None else [self.report.min_range_m])]
-                self.report.min_range_m = min(nearest, default=None)
-            case _:
-                pass
-
-    def end(self, wall_time_s: float) -> Report:
-        report = self.report
-        if not report.root_status or report.root_status == "IDLE":
-            report.root_status = "RUNNING" if min(self._paths, default=0) in self._running else "IDLE"
-        report.wall_time_s = wall_time_s
-        report.real_time_factor = report.sim_time_s / wall_time_s if wall_time_s > 0 else 0.0
-        report.tick_ms = quantiles(self._durations_s)
-        report.overruns = sum(d * 1000.0 > self.period_ms for d in self._durations_s)
-        return report
-
-
-def _trajectory_point(time_s: float, pose: Sequence[float]) -> list[float]:
-    x, y, _, qx, qy, qz, qw = pose
-    yaw = math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-    return [round(v, 4) for v in (time_s, x, y, yaw)]
+    serve_viewer: bool = False
 
 
 def run_headless(
@@ -176,7 +97,9 @@ async def _run(
             stream_url = f"{url}/stream?client={introspection['client_id']}"
             async with connect(stream_url, additional_headers=headers, **more) as stream:
                 with _recording(project, options) as recording:
-                    runner = _Runner(control, stream, project.settings.tick_hz, say, recording)
+                    runner = _Runner(control, stream, project.settings, say, recording)
+                    if options.serve_viewer:
+                        await runner.serve_viewer()
                     data = _run_data(project, app_zip, options)
                     return await runner.run(data, options.duration_s, progress)
     finally:
@@ -203,7 +126,7 @@ class _Runner:
         self,
         control: ClientConnection,
         stream: ClientConnection,
-        tick_hz: float,
+        settings: Settings,
         say: Callable[[str], None],
         recording: Recording | None,
     ) -> None:
@@ -211,9 +134,17 @@ class _Runner:
         self._stream = stream
         self._say = say
         self._recording = recording
-        self._measured = _Measured(period_ms=1000.0 / tick_hz)
+        self._name = settings.name
+        self._measured = Measured(period_ms=1000.0 / settings.tick_hz)
+        self._viewer: RunViewer | None = None
+        self._looks: set[asyncio.Task[None]] = set()
         self._replies: dict[str, asyncio.Future[dict[str, Any]]] = {}
         self._changed = asyncio.Event()
+
+    async def serve_viewer(self) -> None:
+        """Has the run looked at in a browser, too."""
+        self._viewer = RunViewer(secrets.token_urlsafe(), self._look)
+        self._say(f"The viewer is at {await self._viewer.start()}")
 
     async def run(
         self, data: dict[str, Any], duration_s: float | None, progress: Callable[[Report], None]
@@ -228,23 +159,67 @@ class _Runner:
                 await self._follow(duration_s, progress)
             return self._measured.end(time.monotonic() - began_s)
         finally:
+            self._show_figures(is_over=True)
             # The readers go on until both are closed: unread frames would keep the close from being seen.
             await asyncio.gather(self._stream.close(), self._control.close(), *readers)
+            if self._viewer is not None:
+                await self._viewer.close()
 
     async def _follow(self, duration_s: float | None, progress: Callable[[Report], None]) -> None:
-        measured, told_s = self._measured, 0.0
+        measured, told_s, shown_s = self._measured, 0.0, 0.0
         while not measured.finished and (duration_s is None or measured.report.sim_time_s < duration_s):
             self._changed.clear()
             await self._changed.wait()
             if time.monotonic() - told_s >= 1.0:
                 told_s = time.monotonic()
                 progress(measured.report)
+            if time.monotonic() - shown_s >= FIGURES_EVERY_S:
+                shown_s = time.monotonic()
+                self._show_figures(is_over=False)
+
+    def _show_figures(self, *, is_over: bool) -> None:
+        if self._viewer is None:
+            return
+        report = self._measured.report
+        figures = {
+            "Time": f"{report.sim_time_s:.1f} s",
+            "Ticks": str(report.ticks),
+            "Distance": f"{report.distance_m:.2f} m",
+            "Collisions": str(report.collisions),
+        } | ({} if report.min_range_m is None else {"Nearest": f"{report.min_range_m:.2f} m"})
+        status = "ERROR" if report.errors else self._measured.status
+        running = [] if is_over else self._measured.running_path
+        self._viewer.tell(
+            {
+                "project": self._name,
+                "status": status,
+                "is_over": is_over,
+                "figures": figures,
+                "running": running,
+            }
+        )
+
+    def _look(self, pose: messages.CameraPose | None) -> None:
+        """Has the server draw the world, or stop it; nobody waits for the answer."""
+        asked: dict[str, Any] = {"stream": "view"}
+        if pose is not None:
+            asked |= {"max_hz": VIEW_HZ, "camera_pose": msgspec.to_builtins(pose)}
+        command = "unsubscribe" if pose is None else "subscribe"
+        sending = asyncio.create_task(self._send_if_open(command, asked))
+        self._looks.add(sending)
+        sending.add_done_callback(self._looks.discard)
+
+    async def _send_if_open(self, command: str, data: dict[str, Any]) -> None:
+        with contextlib.suppress(ConnectionClosed):
+            await self._send("look", command, data)
+
+    async def _send(self, request: str, command: str, data: dict[str, Any]) -> None:
+        text = msgspec.json.encode({"id": request, "command": command, "data": data}).decode()
+        await self._control.send(text)
 
     async def _ask(self, command: str, data: dict[str, Any]) -> None:
         reply = self._replies[command] = asyncio.get_running_loop().create_future()
-        await self._control.send(
-            msgspec.json.encode({"id": command, "command": command, "data": data}).decode()
-        )
+        await self._send(command, command, data)
         answer = await reply
         if answer["command"] == "error":
             error = answer["data"]
@@ -274,6 +249,8 @@ class _Runner:
                 if isinstance(data, bytes):
                     frame = _decode_frame(data)
                     self._measured.take_frame(frame)
+                    if self._viewer is not None and isinstance(frame, messages.View):
+                        self._viewer.show(frame.jpeg)
                     if self._recording is not None:
                         self._recording.frame(frame)
 

@@ -5,11 +5,15 @@ from __future__ import annotations
 import gzip
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
+from websockets.sync.client import connect
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "laser_bump_and_go"
@@ -42,6 +46,27 @@ def test_a_run_writes_its_report(tmp_path, how):
     assert written["errors"] == []
     assert written["trajectory"][-1][0] > 2.5
     assert written["nodes"][0]["path"] == "bump and go"
+
+
+@pytest.mark.simulation
+def test_a_run_can_be_looked_at_in_a_browser():
+    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE), "--serve-viewer", "--duration", "4"]
+    run = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    with run:
+        link = re.search(r"http://\S+", run.stdout.readline())[0]
+        origin, query = link.split("/?")
+        url = f"{origin.replace('http', 'ws')}/socket?{query}"
+        with connect(url, origin=origin, max_size=None) as socket:
+            socket.send('{"eye": [-3, 0, 3], "target": [0, 0, 0]}')
+            messages = list(socket)
+        run.communicate(timeout=100)
+    figures = [json.loads(message) for message in messages if isinstance(message, str)]
+    pictures = [
+        cv2.imdecode(np.frombuffer(m, np.uint8), cv2.IMREAD_COLOR) for m in messages if isinstance(m, bytes)
+    ]
+    assert (run.returncode, figures[-1]["is_over"], figures[-1]["project"]) == (0, True, "Laser bump and go")
+    assert len(pictures) > 5
+    assert pictures[-1].std() > 10
 
 
 @pytest.mark.simulation

@@ -9,20 +9,19 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 import sys
-import tempfile
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.headless.report import NodeCount, Report, quantiles
 from executor.ros.environment import lockstep_environment
+from executor.supervision.scratch import Scratch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from executor.ros.spin import DrainingExecutor
     from executor.world.bullet import BulletWorld
@@ -145,10 +144,10 @@ class _Run:
         own = project.files.get(f"universes/{universe}.yaml")
         robot = self._options.robot or project.settings.robot
         text = own.decode("utf-8") if own is not None else universe
-        folder = Path(tempfile.mkdtemp(prefix="bt-studio-assets-"))
-        self._stack.append(lambda: shutil.rmtree(folder, ignore_errors=True))
-        _write_assets(project, folder)
-        return make_world(text, seed=self._options.seed, robot=robot, assets=folder)
+        scratch = Scratch()
+        self._stack.append(scratch.remove)
+        _write_assets(project, scratch.path)
+        return make_world(text, seed=self._options.seed, robot=robot, assets=scratch.path)
 
     def _join_ros(self) -> None:
         import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 from executor.launching.reader import read_launch_files
 from executor.manager.archive import ArchiveError, unpack
 from executor.session.events import Unpacked
+from executor.supervision.scratch import Scratch
 from executor.universes.document import DocumentError
 
 if TYPE_CHECKING:
@@ -34,12 +35,12 @@ class Folders:
 
     def __init__(self, *, is_alone: bool) -> None:
         self._is_alone = is_alone
-        self._root = Path(tempfile.mkdtemp(prefix="bt-studio-"))
+        self._scratch = Scratch()
         self._kept: deque[Path] = deque()
 
     def unpack(self, effect: Unpack) -> Unpacked:
         """Unpacks one app; what is wrong with it is told."""
-        folder = self._root / str(effect.token)
+        folder = self._scratch.path / str(effect.token)
         self._kept.append(folder)
         if len(self._kept) > KEPT_FOLDERS:
             shutil.rmtree(self._kept.popleft(), ignore_errors=True)
@@ -52,7 +53,7 @@ class Folders:
             return Unpacked(effect.token, str(folder), problem=(error.file, error.problems[0]))
 
     def _fill(self, folder: Path, archive_base64: str) -> None:
-        if self._is_alone and shutil.disk_usage(self._root).free < SPARE_BYTES:
+        if self._is_alone and shutil.disk_usage(self._scratch.path).free < SPARE_BYTES:
             self._sweep()
         try:
             _unpack(archive_base64, folder)
@@ -65,7 +66,7 @@ class Folders:
 
     def _sweep(self) -> None:
         for path in Path(tempfile.gettempdir()).iterdir():
-            if path == self._root:
+            if path == self._scratch.path:
                 continue
             if path.is_dir() and not path.is_symlink():
                 shutil.rmtree(path, ignore_errors=True)
@@ -74,7 +75,7 @@ class Folders:
 
     def remove(self) -> None:
         """Removes them all."""
-        shutil.rmtree(self._root, ignore_errors=True)
+        self._scratch.remove()
 
 
 def _unpack(archive_base64: str, folder: Path) -> None:

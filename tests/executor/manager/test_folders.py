@@ -40,7 +40,7 @@ def test_in_a_container_what_a_run_left_makes_room_for_the_next(disk):
     made = Folders(is_alone=True)
     done = made.unpack(Unpack(1, app_zip()))
     assert not done.error
-    assert [path.name for path in disk.iterdir()] == [made._root.name]
+    assert [path.name for path in disk.iterdir()] == [made._scratch.path.name]
     made.remove()
     assert list(disk.iterdir()) == []
 
@@ -73,4 +73,4 @@ def test_only_the_newest_are_kept(tmp_path, monkeypatch):
     made = Folders(is_alone=False)
     for token in range(1, 6):
         assert not made.unpack(Unpack(token, app_zip())).error
-    assert sorted(path.name for path in made._root.iterdir()) == ["3", "4", "5"]
+    assert sorted(path.name for path in made._scratch.path.glob("?")) == ["3", "4", "5"]

@@ -1,0 +1,33 @@
+"""Files that their owner holds a lock on while it lives."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import time
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["is_abandoned"]
+
+# An owner needs a moment from creating the file to locking it.
+YOUNGEST_S: Final = 1.0
+
+
+def is_abandoned(lock: Path) -> bool:
+    """Whether nobody holds the lock any more; what cannot be looked at is somebody else's."""
+    try:
+        descriptor = os.open(lock, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW)
+    except OSError:
+        return False
+    try:
+        if os.fstat(descriptor).st_mtime > time.time() - YOUNGEST_S:
+            return False
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    finally:
+        os.close(descriptor)
+    return True

@@ -1,0 +1,48 @@
+"""A temporary folder that does not outlive its process for long, not even when that is killed.
+
+Its owner holds a lock on a file in it while it lives; who makes the next folder removes those that nobody
+holds any more.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Final
+
+from executor.supervision.locks import is_abandoned
+
+__all__ = ["Scratch"]
+
+PREFIX: Final = "bt-studio-session-"
+LOCK: Final = ".lock"
+
+
+class Scratch:
+    """A folder of this process.
+
+    Raises:
+        OSError: there is no room for it.
+    """
+
+    def __init__(self) -> None:
+        _remove_abandoned(Path(tempfile.gettempdir()))
+        self.path = Path(tempfile.mkdtemp(prefix=PREFIX))
+        self._lock = os.open(self.path / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def remove(self) -> None:
+        """Removes it with all that is in it; again is harmless."""
+        shutil.rmtree(self.path, ignore_errors=True)
+        if self._lock >= 0:
+            os.close(self._lock)
+            self._lock = -1
+
+
+def _remove_abandoned(place: Path) -> None:
+    for lock in place.glob(f"{PREFIX}*/{LOCK}"):
+        if is_abandoned(lock):
+            shutil.rmtree(lock.parent, ignore_errors=True)

@@ -20,6 +20,7 @@ PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
 POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
 EMPTY: Mapping[str, str] = {}
+BLANKS = " \t\r\n"  # those of XML; others belong to the text that they stand in
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +186,7 @@ def pointer(text: str, port: str = "") -> str | None:
 
     `{=}` is the entry named like the port. Outer blanks are allowed, as in BT.CPP.
     """
-    stripped = text.strip()
+    stripped = text.strip(BLANKS)
     if len(stripped) < 3 or stripped[0] != "{" or stripped[-1] != "}":
         return None
     key = stripped[1:-1]

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import re
 from enum import Enum
 
-_INTEGER = re.compile(r"-?\d+")
-_UNSIGNED = re.compile(r"\d+")
-_REAL = re.compile(r"-?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf(?:inity)?|nan)", re.IGNORECASE)
+_INTEGER = re.compile(r"-?[0-9]+")
+_UNSIGNED = re.compile(r"[0-9]+")
+_REAL = re.compile(
+    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE | re.ASCII
+)
 _BOOLEANS = {"0", "1", "true", "TRUE", "True", "false", "FALSE", "False"}
 _STATUSES = {"SUCCESS", "FAILURE", "SKIPPED", "RUNNING"}
 _INT_RANGE = (-(2**31), 2**31 - 1)
@@ -70,7 +73,20 @@ def _fit_integer(type_: str, text: str) -> Fit:
 
 
 def _fit_list(item: str, text: str) -> Fit:
-    if text.startswith("json:") or not text:
+    if not text:
         return Fit.GOOD
+    if text.startswith("json:"):
+        return Fit.GOOD if _is_json_list(text[5:]) else Fit.BAD
     fits = {fit(item, part) for part in text.split(";")}
     return Fit.BAD if Fit.BAD in fits else Fit.LOOSE if Fit.LOOSE in fits else Fit.GOOD
+
+
+def _is_json_list(text: str) -> bool:
+    try:
+        return isinstance(json.loads(text, parse_constant=_refuse), list)
+    except (ValueError, RecursionError):
+        return False
+
+
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is no JSON")

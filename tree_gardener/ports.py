@@ -27,7 +27,7 @@ INOUT: Final = "inout"
 
 NO_DEFAULT: Final = EMPTY
 
-_POINTER = re.compile(r"\s*\{(.+)\}\s*\Z", re.DOTALL)
+_POINTER = re.compile(r"[ \t\r\n]*\{(.+)\}[ \t\r\n]*\Z", re.DOTALL)
 
 
 class Port:

@@ -23,7 +23,9 @@ INT64: Final = (-(2**63), 2**63 - 1)
 
 _INTEGER = re.compile(r"-?[0-9]+")
 _UNSIGNED = re.compile(r"[0-9]+")
-_REAL = re.compile(r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE)
+_REAL = re.compile(
+    r"-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|inf(?:inity)?|nan)", re.IGNORECASE | re.ASCII
+)
 _TRUE = frozenset(("1", "true", "TRUE", "True"))
 _FALSE = frozenset(("0", "false", "FALSE", "False"))
 

@@ -171,15 +171,16 @@ def test_empty_trees(make_project):
     assert not [item for item in check(project) if item.is_error]
 
 
-def test_ring_of_subtrees_is_reported_once(make_project):
+def test_each_call_of_a_ring_of_subtrees_is_reported(make_project):
     call = {"n1": {"type": "SubTree", "tree": "B"}}
     project = make_project(
         {"n1": {"type": "SubTree", "tree": "A"}},
         trees={"A": call, "B": {"n1": {"type": "SubTree", "tree": "A"}}},
     )
     rings = [item for item in check(project) if item.code == "BT0502"]
-    assert len(rings) == 1
+    assert [item.place.tree for item in rings] == ["A", "B"]
     assert "A → B → A" in rings[0].message
+    assert "B → A → B" in rings[1].message
 
 
 DRIVE = b"""<root BTCPP_format="4" main_tree_to_execute="Main">

@@ -90,7 +90,7 @@ def _add_ports(context: Context, own: _Keys, node: Node) -> None:
         own.written.setdefault(pointer(target) or target, _Use(node, ""))
     for name, port in model.ports.items() if model else ():
         text = node.ports.get(name, port.default)
-        key = pointer(text, name) if text is not None and port.type != "script" else None
+        key = pointer(text, name) if text is not None else None
         if key is None:
             continue
         if port.is_read:

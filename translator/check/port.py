@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from translator.catalog import NodeModel, PortModel, did_you_mean
 from translator.text import is_xml_name
-from translator.tree import Node, Tree, pointer
+from translator.tree import BLANKS, Node, Tree, pointer
 from translator.values import Fit, describe, fit
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _takes_literal(node: Node, port: PortModel) -> bool:
 
 def check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
     """Reports braces that do not make a key; whether they are right."""
-    stripped = text.strip()
+    stripped = text.strip(BLANKS)
     if stripped == "{}":
         context.report("BT0207", tree, node, port, port=port)
         return False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from translator.script_names import script_names
+from translator.tree import pointer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,8 +21,10 @@ def scripts_of(context: Context, node: Node) -> Iterator[tuple[str, str]]:
     if model is None:
         return
     for port in model.ports.values():
-        if port.type == "script" and port.name in node.ports:
-            yield port.name, node.ports[port.name]
+        text = node.ports.get(port.name) if port.type == "script" else None
+        # A script may stand in an entry; the engine reads it from there when the node is ticked.
+        if text is not None and pointer(text, port.name) is None:
+            yield port.name, text
 
 
 def check_scripts(context: Context) -> None:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from translator.check.context import Context
     from translator.tree import Node, Tree
 
-_WHOLE = re.compile(r"[-+]?\d+")
+_WHOLE = re.compile(r"-?[0-9]+")
 
 
 def check_subtrees(context: Context) -> None:
@@ -49,11 +49,12 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
         "FALSE",
     }:
         context.report("BT0505", tree, node, value=autoremap)
-    for name in node.ports:
+    declared = {port.name: port for port in trees[node.tree].ports}
+    for name, text in node.ports.items():
         if name in RESERVED or name.startswith("_") or not is_xml_name(name):
             context.report("BT0209", tree, node, name, port=name)
-    for port in trees[node.tree].ports:
-        _check_value(context, tree, node, port)
+        if check_braces(context, tree, node, name, text) and name in declared:
+            _check_value(context, tree, node, declared[name], text)
     if node.autoremap:
         return
     for port in trees[node.tree].ports:
@@ -61,40 +62,55 @@ def _check_call(context: Context, tree: Tree, node: Node) -> None:
             context.report("BT0504", tree, node, port.name, target=node.tree, port=port.name)
 
 
-def _check_value(context: Context, tree: Tree, node: Node, port: PortModel) -> None:
+def _check_value(context: Context, tree: Tree, node: Node, port: PortModel, text: str) -> None:
     """Reports a literal that the tree below could not read."""
-    text = node.ports.get(port.name)
-    if text is None or not check_braces(context, tree, node, port.name, text):
-        return
     if pointer(text, port.name) is not None:
         return
-    if port.type == "double" and _WHOLE.fullmatch(text.strip()):
+    if port.type == "double" and _WHOLE.fullmatch(text):
         # A number that a SubTree is given becomes a typed entry; an int is no double there.
-        context.report(
-            "BT0506", tree, node, port.name, port=port.name, value=text, wanted=f"{text.strip()}.0"
-        )
+        context.report("BT0506", tree, node, port.name, port=port.name, value=text, wanted=f"{text}.0")
     elif not port.is_written:
         check_literal(context, tree, node, port, text)
 
 
 def _check_cycles(context: Context) -> None:
-    """Reports each call that leads back into a tree that is being called."""
+    """Reports each call that leads back to its own tree: any one of a ring can be the one to take out."""
     trees = context.project.trees
     calls = {tree_id: list(tree.subtree_calls()) for tree_id, tree in trees.items()}
-    done: set[str] = set()
-    for start in trees:
-        if start in done:
-            continue
-        trail: list[str] = [start]
-        iterators = [iter(calls[start])]
-        while iterators:
-            node = next(iterators[-1], None)
-            if node is None:
-                iterators.pop()
-                done.add(trail.pop())
-            elif node.tree in trail:
-                ring = " → ".join([*trail[trail.index(node.tree) :], node.tree])
-                context.report("BT0502", trees[trail[-1]], node, ring=ring)
-            elif node.tree in trees and node.tree not in done:
-                trail.append(node.tree)
-                iterators.append(iter(calls[node.tree]))
+    called = _in_rings({key: {node.tree for node in nodes} & trees.keys() for key, nodes in calls.items()})
+    for tree_id in called:
+        for node in calls[tree_id]:
+            if (way := _way(called, node.tree, tree_id)) is not None:
+                context.report("BT0502", trees[tree_id], node, ring=" → ".join([tree_id, *way]))
+
+
+def _in_rings(called: dict[str, set[str]]) -> dict[str, set[str]]:
+    """Leaves out, again and again, the trees that call none of those left: all, if there is no ring."""
+    callers: dict[str, list[str]] = {}
+    for tree_id, targets in called.items():
+        for target in targets:
+            callers.setdefault(target, []).append(tree_id)
+    waiting = {tree_id: len(targets) for tree_id, targets in called.items()}
+    done = [tree_id for tree_id, count in waiting.items() if count == 0]
+    for tree_id in done:
+        for caller in callers.get(tree_id, ()):
+            waiting[caller] -= 1
+            if waiting[caller] == 0:
+                done.append(caller)
+    return {tree_id: targets for tree_id, targets in called.items() if waiting[tree_id] > 0}
+
+
+def _way(called: dict[str, set[str]], start: str, goal: str) -> list[str] | None:
+    """Returns the trees from one to another along their calls, both included."""
+    came_from = {start: ""}
+    for tree_id in (queue := [start]):
+        if tree_id == goal:
+            way = [goal]
+            while way[0] != start:
+                way.insert(0, came_from[way[0]])
+            return way
+        for target in sorted(called.get(tree_id, ())):
+            if target not in came_from:
+                came_from[target] = tree_id
+                queue.append(target)
+    return None

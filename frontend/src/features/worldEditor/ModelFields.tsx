@@ -1,7 +1,8 @@
 import { Select, Switch } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { setField } from '@/model/universe/edits';
-import { FILES, SIZE_MEANING, type Json, type ModelThing } from '@/model/universe/types';
+import { type Json } from '@/model/document/values';
+import { FILES, SIZE_MEANING, type ModelThing } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
 import { resize } from './commands';
 import { edit, isReadOnly, select, type UniverseEditor } from './editor';

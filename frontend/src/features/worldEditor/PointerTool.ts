@@ -1,7 +1,8 @@
 import * as THREE from 'three';
 import { move } from '@/model/universe/edits';
 import { positionOf, snapped } from '@/model/universe/geometry';
-import { thingOf, type Point } from '@/model/universe/types';
+import { type Point } from '@/model/document/values';
+import { thingOf } from '@/model/universe/types';
 import { pointAt, thingAt } from './aiming';
 import { placeWall } from './commands';
 import { edit, isReadOnly, readingOf, select, toggle, type UniverseEditor } from './editor';

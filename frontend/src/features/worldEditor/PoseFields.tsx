@@ -1,6 +1,6 @@
 import { useTranslation } from 'react-i18next';
 import { place } from '@/model/universe/edits';
-import type { Pose } from '@/model/universe/types';
+import type { Pose } from '@/model/document/values';
 import { edit, type UniverseEditor } from './editor';
 import { FieldGroup, NumberField } from './fields';
 

@@ -1,12 +1,12 @@
 import { IconAlertTriangle } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import type { UniverseProblem } from '@/model/universe/read';
+import type { DocumentProblem } from '@/model/document/yaml';
 import { openFile } from '@/store/project/navigation';
 import { select, type UniverseEditor } from './editor';
 import classes from './worldEditor.module.css';
 
 interface ProblemListProps {
-  readonly problems: readonly UniverseProblem[];
+  readonly problems: readonly DocumentProblem[];
   readonly path: string;
   readonly editor?: UniverseEditor;
 }
@@ -17,7 +17,7 @@ const SHOWN = 50;
 export function ProblemList({ problems, path, editor }: ProblemListProps) {
   const { t } = useTranslation('worldEditor');
   if (problems.length === 0) return null;
-  const go = ({ line, thing }: UniverseProblem) => {
+  const go = ({ line, thing }: DocumentProblem) => {
     if (editor) {
       editor.store.setState({ isTextShown: true });
       if (thing !== null) select(editor, [thing]);

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { Point } from '@/model/universe/types';
+import type { Point } from '@/model/document/values';
 
 /** The wall that the next click would build. */
 export class WallLine {

@@ -1,6 +1,7 @@
 import { useTranslation } from 'react-i18next';
 import { setWorld } from '@/model/universe/edits';
-import { valueAt, type Json, type Path, type Universe } from '@/model/universe/types';
+import { valueAt, type Json, type Path } from '@/model/document/values';
+import { type Universe } from '@/model/universe/types';
 import { edit, select, type UniverseEditor } from './editor';
 import { ColorField, FieldGroup, NumberField, TextField } from './fields';
 import { TextureField } from './TextureField';

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { Point } from '@/model/universe/types';
+import type { Point } from '@/model/document/values';
 import type { EditorScene } from './EditorScene';
 
 const ray = new THREE.Raycaster();

@@ -11,14 +11,8 @@ import {
   turn,
 } from '@/model/universe/edits';
 import { middleOf, rounded, snapped, standingHeight, wallBetween } from '@/model/universe/geometry';
-import {
-  thingOf,
-  type JsonObject,
-  type Point,
-  type Section,
-  type Shape,
-  type Universe,
-} from '@/model/universe/types';
+import { type JsonObject, type Point } from '@/model/document/values';
+import { thingOf, type Section, type Shape, type Universe } from '@/model/universe/types';
 import { edit, readingOf, select, type UniverseEditor } from './editor';
 
 /** Things that the palette offers: what each is made of, but for its id and place. */

@@ -2,10 +2,11 @@ import { notifications } from '@mantine/notifications';
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { t } from '@/i18n';
 import type { Edit } from '@/model/universe/edits';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '@/model/universe/history';
+import { record, redo, seal, startHistory, undo, type TextHistory } from '@/model/document/history';
 import { readUniverse, type Reading } from '@/model/universe/read';
-import { rewrite } from '@/model/universe/rewrite';
-import type { Point, Universe } from '@/model/universe/types';
+import { rewrite } from '@/model/document/rewrite';
+import type { Point } from '@/model/document/values';
+import type { Universe } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
 
 export type Mode = 'move' | 'turn' | 'size';
@@ -53,7 +54,7 @@ export function editorOf(path: string): UniverseEditor {
   let editor = known.get(key);
   if (!editor) {
     const store = createStore<EditorData>(() => ({
-      history: startHistory(currentText(path) ?? ''),
+      history: startHistory([currentText(path) ?? '']),
       selection: [],
       waypoint: null,
       mode: 'move',
@@ -83,7 +84,7 @@ export function showIn(editor: UniverseEditor, view: ViewHandle | null): void {
 export function followText(editor: UniverseEditor, text: string): void {
   const { history, selection } = editor.store.getState();
   const step = { label: 'text', mergeKey: 'text', before: selection, after: selection };
-  const next = record(history, text, step);
+  const next = record(history, [text], step);
   if (next !== history) editor.store.setState({ history: next });
 }
 
@@ -118,7 +119,7 @@ export function edit(
   const step = { label, mergeKey: mergeKey ?? null, before: selection, after };
   const isSame = after.length === selection.length && after.every((key, index) => key === selection[index]);
   editor.store.setState({
-    history: record(start, written, step),
+    history: record(start, [written], step),
     selection: after,
     ...(isSame ? {} : { waypoint: null }),
   });
@@ -132,13 +133,13 @@ export function travel(editor: UniverseEditor, direction: 'undo' | 'redo'): void
   const step = direction === 'undo' ? history.past.at(-1) : history.future[0];
   if (!next || !step) return;
   const wanted = direction === 'undo' ? step.before : step.after;
-  const things = new Set(readUniverse(next.text).universe?.things.map(({ key }) => key));
+  const things = new Set(readUniverse(next.texts[0] ?? '').universe?.things.map(({ key }) => key));
   editor.store.setState({
     history: next,
     selection: wanted.filter((key) => things.has(key)),
     waypoint: null,
   });
-  useProjectStore.getState().setFileText(editor.path, next.text);
+  useProjectStore.getState().setFileText(editor.path, next.texts[0] ?? '');
 }
 
 export function select(

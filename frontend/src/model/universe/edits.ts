@@ -1,20 +1,16 @@
-import type { Op } from './ops';
-import { sameValue } from './ops';
+import type { Op } from '../document/ops';
+import { sameValue } from '../document/ops';
 import { rounded, turned } from './geometry';
 import {
   isObject,
-  thingOf,
   valueAt,
-  type ActorThing,
   type Json,
   type JsonObject,
   type Path,
   type Point,
   type Pose,
-  type Section,
-  type Thing,
-  type Universe,
-} from './types';
+} from '../document/values';
+import { thingOf, type ActorThing, type Section, type Thing, type Universe } from './types';
 
 /** A change of a universe, and what is selected after it. */
 export interface Edit {

@@ -1,4 +1,5 @@
-import type { ModelThing, Point, Shape, Thing } from './types';
+import type { Point } from '../document/values';
+import type { ModelThing, Shape, Thing } from './types';
 
 /** To a tenth of a millimetre (or milliradian's tenth), and never minus zero. */
 export const rounded = (value: number): number => Math.round(value * 1e4) / 1e4 + 0;

@@ -1,16 +1,6 @@
-import { checkSchema, type Issue } from './schema';
-import {
-  FILES,
-  PICTURE,
-  TEXTURES,
-  isObject,
-  SECTIONS,
-  SIZE_MEANING,
-  type Json,
-  type JsonObject,
-  type Path,
-  type Shape,
-} from './types';
+import { checkSchema, type Issue } from '../document/schema';
+import { isObject, type Json, type JsonObject, type Path } from '../document/values';
+import { FILES, PICTURE, TEXTURES, SECTIONS, SIZE_MEANING, type Shape } from './types';
 import schema from '@/generated/universe.schema.json';
 
 const AXES = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'];

@@ -15,11 +15,11 @@ import {
   type Edit,
 } from './edits';
 import { stretched, wallBetween } from './geometry';
-import { record, redo, seal, startHistory, undo, type TextHistory } from './history';
-import { applyOps, sameValue } from './ops';
+import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/history';
+import { applyOps, sameValue } from '../document/ops';
 import { readUniverse } from './read';
-import { rewrite, UnwritableError } from './rewrite';
-import { difference, inverse, spliced } from './splice';
+import { rewrite, UnwritableError } from '../document/rewrite';
+import { difference, inverse, spliced } from '../document/splice';
 import type { Universe } from './types';
 
 const builtins = Object.entries(
@@ -269,23 +269,23 @@ describe('any sequence of edits', () => {
   it('says in the text what it does to the value, and undoes to the byte', () => {
     fc.assert(
       fc.property(texts, fc.array(gesture, { maxLength: 8 }), (start, gestures) => {
-        let history = startHistory(start);
+        let history = startHistory([start]);
         for (const each of gestures) {
-          const universe = universeOf(history.text);
+          const universe = universeOf(history.texts[0]!);
           const { ops } = editOf(universe, each);
-          const text = rewrite(history.text, ops);
+          const text = rewrite(history.texts[0]!, ops);
           expect(sameValue(universeOf(text).raw, applyOps(universe.raw, ops))).toBe(true);
-          history = seal(record(history, text, { label: 'x', mergeKey: null, before: [], after: [] }));
+          history = seal(record(history, [text], { label: 'x', mergeKey: null, before: [], after: [] }));
         }
-        const end = history.text;
+        const end = history.texts[0];
         let steps = 0;
         for (let back: TextHistory | null = undo(history); back; back = undo(back)) {
           history = back;
           steps += 1;
         }
-        expect(history.text).toBe(start);
+        expect(history.texts[0]).toBe(start);
         for (; steps > 0; steps -= 1) history = redo(history) ?? history;
-        expect(history.text).toBe(end);
+        expect(history.texts[0]).toBe(end);
       }),
       { numRuns: 30 },
     );
@@ -314,10 +314,10 @@ describe('any sequence of edits', () => {
 
   it('joins steps of one gesture until it is sealed', () => {
     const step = { label: 'x', mergeKey: 'drag', before: ['a'], after: ['b'] };
-    let history = record(record(startHistory('1'), '12', step), '123', step);
+    let history = record(record(startHistory(['1']), ['12'], step), ['123'], step);
     expect(history.past).toHaveLength(1);
-    history = record(seal(history), '1234', step);
+    history = record(seal(history), ['1234'], step);
     expect(history.past).toHaveLength(2);
-    expect(undo(undo(history)!)?.text).toBe('1');
+    expect(undo(undo(history)!)?.texts).toEqual(['1']);
   });
 });

@@ -10,9 +10,9 @@ import {
   type YAMLSeq,
 } from 'yaml';
 import { applyOps, sameValue, type Op } from './ops';
-import { parsed, YAML_OPTIONS } from './read';
+import { parsed, YAML_OPTIONS } from './yaml';
 import { splicedAll, type Splice } from './splice';
-import { isObject, type Json, type Path } from './types';
+import { isObject, type Json, type Path } from './values';
 import { blockItem, blockPair, inline, keyText } from './write';
 
 /** A document that is written so that it cannot be changed piece by piece. */

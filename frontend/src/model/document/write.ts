@@ -1,4 +1,4 @@
-import { isObject, type Json, type JsonObject } from './types';
+import { isObject, type Json, type JsonObject } from './values';
 
 /** Words that YAML 1.1 takes for something other than text. */
 const WORDS = /^(y|n|yes|no|on|off|true|false|null|nan|inf)$/i;

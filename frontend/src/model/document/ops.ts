@@ -1,4 +1,4 @@
-import { isObject, type Json, type JsonObject, type Path } from './types';
+import { isObject, type Json, type JsonObject, type Path } from './values';
 
 /** A small change of a document. Indexes of `remove` count in the list as it was before. */
 export type Op =

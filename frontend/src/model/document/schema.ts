@@ -1,5 +1,5 @@
 import { similarNames } from '../similar';
-import { isObject, type Json, type JsonObject, type Path } from './types';
+import { isObject, type Json, type JsonObject, type Path } from './values';
 
 /** Something wrong with a document; `kind` names a text of `universe:problem`, `params` fill it in. */
 export interface Issue {

@@ -161,9 +161,10 @@ class _Runner:
         finally:
             self._show_figures(is_over=True)
             # The readers go on until both are closed: unread frames would keep the close from being seen.
-            await asyncio.gather(self._stream.close(), self._control.close(), *readers)
+            await asyncio.gather(self._stream.close(), self._control.close())
             if self._viewer is not None:
                 await self._viewer.close()
+            await asyncio.gather(*readers)
 
     async def _follow(self, duration_s: float | None, progress: Callable[[Report], None]) -> None:
         measured, told_s, shown_s = self._measured, 0.0, 0.0
@@ -226,22 +227,27 @@ class _Runner:
             raise HeadlessError(_located(error, self._measured.report.errors))
 
     async def _read_control(self) -> None:
-        with contextlib.suppress(ConnectionClosed):
+        try:
             async for text in self._control:
-                message = msgspec.json.decode(text)
-                if self._recording is not None:
-                    self._recording.event(message)
-                name, data = message["command"], message["data"]
-                reply = self._replies.pop(message["id"], None)
-                if reply is not None:
-                    reply.set_result(message)
-                elif name == "log" and data["source"] == "action":
-                    self._say(data["text"])
-                else:
-                    self._measured.take_event(name, data, message["t"])
+                self._take(msgspec.json.decode(text))
                 self._changed.set()
-        self._measured.finished = True
-        self._changed.set()
+        except ConnectionClosed:
+            pass
+        finally:  # also when nobody reads what is said any more
+            self._measured.finished = True
+            self._changed.set()
+
+    def _take(self, message: dict[str, Any]) -> None:
+        if self._recording is not None:
+            self._recording.event(message)
+        name, data = message["command"], message["data"]
+        reply = self._replies.pop(message["id"], None)
+        if reply is not None:
+            reply.set_result(message)
+        elif name == "log" and data["source"] == "action":
+            self._say(data["text"])
+        else:
+            self._measured.take_event(name, data, message["t"])
 
     async def _read_stream(self) -> None:
         with contextlib.suppress(ConnectionClosed):

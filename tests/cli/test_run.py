@@ -70,6 +70,15 @@ def test_a_run_can_be_looked_at_in_a_browser():
 
 
 @pytest.mark.simulation
+def test_a_run_ends_when_nobody_reads_what_it_prints():
+    command = [sys.executable, "-c", MAIN, "run", str(EXAMPLE)]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+        assert b"Traceback" not in run.stdout.readline()
+        run.stdout.close()
+        assert (run.wait(timeout=100), run.stderr.read()) == (1, b"")
+
+
+@pytest.mark.simulation
 @pytest.mark.parametrize("how", [["--lockstep"], []])
 def test_an_action_that_raises_is_told_with_its_line(tmp_path, how):
     project = tmp_path / "project"

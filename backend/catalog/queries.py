@@ -58,6 +58,12 @@ def universe_text(universe_id: str) -> Path | None:
     return UNIVERSES / f"{universe_id}.yaml" if universe_id in known else None
 
 
+def robot_config(robot_id: str) -> Path | None:
+    """Where the `robot.yaml` of a built-in robot is, if there is one."""
+    known = {entry["id"] for entry in robots()}
+    return ROBOTS / robot_id / "robot.yaml" if robot_id in known else None
+
+
 def robot_urdf(robot_id: str) -> Path | None:
     """Where the URDF of a built-in robot is, if there is one."""
     known = {entry["id"] for entry in robots()}

@@ -11,6 +11,7 @@ urlpatterns = [
     path("catalog/universes/<str:universe_id>/text", views.UniverseText.as_view()),
     path("catalog/robots", views.Robots.as_view()),
     path("catalog/robots/<str:robot_id>/preview", views.RobotPreview.as_view()),
+    path("catalog/robots/<str:robot_id>/config", views.RobotConfig.as_view()),
     path("catalog/robots/<str:robot_id>/urdf", views.RobotUrdf.as_view()),
     path("catalog/behaviours", views.Behaviours.as_view()),
     path("catalog/templates", views.Templates.as_view()),

@@ -101,6 +101,21 @@ class RobotPreview(APIView):
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
 
 
+class RobotConfig(APIView):
+    """How a built-in robot drives, and what it senses."""
+
+    open_to_guests = True
+
+    @extend_schema(
+        operation_id="get_robot_config",
+        responses={(200, "application/yaml"): OpenApiTypes.STR},
+        tags=["catalog"],
+    )
+    def get(self, request: Request, robot_id: str) -> HttpResponse:
+        """Its `robot.yaml`, to make a project's own of."""
+        return _text(queries.robot_config(robot_id), "application/yaml", f"There is no robot {robot_id!r}.")
+
+
 class RobotUrdf(APIView):
     """What a built-in robot is made of."""
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
 from collections import OrderedDict
 from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
+from backend.config.environment import REPOSITORY
 from backend.config.problems import InvalidInputError
 from backend.projects.errors import CheckFailedError
 
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from translator import Ros2Package, TranslatorError
 
 _KEPT: Final = 64
+_UNIVERSES: Final = REPOSITORY / "executor" / "universes"
+_OWN_ROBOT: Final = re.compile(r"robots/[^/]+/robot\.yaml")
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,10 +167,16 @@ def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
 
 
 def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
-    """A universe of the project as document with its assets, or the id of a built-in one."""
+    """A universe of the project as document with its assets, or the id of a built-in one.
+
+    Where the project has robots of its own, a built-in universe goes as document, too: they come with it.
+    """
     from backend.projects.archive import pack  # noqa: PLC0415 - it imports this module
 
     document = files.get(f"universes/{name}.yaml")
+    if document is None and any(_OWN_ROBOT.fullmatch(path) for path in files):
+        built_in = {path.stem: path for path in _UNIVERSES.glob("*.yaml")}.get(name)
+        document = built_in.read_bytes() if built_in else None
     if document is None:
         return name
     try:

@@ -92,7 +92,9 @@ class JointDrive(Strict):
     start: float = Field(default=0.0, allow_inf_nan=False)
 
 
-class _Document(Strict):
+class RobotDocument(Strict):
+    """A `robot.yaml`, before its names are looked up in the URDF."""
+
     format: Literal["bt-studio/robot"]
     version: Literal[1]
     name: str
@@ -165,7 +167,7 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
     file = folder / "robot.yaml"
     try:
         located = read_yaml(file.read_text(encoding="utf-8"), file.name)
-        document = validate(located, _Document, file.name)
+        document = validate(located, RobotDocument, file.name)
     except DocumentError as error:
         raise RobotError(error.problems, f"{robot_id}/{file.name}") from error
     urdf_path = folder / document.urdf
@@ -197,7 +199,7 @@ def _read_urdf(robot_id: str, path: Path) -> tuple[Urdf, dict[str, Mesh]]:
         raise RobotError(error.problems, error.file) from error
 
 
-def _check_names(robot_id: str, located: Located, document: _Document, urdf: Urdf) -> None:
+def _check_names(robot_id: str, located: Located, document: RobotDocument, urdf: Urdf) -> None:
     """Refuses names of links and joints that the URDF does not have."""
     drive = document.drive
     links: list[tuple[tuple[str | int, ...], str]] = [

@@ -238,6 +238,7 @@ def _tools(story, teacher):
     universe = story.ask(teacher, "GET", "catalog/universes")["items"][0]["id"]
     robot = story.ask(teacher, "GET", "catalog/robots")["items"][0]["id"]
     story.ask(teacher, "GET", f"catalog/universes/{universe}/text")
+    story.ask(teacher, "GET", f"catalog/robots/{robot}/config")
     story.ask(teacher, "GET", f"catalog/robots/{robot}/urdf")
     story.ask(teacher, "GET", f"catalog/universes/{universe}/preview")
     story.ask(teacher, "GET", f"catalog/robots/{robot}/preview")

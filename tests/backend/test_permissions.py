@@ -106,6 +106,7 @@ POLICY = {
     ("get", "/api/v1/catalog/universes/{universe_id}/text"): OPEN,
     ("get", "/api/v1/catalog/robots"): OPEN,
     ("get", "/api/v1/catalog/robots/{robot_id}/preview"): OPEN,
+    ("get", "/api/v1/catalog/robots/{robot_id}/config"): OPEN,
     ("get", "/api/v1/catalog/robots/{robot_id}/urdf"): OPEN,
     ("get", "/api/v1/catalog/templates"): OPEN,
 }

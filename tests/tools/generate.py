@@ -16,6 +16,7 @@ GENERATORS: Final = (
     [sys.executable, "-m", "translator.reference"],
     [sys.executable, "-m", "executor.generate.protocol_page"],
     [sys.executable, "-m", "executor.universes.reference"],
+    [sys.executable, "-m", "executor.robots.reference"],
     [sys.executable, "-m", "executor.generate.typescript"],
     [sys.executable, "-m", "backend.config.reference"],
     ["npm", "run", "--silent", "--prefix", "frontend", "generate"],

@@ -54,8 +54,11 @@ def test_a_universe_and_a_robot_can_be_read_as_they_are_written(api):
     )
     for robot in api.get("catalog/robots")["items"]:
         assert b"<robot " in api.client.get(f"/api/v1/catalog/robots/{robot['id']}/urdf").content
+        config = api.client.get(f"/api/v1/catalog/robots/{robot['id']}/config").content
+        assert config.startswith(b"format: bt-studio/robot")
     assert api.client.get("/api/v1/catalog/universes/ghost/text").status_code == 404
     assert api.client.get("/api/v1/catalog/robots/..%2Fturtle2/urdf").status_code == 404
+    assert api.client.get("/api/v1/catalog/robots/ghost/config").status_code == 404
 
 
 def test_templates_are_the_empty_project_and_the_examples(api):

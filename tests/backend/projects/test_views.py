@@ -272,6 +272,16 @@ def test_a_universe_of_the_project_goes_along(api):
     assert api.get(f"projects/{pid}/app?universe=house")["universe"] == "house"
 
 
+def test_a_robot_of_the_project_goes_along_into_a_universe_that_we_ship(api):
+    pid = api.post("projects", {"template": "laser_bump_and_go"}, expect=201)["id"]
+    api.save(pid, file("robots/mine/robot.yaml", 0, "name: mine\n"))
+    universe = api.get(f"projects/{pid}/app?universe=house")["universe"]
+    assert universe["document"].startswith("format: bt-studio/universe")
+    assert universe["assets_zip_base64"]
+    assert api.get(f"projects/{pid}/app?universe=none")["universe"] == "none"
+    assert api.get(f"projects/{pid}/app?universe=..%2Fhouse")["universe"] == "../house"
+
+
 def test_etags_save_traffic_and_guard_writes(api, project):
     pid = project["id"]
     api.get(f"projects/{pid}")

@@ -31,6 +31,8 @@ export interface Diagram {
   /** Roots of pieces that are not connected yet: saved, never translated. */
   readonly drafts: readonly NodeId[];
   readonly layout: Orientation;
+  /** Its model as a SubTree, kept as it was read; `treeFacts` knows what it says. */
+  readonly ports?: unknown;
 }
 
 export function emptyDiagram(id: string): Diagram {
@@ -107,15 +109,6 @@ export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
 /** What people call the node: its instance name, else the tree it stands for, else its type. */
 export function displayName(node: DiagramNode): string {
   return node.name ?? node.tree ?? node.type;
-}
-
-/** Trees that a diagram uses as subtrees. */
-export function treesUsed(diagram: Diagram): ReadonlySet<string> {
-  const used = new Set<string>();
-  for (const node of Object.values(diagram.nodes)) {
-    if (node.type === 'SubTree' && node.tree) used.add(node.tree);
-  }
-  return used;
 }
 
 /** A node id that the diagram does not have; `random` is an argument so that tests repeat. */

@@ -25,7 +25,24 @@ describe('fixes', () => {
     ['rename-port', under({ type: 'Turn', ports: { ang_sped: '1' } })],
     ['remove-port', under({ type: 'Turn', ports: { nonsense: '1' } })],
     ['use-key', tree({ r: { type: 'Repeat', children: ['x'] }, x: { type: 'Turn' } })],
-    ['set-port', under({ type: 'Turn', ports: { ang_speed: '{speed' } })],
+    ['use-key', under({ type: 'Turn', ports: { ang_speed: '{speed' } })],
+    ['use-key', under({ type: 'Turn', ports: { ang_speed: '{a}{b}' } })],
+    ['set-port', under({ type: 'Turn', ports: { ang_speed: '1.5m' } })],
+    ['remove-port', under({ type: 'Free', ports: { '1st': '1' } })],
+    ['remove-condition', under({ type: 'Turn', conditions: { _skipIf: '' } })],
+    ['set-port', under({ type: 'SubTree', tree: 'Inner', attributes: { _autoremap: 'maybe' } })],
+    ['set-port', under({ type: 'SubTree', tree: 'Inner', ports: { far: '2' } })],
+    ['use-key', under({ type: 'SubTree', tree: 'Inner' })],
+    [
+      'rename-type',
+      tree({
+        r: { type: 'ReactiveSequence', children: ['x', 'y'] },
+        x: { type: 'AsyncSequence', children: ['a'] },
+        y: { type: 'AsyncSequence', children: ['b'] },
+        a: { type: 'Turn' },
+        b: { type: 'Turn' },
+      }),
+    ],
     ['set-port', under({ type: 'Turn', ports: { ang_speed: '{}' } })],
     ['set-port', under({ type: 'Turn', ports: { ang_speed: '0,5' } })],
     [
@@ -60,9 +77,9 @@ describe('fixes', () => {
     expect(fixes).toMatchObject([{ key: 'make-tree', does: { makes: 'tree', name: 'Patrol' } }]);
   });
   it('knows findings of the server, too', () => {
-    const diagram = under({ type: 'Turn', conditions: { _skipIf: '' } });
-    const [offered] = fixesFor({ code: 'BT0301', node: 'x', port: '_skipIf' }, diagram, vocabulary);
-    expect(offered?.key).toBe('remove-condition');
+    const diagram = under({ type: 'Turn', disabled: true });
+    const [offered] = fixesFor({ code: 'BT0105', node: 'x' }, diagram, vocabulary);
+    expect(offered?.key).toBe('enable');
   });
   it('offers nothing where it knows nothing', () => {
     expect(fixesFor({ code: 'BT0999', node: 'x' }, under({ type: 'Turn' }), vocabulary)).toEqual([]);

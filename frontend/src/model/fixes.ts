@@ -1,8 +1,9 @@
 import { freshId, type Diagram, type DiagramNode, type NodeId } from './diagram';
-import { removeSubtrees, setCondition, setDisabled, setPort, wrap, type Recipe } from './edits';
+import { removeSubtrees, setCondition, setDisabled, setName, setPort, wrap, type Recipe } from './edits';
 import { assign, nodeOf } from './edits/core';
-import { literalProblem, type PortSpec } from './ports';
+import type { PortSpec } from './ports';
 import type { Problem } from './problems';
+import { fit, partRead } from './values';
 import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { similarNames } from './similar';
 
@@ -96,11 +97,27 @@ const renameOwn =
     );
   };
 
+const setAutoremap =
+  (id: NodeId, text: string): Recipe =>
+  (draft) => {
+    const node = nodeOf(draft, id);
+    const { _autoremap: _given, ...ports } = node.ports ?? {};
+    assign(node, 'ports', Object.keys(ports).length > 0 ? ports : undefined);
+    node.attributes = { ...node.attributes, _autoremap: text };
+  };
+
+const portsOf = (node: DiagramNode, { specs, trees }: Vocabulary): readonly PortSpec[] =>
+  (node.type === 'SubTree' ? trees.get(node.tree ?? '') : specs.get(node.type))?.ports ?? [];
+
 function valueFixes(id: NodeId, port: PortSpec, text: string): Fix[] {
   const fixes: Fix[] = [];
   const point = text.trim().replace(',', '.');
-  if (point !== text && literalProblem(port.type, point) === null) {
+  if (point !== text && fit(port.type, point) === 'good') {
     fixes.push(fix('set-port', setPort(id, port.name, point), { text: point }));
+  }
+  const part = partRead(port.type, text) ?? '';
+  if (part !== '' && part !== text) {
+    fixes.push(fix('set-port', setPort(id, port.name, part), { text: part }));
   }
   if (port.default !== null)
     fixes.push(fix('reset-port', setPort(id, port.name, null), { text: port.default }));
@@ -115,22 +132,30 @@ function portFixes(
 ): Fix[] {
   const { port } = problem;
   const text = node.ports?.[port] ?? '';
-  const ports = vocabulary.specs.get(node.type)?.ports ?? [];
+  const ports = portsOf(node, vocabulary);
   const declared = ports.find((each) => each.name === port);
   switch (problem.kind) {
     case 'missing-port':
+    case 'missing-tree-port':
       return [keyFix(id, port, '')];
     case 'unknown-port':
       return unknownPortFixes(id, node, port, ports);
+    case 'bad-port-name':
+      return unknownPortFixes(id, node, port, ports);
     case 'unclosed-brace':
-      if (/^[${}\s]*$/.test(text)) return [keyFix(id, port, '')];
-      return [fix('set-port', setPort(id, port, `${text.trim()}}`), { text: `${text.trim()}}` })];
+    case 'bad-key':
+      return [keyFix(id, port, text.replace(/[{}]/g, ''))];
     case 'empty-key':
       return [fix('set-port', setPort(id, port, '{=}'), { text: '{=}' })];
     case 'output-literal':
       return [keyFix(id, port, text)];
     case 'wrong-type':
+    case 'read-in-part':
       return declared ? valueFixes(id, declared, text) : [];
+    case 'whole-for-double':
+      return [fix('set-port', setPort(id, port, `${text}.0`), { text: `${text}.0` })];
+    case 'empty-script':
+      return [fix('remove-condition', setCondition(id, port, null), { port })];
     default:
       return [];
   }
@@ -156,6 +181,12 @@ function kindFixes(
       if (spec?.maxChildren !== 1) return [];
       return [fix('wrap-children', wrap(node.children ?? [], freshId(diagram.nodes), { type: 'Sequence' }))];
     }
+    case 'two-waiting-children':
+      return [fix('rename-type', setType(id, 'Sequence'), { name: 'Sequence' })];
+    case 'same-call-name':
+      return [fix('remove-name', setName(id, ''))];
+    case 'bad-autoremap':
+      return ['true', 'false'].map((text) => fix('set-port', setAutoremap(id, text), { text }));
     case 'draft':
       return [fix('delete', removeSubtrees([id]))];
     case 'empty-tree':
@@ -174,8 +205,5 @@ export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabul
   if (id === null || !(id in diagram.nodes)) return [];
   if ('kind' in problem) return kindFixes(problem, diagram, id, vocabulary);
   if (problem.code === 'BT0105') return [fix('enable', setDisabled([id], false))];
-  if (problem.code === 'BT0301' && problem.port !== undefined) {
-    return [fix('remove-condition', setCondition(id, problem.port, null), { port: problem.port })];
-  }
   return [];
 }

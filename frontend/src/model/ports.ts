@@ -1,5 +1,7 @@
 /** Ports: their declarations, and what the text of a value means. */
 
+import { STATUSES } from './values';
+
 export type PortDirection = 'input' | 'output' | 'inout';
 
 export interface PortSpec {
@@ -17,20 +19,33 @@ export type PortText =
   | { readonly kind: 'literal'; readonly text: string }
   | { readonly kind: 'key'; readonly key: string; readonly global: boolean }
   | { readonly kind: 'same-name' }
-  | { readonly kind: 'broken'; readonly reason: 'unclosed' | 'empty-key' };
+  | { readonly kind: 'broken'; readonly reason: 'unclosed' | 'empty-key' | 'bad-key' };
+
+const OUTER_BLANKS = /^[ \t\r\n]+|[ \t\r\n]+$/g;
+
+/** The text between the braces of `{key}`, `=` of `{=}`; null of a literal. */
+export function pointerOf(text: string): string | null {
+  const stripped = text.replace(OUTER_BLANKS, '');
+  return stripped.length > 2 && stripped.startsWith('{') && stripped.endsWith('}')
+    ? stripped.slice(1, -1)
+    : null;
+}
+
+const count = (text: string, character: string): number => text.split(character).length - 1;
 
 /** A literal, `{key}`, `{=}` or `{@global_key}`, as in BT.CPP. */
 export function readPortText(text: string): PortText {
-  const trimmed = text.trim();
-  if (trimmed === '') return { kind: 'empty' };
-  const opens = trimmed.startsWith('{') || trimmed.startsWith('${');
-  if (!opens) return { kind: 'literal', text };
-  if (!trimmed.endsWith('}')) return { kind: 'broken', reason: 'unclosed' };
-  const inner = trimmed.slice(trimmed.indexOf('{') + 1, -1).trim();
-  if (inner === '') return { kind: 'broken', reason: 'empty-key' };
+  const stripped = text.replace(OUTER_BLANKS, '');
+  if (stripped === '') return { kind: 'empty' };
+  if (stripped === '{}') return { kind: 'broken', reason: 'empty-key' };
+  const looksLikeKey = stripped.startsWith('{') || stripped.endsWith('}');
+  if (looksLikeKey && count(stripped, '{') !== count(stripped, '}')) {
+    return { kind: 'broken', reason: 'unclosed' };
+  }
+  const inner = pointerOf(text);
+  if (inner === null) return { kind: 'literal', text };
   if (inner === '=') return { kind: 'same-name' };
-  // A JSON object is a literal, not a key.
-  if (/[":,]/.test(inner)) return { kind: 'literal', text };
+  if (/[{}]|.@/s.test(inner)) return { kind: 'broken', reason: 'bad-key' };
   return inner.startsWith('@')
     ? { kind: 'key', key: inner.slice(1), global: true }
     : { kind: 'key', key: inner, global: false };
@@ -38,55 +53,17 @@ export function readPortText(text: string): PortText {
 
 export type Widget = 'number' | 'integer' | 'boolean' | 'enum' | 'script' | 'text';
 
-const INTEGERS = new Set([
-  'int',
-  'uint',
-  'integer',
-  'int64',
-  'int64_t',
-  'uint64_t',
-  'unsigned',
-  'unsigned int',
+const WIDGETS: ReadonlyMap<string, Widget> = new Map([
+  ['int', 'integer'],
+  ['uint', 'integer'],
+  ['double', 'number'],
+  ['bool', 'boolean'],
+  ['script', 'script'],
 ]);
-const NUMBERS = new Set(['double', 'float', 'number']);
-const BOOLEANS = new Set(['bool', 'boolean']);
-const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
 
 export function widgetOf(type: string): Widget {
-  const plain = type.toLowerCase();
-  if (INTEGERS.has(plain)) return 'integer';
-  if (NUMBERS.has(plain)) return 'number';
-  if (BOOLEANS.has(plain)) return 'boolean';
-  if (plain === 'status' || choicesOf(type).length > 0) return 'enum';
-  if (plain === 'script') return 'script';
-  return 'text';
+  return choicesOf(type).length > 0 ? 'enum' : (WIDGETS.get(type) ?? 'text');
 }
 
-/** Values of an enumerated type: `status`, or `enum[a,b]`, `Literal['a', 'b']`. */
-export function choicesOf(type: string): readonly string[] {
-  if (type.toLowerCase() === 'status') return STATUSES;
-  const inner = /^(?:enum|literal)\[(.*)\]$/i.exec(type)?.[1];
-  return inner ? inner.split(',').map((item) => item.trim().replace(/^['"]|['"]$/g, '')) : [];
-}
-
-/** Why a literal does not fit its type, or null. */
-export function literalProblem(
-  type: string,
-  text: string,
-): 'number' | 'integer' | 'negative' | 'boolean' | 'enum' | null {
-  const value = text.trim();
-  switch (widgetOf(type)) {
-    case 'integer':
-      if (!/^[+-]?\d+$/.test(value)) return 'integer';
-      return type.startsWith('u') && value.startsWith('-') ? 'negative' : null;
-    case 'number':
-      return value !== '' && Number.isFinite(Number(value)) ? null : 'number';
-    case 'boolean':
-      return /^(true|false|0|1)$/i.test(value) ? null : 'boolean';
-    case 'enum':
-      return choicesOf(type).includes(value) ? null : 'enum';
-    case 'script':
-    case 'text':
-      return null;
-  }
-}
+/** Values of an enumerated type. */
+export const choicesOf = (type: string): readonly string[] => (type === 'status' ? STATUSES : []);

@@ -36,9 +36,9 @@ describe('findProblems', () => {
       ['r missing-port num_cycles'],
     ],
     [
-      'an empty required port',
+      'an empty number',
       { r: { type: 'Repeat', ports: { num_cycles: '' }, children: ['x'] }, x: { type: 'Turn' } },
-      ['r missing-port num_cycles'],
+      ['r wrong-type num_cycles'],
     ],
     [
       'an unclosed brace',

@@ -1,31 +1,16 @@
-import { preorder, subtreeOf, type Diagram, type DiagramNode, type NodeId } from './diagram';
-import { literalProblem, readPortText, type PortSpec } from './ports';
-import { specOf, wouldRecurse, type NodeSpec, type Vocabulary } from './vocabulary';
+import { entryCheck, checkPorts } from './check/ports';
+import { CODES, type Problem } from './check/problem';
+import { checkScripts } from './check/scripts';
+import { callCheck } from './check/subtree';
+import { subtreeOf, type Diagram, type DiagramNode, type NodeId } from './diagram';
+import { specOf, type NodeSpec, type Vocabulary } from './vocabulary';
 
-export type Severity = 'error' | 'warning' | 'note';
+export { CODES, type Problem, type Severity } from './check/problem';
 
-/** What is wrong, as data: the words are made by i18n (`problems:<kind>`) from `values`. */
-export interface Problem {
-  readonly kind:
-    | 'empty-tree'
-    | 'unknown-type'
-    | 'too-few-children'
-    | 'too-many-children'
-    | 'missing-tree'
-    | 'unknown-tree'
-    | 'recursion'
-    | 'missing-port'
-    | 'unknown-port'
-    | 'unclosed-brace'
-    | 'empty-key'
-    | 'output-literal'
-    | 'wrong-type'
-    | 'draft';
-  readonly severity: Severity;
-  readonly node: NodeId | null;
-  readonly port?: string;
-  readonly values: Readonly<Record<string, string | number>>;
-}
+/**
+ * Everything that can be said about a tree without the server, as the translator says it: kept so by
+ * `tests/shared/problems.json`, which both are tested on.
+ */
 
 function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
   const count = node.children?.length ?? 0;
@@ -39,80 +24,52 @@ function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[]
   return [];
 }
 
-function checkValue(id: NodeId, port: string, text: string, spec: PortSpec | undefined): Problem[] {
-  const value = readPortText(text);
-  const base = { severity: 'error', node: id, port, values: { port, text, type: spec?.type ?? '' } } as const;
-  if (value.kind === 'broken') {
-    return [{ ...base, kind: value.reason === 'unclosed' ? 'unclosed-brace' : 'empty-key' }];
-  }
-  if (!spec || value.kind === 'key' || value.kind === 'same-name') return [];
-  if (value.kind === 'empty') {
-    return spec.required ? [{ ...base, kind: 'missing-port' }] : [];
-  }
-  if (spec.direction === 'output') return [{ ...base, kind: 'output-literal' }];
-  if (spec.direction === 'inout') return [];
-  return literalProblem(spec.type, text) === null ? [] : [{ ...base, kind: 'wrong-type' }];
+/** A ReactiveSequence may have one child that goes on by itself. */
+function checkWaiting(diagram: Diagram, node: DiagramNode): Problem[] {
+  if (node.type !== 'ReactiveSequence') return [];
+  const waiting = (node.children ?? []).filter((child) => diagram.nodes[child]?.type === 'AsyncSequence');
+  const second = waiting[1];
+  return second === undefined
+    ? []
+    : [{ kind: 'two-waiting-children', severity: 'error', node: second, values: {} }];
 }
 
-function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
-  const found: Problem[] = [];
-  for (const port of spec.ports) {
-    const text = node.ports?.[port.name];
-    if (text === undefined && port.required && port.default === null) {
-      found.push({
-        kind: 'missing-port',
-        severity: 'error',
-        node: id,
-        port: port.name,
-        values: { port: port.name, type: port.type },
-      });
+function checkTree(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
+  const checkCalls = callCheck(diagram.id, vocabulary);
+  const checkEntries = entryCheck();
+  return (diagram.root === null ? [] : subtreeOf(diagram, diagram.root)).flatMap((id) => {
+    const node = diagram.nodes[id];
+    if (!node) return [];
+    const spec = specOf(vocabulary, node);
+    const scripts = checkScripts(id, node, spec);
+    if (!spec) {
+      return [{ kind: 'unknown-type', severity: 'error', node: id, values: { type: node.type } }, ...scripts];
     }
-  }
-  for (const [name, text] of Object.entries(node.ports ?? {})) {
-    const port = spec.ports.find((each) => each.name === name);
-    if (!port && !spec.open) {
-      found.push({
-        kind: 'unknown-port',
-        severity: 'error',
-        node: id,
-        port: name,
-        values: { port: name, type: node.type },
-      });
-    }
-    found.push(...checkValue(id, name, text, port));
-  }
-  return found;
+    const special =
+      spec.family === 'subtree'
+        ? checkCalls(id, node)
+        : [...checkPorts(id, node, spec), ...checkEntries(id, node, spec)];
+    return [...checkChildren(id, node, spec), ...checkWaiting(diagram, node), ...special, ...scripts];
+  });
 }
 
-function checkSubtree(diagram: Diagram, id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Problem[] {
-  if (node.type !== 'SubTree') return [];
-  const base = { severity: 'error', node: id, values: { tree: node.tree ?? '' } } as const;
-  if (!node.tree) return [{ ...base, kind: 'missing-tree' }];
-  if (!vocabulary.trees.has(node.tree)) return [{ ...base, kind: 'unknown-tree' }];
-  return wouldRecurse(vocabulary, diagram.id, node.tree) ? [{ ...base, kind: 'recursion' }] : [];
-}
-
-function checkNode(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): Problem[] {
-  const node = diagram.nodes[id];
-  if (!node) return [];
-  const spec = specOf(vocabulary, node);
-  if (!spec) return [{ kind: 'unknown-type', severity: 'error', node: id, values: { type: node.type } }];
-  return [
-    ...checkChildren(id, node, spec),
-    ...checkSubtree(diagram, id, node, vocabulary),
-    ...checkPorts(id, node, spec),
-  ];
-}
+/** Ports and scripts are looked at when a tree is built, which the engine does only where it is called. */
+const isOfBuilding = ({ kind }: Problem): boolean => /^BT0[23]/.test(CODES[kind][0] ?? '');
 
 /** Everything that can be said about a diagram without the server, in execution order. */
 export function findProblems(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
-  if (diagram.root === null && diagram.drafts.length === 0) {
-    return [{ kind: 'empty-tree', severity: 'note', node: null, values: {} }];
-  }
-  const drafts = new Set(diagram.drafts.flatMap((draft) => subtreeOf(diagram, draft)));
-  return preorder(diagram).flatMap((id) => {
-    if (!drafts.has(id)) return checkNode(diagram, id, vocabulary);
-    const note: Problem = { kind: 'draft', severity: 'note', node: id, values: {} };
-    return diagram.drafts.includes(id) ? [note] : [];
-  });
+  const runs = vocabulary.reachable.has(diagram.id);
+  const found = checkTree(diagram, vocabulary).map((problem) =>
+    runs || problem.severity !== 'error' || !isOfBuilding(problem)
+      ? problem
+      : { ...problem, severity: 'warning' as const },
+  );
+  const empty: Problem = { kind: 'empty-tree', severity: runs ? 'error' : 'note', node: null, values: {} };
+  const drafts = diagram.drafts.map((id): Problem => ({
+    kind: 'draft',
+    severity: 'note',
+    node: id,
+    values: {},
+  }));
+  return [...(diagram.root === null ? [empty] : []), ...found, ...drafts];
 }

@@ -21,6 +21,7 @@ import {
   type Recipe,
 } from './edits';
 import { acceptsChild, bestPlacement, canMorph, canMoveUnder, canUnwrap, canWrapIn } from './rules';
+import type { TreeFacts } from './treeFacts';
 import { makeVocabulary, readCatalog, type ActionDescription, type Vocabulary } from './vocabulary';
 
 const actions: ActionDescription[] = [
@@ -28,7 +29,7 @@ const actions: ActionDescription[] = [
     name: 'Turn',
     kind: 'Action',
     open: false,
-    ports: [{ name: 'ang_speed', direction: 'input', type: 'float' }],
+    ports: [{ name: 'ang_speed', direction: 'input', type: 'double' }],
   },
   { name: 'Free', kind: 'Action', open: true, ports: [] },
 ];
@@ -36,7 +37,26 @@ const actions: ActionDescription[] = [
 export const vocabulary: Vocabulary = makeVocabulary(
   readCatalog(document),
   actions,
-  new Map([['MainTree', new Set<string>()]]),
+  new Map<string, TreeFacts>([
+    ['MainTree', { calls: new Set(), ports: [] }],
+    [
+      'Inner',
+      {
+        calls: new Set(),
+        ports: [
+          {
+            name: 'far',
+            direction: 'input',
+            type: 'double',
+            default: null,
+            required: false,
+            description: '',
+          },
+        ],
+      },
+    ],
+  ]),
+  'MainTree',
 );
 
 const types = [...vocabulary.specs.keys()].filter((type) => type !== 'SubTree');

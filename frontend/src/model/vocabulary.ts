@@ -1,5 +1,6 @@
 import type { Diagram, DiagramNode } from './diagram';
-import type { PortDirection, PortSpec } from './ports';
+import { pointerOf, type PortDirection, type PortSpec } from './ports';
+import type { TreeFacts } from './treeFacts';
 
 export type Family = 'control' | 'decorator' | 'action' | 'condition' | 'subtree';
 
@@ -33,10 +34,13 @@ export interface ActionDescription {
   }[];
 }
 
-/** Everything that a node's type may be in one project, and which tree uses which. */
+/** Everything that a node's type may be in one project, and what is to be known of its trees. */
 export interface Vocabulary {
   readonly specs: ReadonlyMap<string, NodeSpec>;
-  readonly trees: ReadonlyMap<string, ReadonlySet<string>>;
+  readonly trees: ReadonlyMap<string, TreeFacts>;
+  readonly mainTree: string;
+  /** The trees that run: the main tree, and what it calls. */
+  readonly reachable: ReadonlySet<string>;
 }
 
 interface CatalogDocument {
@@ -67,7 +71,7 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
     maxChildren: node.children.max ?? Infinity,
     ports: node.ports as readonly PortSpec[],
     summary: node.summary,
-    open: node.kind === 'subtree',
+    open: node.kind === 'subtree' || node.type === 'TestNode',
     source: node.kind === 'subtree' ? 'subtree' : 'builtin',
   }));
 }
@@ -97,13 +101,14 @@ function actionSpec(action: ActionDescription): NodeSpec {
 export function makeVocabulary(
   catalog: readonly NodeSpec[],
   actions: readonly ActionDescription[] = [],
-  trees: ReadonlyMap<string, ReadonlySet<string>> = new Map(),
+  trees: ReadonlyMap<string, TreeFacts> = new Map(),
+  mainTree = '',
 ): Vocabulary {
   const specs = new Map<string, NodeSpec>();
   // A built-in of the same name wins, as in the engine's loader.
   for (const action of actions) specs.set(action.name, actionSpec(action));
   for (const spec of catalog) specs.set(spec.type, spec);
-  return { specs, trees };
+  return { specs, trees, mainTree, reachable: trees.has(mainTree) ? called(trees, mainTree) : new Set() };
 }
 
 export function specOf(vocabulary: Vocabulary, node: Pick<DiagramNode, 'type'>): NodeSpec | undefined {
@@ -112,15 +117,16 @@ export function specOf(vocabulary: Vocabulary, node: Pick<DiagramNode, 'type'>):
 
 /** Whether using `used` inside `user` would make a tree contain itself. */
 export function wouldRecurse(vocabulary: Vocabulary, user: string, used: string): boolean {
-  const seen = new Set<string>();
-  const open = [used];
-  for (let tree = open.pop(); tree !== undefined; tree = open.pop()) {
-    if (tree === user) return true;
-    if (seen.has(tree)) continue;
-    seen.add(tree);
-    open.push(...(vocabulary.trees.get(tree) ?? []));
+  return called(vocabulary.trees, used).has(user);
+}
+
+/** A tree with all that it calls, and what those call. */
+function called(trees: Vocabulary['trees'], start: string): ReadonlySet<string> {
+  const seen = new Set([start]);
+  for (const tree of seen) {
+    for (const next of trees.get(tree)?.calls ?? []) seen.add(next);
   }
-  return false;
+  return seen;
 }
 
 /** Blackboard keys that a diagram names in its ports, each with the types it is used as. */
@@ -132,8 +138,8 @@ export function blackboardKeys(
   for (const node of Object.values(diagram.nodes)) {
     const spec = specOf(vocabulary, node);
     for (const [name, text] of Object.entries(node.ports ?? {})) {
-      const key = /^\s*\$?\{\s*([^}\s]+)\s*\}\s*$/.exec(text)?.[1];
-      if (key === undefined) continue;
+      const key = pointerOf(text);
+      if (key === null) continue;
       const types = keys.get(key === '=' ? name : key) ?? new Set<string>();
       const type = spec?.ports.find((port) => port.name === name)?.type;
       if (type) types.add(type);

@@ -1,19 +1,25 @@
+import type { TFunction } from 'i18next';
 import { useTranslation } from 'react-i18next';
 import type { ShownProblem } from '@/store/project/problems';
+import { scriptText } from './scriptText';
 
 export interface ProblemText {
   readonly message: string;
   readonly hint: string;
 }
 
+function ownText(problem: ShownProblem & { source: 'editor' }, t: TFunction<'editor'>): ProblemText {
+  const script = problem.script && scriptText(problem.script, t);
+  const values = { ...problem.values, ...(script && { problem: script.message, advice: script.hint }) };
+  return {
+    message: t(`problem.${problem.kind}.message`, values),
+    hint: t(`problem.${problem.kind}.hint`, values),
+  };
+}
+
 /** The words of a finding: the editor's own are translated, the server's come as they are. */
 export function useProblemText(): (problem: ShownProblem) => ProblemText {
   const { t } = useTranslation('editor');
   return (problem) =>
-    problem.source === 'server'
-      ? { message: problem.message, hint: problem.hint }
-      : {
-          message: t(`problem.${problem.kind}.message`, problem.values),
-          hint: t(`problem.${problem.kind}.hint`, problem.values),
-        };
+    problem.source === 'server' ? { message: problem.message, hint: problem.hint } : ownText(problem, t);
 }

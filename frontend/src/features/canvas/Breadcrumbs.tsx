@@ -2,7 +2,7 @@ import { IconChevronRight } from '@tabler/icons-react';
 import { Fragment, memo, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { displayName, parentOf, type Diagram, type NodeId } from '@/model/diagram';
-import { treesUsed } from '@/model/diagram';
+import { treeFacts } from '@/model/treeFacts';
 import { openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import classes from './Canvas.module.css';
@@ -19,7 +19,7 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
   const owners: string[] = [];
   let tree = treeId;
   while (tree !== main) {
-    const user = Object.values(diagrams).find((each) => treesUsed(each).has(tree));
+    const user = Object.values(diagrams).find((each) => treeFacts(each).calls.has(tree));
     if (!user || owners.includes(user.id) || user.id === treeId) break;
     owners.unshift(user.id);
     tree = user.id;

@@ -86,7 +86,9 @@ export function ValueInput({ port, labelledBy, value, keys, error, onChange }: V
       {...(isNumber ? { inputMode: 'decimal' as const } : {})}
       onKeyDown={onKeyDown}
       onChange={(event) => {
-        onChange(event.currentTarget.value);
+        const text = event.currentTarget.value;
+        // An empty text is a text; of a number it is none.
+        onChange(isNumber && text === '' ? null : text);
       }}
     />
   );

@@ -66,7 +66,7 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
         ports:
           ports.length === 0
             ? [{ name: 'message', direction: 'input', type: 'str', default: name, required: false }]
-            : ports.map((port) => ({ name: port, direction: 'input', type: 'str' })),
+            : ports.map((port) => ({ name: port, direction: 'input', type: 'string' })),
       },
     ],
   });

@@ -1,9 +1,8 @@
 import { fixesFor, type Fix, type Making } from '@/model/fixes';
-import { findProblems } from '@/model/problems';
+import { CODES, findProblems } from '@/model/problems';
 import type { Diagnostic } from '@/api/types';
 import { createAction } from './actionTemplate';
 import { useProjectStore } from './index';
-import { CODES } from './problems';
 import { actionPath, treePath } from './state';
 
 const store = () => useProjectStore.getState();

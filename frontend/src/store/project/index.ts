@@ -229,7 +229,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const settings = get().settings;
       if (!settings || get().role === 'viewer') return;
       const next = { ...settings, ...patch };
-      set({ settings: next, mainTree: next.main_tree, name: next.name });
+      set((state) => knowing({ ...state, settings: next, mainTree: next.main_tree, name: next.name }));
       get().setFileText('project.json', `${JSON.stringify(next, null, 2)}\n`);
     },
 

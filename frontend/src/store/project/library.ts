@@ -1,5 +1,7 @@
 import { setPort } from '@/model/edits';
+import type { PortSpec } from '@/model/ports';
 import { parseDiagram } from '@/model/serialize';
+import { treeFacts } from '@/model/treeFacts';
 import { atPlaces, closureOf, planInsertion, type Sources } from '@/model/reuse';
 import { addHere, change } from './commands';
 import { useProjectStore } from './index';
@@ -61,17 +63,9 @@ function write(path: string, text: string): void {
   else addFile(path, text);
 }
 
-interface TreePort {
-  readonly name: string;
-  readonly direction?: string;
-  readonly default?: string;
-}
-
 /** The ports that a tree offers to who uses it as a subtree. */
-function portsOf(text: string | undefined): readonly TreePort[] {
-  if (text === undefined) return [];
-  const { ports } = parseDiagram(text) as unknown as { ports?: readonly TreePort[] };
-  return ports ?? [];
+function portsOf(text: string | undefined): readonly PortSpec[] {
+  return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
 
 /** Brings a behaviour into the project and hangs it into the active tree; answers its name here. */

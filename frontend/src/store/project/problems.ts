@@ -1,6 +1,6 @@
 import type { Diagnostic } from '@/api/types';
 import type { Diagram, NodeId } from '@/model/diagram';
-import { findProblems, type Problem, type Severity } from '@/model/problems';
+import { CODES, findProblems, type Problem, type Severity } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
 
 /** A finding of the editor's own checks, told at once, or of the server's, told after a save. */
@@ -15,24 +15,6 @@ export type ShownProblem =
       readonly message: string;
       readonly hint: string;
     };
-
-/** The server's codes for what `findProblems` finds too (translator/diagnostics.json). */
-export const CODES: Readonly<Record<Problem['kind'], readonly string[]>> = {
-  'empty-tree': ['BT0101', 'BT0115'],
-  'unknown-type': ['BT0102', 'BT0111', 'BT0112'],
-  'too-few-children': ['BT0104'],
-  'too-many-children': ['BT0104'],
-  'missing-tree': ['BT0501'],
-  'unknown-tree': ['BT0501'],
-  recursion: ['BT0502'],
-  'missing-port': ['BT0201'],
-  'unknown-port': ['BT0202'],
-  'unclosed-brace': ['BT0203'],
-  'empty-key': ['BT0207'],
-  'output-literal': ['BT0205'],
-  'wrong-type': ['BT0204'],
-  draft: ['BT0103'],
-};
 
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
   `${code} ${node ?? ''} ${port ?? ''}`;

@@ -1,6 +1,7 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
-import { treesUsed, type Diagram } from '@/model/diagram';
+import type { Diagram } from '@/model/diagram';
 import { emptyHistory, record } from '@/model/history';
+import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
 import { syncTrees } from './files';
@@ -32,11 +33,11 @@ export const initialData: ProjectData = {
   changeCounter: 0,
 };
 
-function sameUse(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
+function sameTrees(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
   if (a.size !== b.size) return false;
-  for (const [tree, used] of a) {
+  for (const [tree, facts] of a) {
     const other = b.get(tree);
-    if (other?.size !== used.size || [...used].some((id) => !other.has(id))) return false;
+    if (!other || !sameFacts(facts, other)) return false;
   }
   return true;
 }
@@ -45,11 +46,11 @@ const lastActions = new WeakMap<Vocabulary, ProjectData['actions']>();
 
 /** The vocabulary of what the project now holds; the same object while nothing in it changed. */
 function vocabularyOf(data: ProjectData): Vocabulary {
-  const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treesUsed(diagram)]));
-  if (lastActions.get(data.vocabulary) === data.actions && sameUse(data.vocabulary.trees, trees)) {
-    return data.vocabulary;
-  }
-  const vocabulary = makeVocabulary(catalog, data.actions, trees);
+  const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treeFacts(diagram)]));
+  const last = data.vocabulary;
+  const isSame = lastActions.get(last) === data.actions && last.mainTree === data.mainTree;
+  if (isSame && sameTrees(last.trees, trees)) return last;
+  const vocabulary = makeVocabulary(catalog, data.actions, trees, data.mainTree);
   lastActions.set(vocabulary, data.actions);
   return vocabulary;
 }

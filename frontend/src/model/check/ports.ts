@@ -1,0 +1,98 @@
+import type { DiagramNode, NodeId } from '../diagram';
+import { pointerOf, readPortText, type PortSpec } from '../ports';
+import { fit, partRead } from '../values';
+import type { NodeSpec } from '../vocabulary';
+import { atPort, type Problem } from './problem';
+
+/** Port values: `translator/check/port.py` in TypeScript. */
+
+const BROKEN = { unclosed: 'unclosed-brace', 'empty-key': 'empty-key', 'bad-key': 'bad-key' } as const;
+
+/** Braces that do not make a key. */
+export function checkBraces(id: NodeId, port: string, text: string): Problem[] {
+  const value = readPortText(text);
+  if (value.kind !== 'broken') return [];
+  return [atPort(BROKEN[value.reason], id, port, { text, key: pointerOf(text) ?? '' })];
+}
+
+/** A literal that is not of its port's type. */
+export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string): Problem[] {
+  const suits = fit(type, text);
+  if (suits === 'bad') return [atPort('wrong-type', id, name, { text, type })];
+  const part = partRead(type, text) ?? '';
+  return suits === 'loose' ? [atPort('read-in-part', id, name, { text, type, part }, 'warning')] : [];
+}
+
+/** What XML takes as the name of an attribute, without the colon of a namespace. */
+const XML_NAME = /^[\p{L}_][\p{L}\p{N}\p{M}._·-]*$/u;
+
+/** Whether a port may be called so; what begins with _ belongs to other programs. */
+export const isPortName = (name: string): boolean =>
+  XML_NAME.test(name) && !name.startsWith('_') && name !== 'name' && name !== 'ID';
+
+/** A port that is written may hold a literal where it is only read then, or names a key. */
+const takesLiteral = (node: DiagramNode, { direction, name }: PortSpec): boolean =>
+  direction === 'input' || (direction === 'inout' && (node.type.startsWith('Loop') || name === 'output_key'));
+
+function checkDeclared(id: NodeId, node: DiagramNode, port: PortSpec): Problem[] {
+  const text = node.ports?.[port.name];
+  if (text === undefined) {
+    const isMissing = port.required && port.default === null;
+    return isMissing ? [atPort('missing-port', id, port.name, { type: port.type })] : [];
+  }
+  if (port.type === 'script') return [];
+  const braces = checkBraces(id, port.name, text);
+  if (braces.length > 0 || pointerOf(text) !== null) return braces;
+  if (!takesLiteral(node, port)) return [atPort('output-literal', id, port.name, { text })];
+  return checkLiteral(id, port, text);
+}
+
+function checkUndeclared(
+  id: NodeId,
+  name: string,
+  text: string,
+  node: DiagramNode,
+  spec: NodeSpec,
+): Problem[] {
+  if (!spec.open) return [atPort('unknown-port', id, name, { type: node.type })];
+  return isPortName(name) ? checkBraces(id, name, text) : [atPort('bad-port-name', id, name)];
+}
+
+/** Names and values of the ports of a node that is no SubTree. */
+export function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
+  const declared = new Set(spec.ports.map((port) => port.name));
+  return [
+    ...spec.ports.flatMap((port) => checkDeclared(id, node, port)),
+    ...Object.entries(node.ports ?? {})
+      .filter(([name]) => !declared.has(name))
+      .flatMap(([name, text]) => checkUndeclared(id, name, text, node, spec)),
+  ];
+}
+
+/** The first typed use of an entry of the blackboard. */
+interface Use {
+  readonly type: string;
+  readonly label: string;
+}
+
+const UNTYPED = new Set(['any', 'script', 'status']);
+
+/** Makes a check that sees a tree's nodes in order, and tells entries that ports use with two types. */
+export function entryCheck(): (id: NodeId, node: DiagramNode, spec: NodeSpec) => Problem[] {
+  const entries = new Map<string, Use>();
+  const checkEntry = (id: NodeId, node: DiagramNode, port: PortSpec): Problem[] => {
+    const text = node.ports?.[port.name] ?? port.default;
+    const inner = text === null || UNTYPED.has(port.type) ? null : pointerOf(text);
+    if (inner === null) return [];
+    const key = inner === '=' ? port.name : inner;
+    const first = entries.get(key);
+    if (!first) entries.set(key, { type: port.type, label: `${node.name ?? node.type}, ${port.name}` });
+    if (!first || first.type === port.type || first.type === 'string') return [];
+    return [
+      atPort('two-types', id, port.name, { key, type: port.type, otherType: first.type, other: first.label }),
+    ];
+  };
+  // SetBlackboard copies a value of any type, although its port is a text in the catalogue.
+  return (id, node, spec) =>
+    node.type === 'SetBlackboard' ? [] : spec.ports.flatMap((port) => checkEntry(id, node, port));
+}

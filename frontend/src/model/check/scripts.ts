@@ -1,0 +1,24 @@
+import type { DiagramNode, NodeId } from '../diagram';
+import { pointerOf } from '../ports';
+import { isProblem, readScript } from '../script';
+import type { NodeSpec } from '../vocabulary';
+import { atPort, type Problem } from './problem';
+
+/** Scripts: `translator/check/script.py` in TypeScript. */
+
+function checkScript(id: NodeId, port: string, code: string): Problem[] {
+  const facts = readScript(code);
+  return isProblem(facts) ? [{ ...atPort('broken-script', id, port), script: facts }] : [];
+}
+
+/** Conditions of any node, and the ports that hold code; an empty port is nothing to do. */
+export function checkScripts(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): Problem[] {
+  const conditions = Object.entries(node.conditions ?? {}).flatMap(([name, code]) =>
+    code.trim() === '' ? [atPort('empty-script', id, name)] : checkScript(id, name, code),
+  );
+  const ports = (spec?.ports ?? []).flatMap(({ name, type }) => {
+    const code = type === 'script' ? (node.ports?.[name] ?? '') : '';
+    return code.trim() === '' || pointerOf(code) !== null ? [] : checkScript(id, name, code);
+  });
+  return [...conditions, ...ports];
+}

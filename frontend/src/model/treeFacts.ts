@@ -1,0 +1,62 @@
+import { subtreeOf, type Diagram } from './diagram';
+import type { PortDirection, PortSpec } from './ports';
+
+/** What the other trees of a project have to know of one. */
+export interface TreeFacts {
+  /** Trees that it calls when it runs; those of drafts do not count. */
+  readonly calls: ReadonlySet<string>;
+  /** Its model as a SubTree. */
+  readonly ports: readonly PortSpec[];
+}
+
+const DIRECTIONS: readonly string[] = ['input', 'output', 'inout'] satisfies PortDirection[];
+
+const text = (value: unknown): string => (typeof value === 'string' ? value : '');
+
+function portOf(value: unknown): PortSpec[] {
+  const row: Record<string, unknown> = typeof value === 'object' && value !== null ? { ...value } : {};
+  if (typeof row['name'] !== 'string') return [];
+  const direction = text(row['direction']);
+  return [
+    {
+      name: row['name'],
+      direction: DIRECTIONS.includes(direction) ? (direction as PortDirection) : 'input',
+      type: text(row['type']) || 'any',
+      default: typeof row['default'] === 'string' ? row['default'] : null,
+      required: row['required'] === true,
+      description: text(row['description']),
+    },
+  ];
+}
+
+function read(diagram: Diagram): TreeFacts {
+  const ids = diagram.root === null ? [] : subtreeOf(diagram, diagram.root);
+  const called = ids.flatMap((id) => {
+    const node = diagram.nodes[id];
+    return node?.type === 'SubTree' && node.tree ? [node.tree] : [];
+  });
+  const rows: readonly unknown[] = Array.isArray(diagram.ports) ? diagram.ports : [];
+  return { calls: new Set(called), ports: rows.flatMap(portOf) };
+}
+
+const known = new WeakMap<Diagram, TreeFacts>();
+
+/** Reads them once of each diagram, which never changes. */
+export function treeFacts(diagram: Diagram): TreeFacts {
+  const facts = known.get(diagram) ?? read(diagram);
+  known.set(diagram, facts);
+  return facts;
+}
+
+/** Whether a tree is to the others what it was. */
+export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
+  const isSamePort = (port: PortSpec, index: number): boolean =>
+    JSON.stringify(port) === JSON.stringify(b.ports[index]);
+  return (
+    a === b ||
+    (a.calls.size === b.calls.size &&
+      [...a.calls].every((tree) => b.calls.has(tree)) &&
+      a.ports.length === b.ports.length &&
+      a.ports.every(isSamePort))
+  );
+}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import warnings
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from translator.catalog import PortModel
 
 MAX_BYTES = 2 * 1024 * 1024
+KEPT_BYTES = 16 * 1024
+"""Longer sources are read anew each time, so that what is kept stays small."""
 KINDS = {"Action": "action", "SyncAction": "action", "Condition": "condition"}
 
 
@@ -70,6 +73,11 @@ class ActionModel:
 
 def inspect_action(source: str, filename: str) -> ActionModel:
     """Reads the source of an action; whatever it holds, a model comes back, with diagnostics."""
+    # Most projects are read again and again while one of their files changes.
+    return (_inspected if len(source) <= KEPT_BYTES else _inspect)(source, filename)
+
+
+def _inspect(source: str, filename: str) -> ActionModel:
     name = PurePosixPath(filename).stem
     broken = ActionModel(name=name, source=source, path=filename)
     if len(source) > MAX_BYTES:
@@ -92,6 +100,9 @@ def inspect_action(source: str, filename: str) -> ActionModel:
     except RecursionError:
         place = Place(filename, line=1)
         return _with(broken, diagnostic("BT0601", place, problem="it is nested too deeply"))
+
+
+_inspected = lru_cache(maxsize=1024)(_inspect)
 
 
 def _with(model: ActionModel, found: Diagnostic) -> ActionModel:

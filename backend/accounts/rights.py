@@ -10,12 +10,12 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, Final
 
-from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
 from django.db import transaction
 from django.dispatch import Signal
 
 from backend.config.environment import environment
+from backend.config.telling import tell
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable
@@ -39,8 +39,7 @@ def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> Non
 
 def _tell(user_id: int | None, project_id: UUID | None) -> None:
     lessened.send(None, user_id=user_id, project_id=project_id)
-    notice = {"type": GROUP, "user_id": user_id}
-    async_to_sync(get_channel_layer().group_send)(GROUP, notice)
+    tell(GROUP, {"type": GROUP, "user_id": user_id})
 
 
 @asynccontextmanager

@@ -16,8 +16,9 @@ django.setup()
 
 from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up first
 from channels.routing import ProtocolTypeRouter  # noqa: E402
-from django.core.handlers.asgi import ASGIHandler  # noqa: E402
 
+from backend.config import telling  # noqa: E402
+from backend.config.handler import ThreadedHandler  # noqa: E402
 from backend.config.probes import probed  # noqa: E402
 from backend.config.sockets import Route, serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
@@ -34,6 +35,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
     while True:
         message = await receive()
         if message["type"] == "lifespan.startup":
+            telling.serve(asyncio.get_running_loop())
             await sync_to_async(end_orphans)()
             care = asyncio.create_task(care_for_ever())
             await send({"type": "lifespan.startup.complete"})
@@ -41,6 +43,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
             if care is not None:
                 care.cancel()
             await sync_to_async(end_all_sessions)()
+            telling.serve(None)
             await send({"type": "lifespan.shutdown.complete"})
             return
 
@@ -59,5 +62,5 @@ async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASG
 
 
 application: ASGI3Application = probed(
-    ProtocolTypeRouter({"http": ASGIHandler(), "websocket": sockets, "lifespan": lifespan})
+    ProtocolTypeRouter({"http": ThreadedHandler(), "websocket": sockets, "lifespan": lifespan})
 )

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
 from http.cookies import CookieError, SimpleCookie
 from ipaddress import ip_address
-from typing import Final
+from typing import TYPE_CHECKING, Final
 from urllib.parse import urlencode
 
-from asgiref.sync import iscoroutinefunction, markcoroutinefunction
 from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
-from django.http.response import HttpResponseBase
 from django.shortcuts import render
 
 from backend.accounts.audit import client_address
@@ -18,6 +15,11 @@ from backend.accounts.middleware import PAGES
 from backend.config import guard
 from backend.config.environment import environment
 from backend.config.problems import problem, problem_response
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from django.http.response import HttpResponseBase
 
 CONTENT_SECURITY_POLICY: Final = "; ".join(
     (
@@ -52,35 +54,15 @@ def page_policy() -> str:
     return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
 
 
-GetResponse = Callable[[HttpRequest], HttpResponseBase | Awaitable[HttpResponseBase]]
-
-
 class Middleware:
-    """A middleware whose hooks do no I/O: one body serves the sync and the async chain."""
+    """A middleware that looks at requests and answers."""
 
-    sync_capable = True
-    async_capable = True
-
-    def __init__(self, get_response: GetResponse) -> None:
+    def __init__(self, get_response: Callable[[HttpRequest], HttpResponseBase]) -> None:
         self.get_response = get_response
-        self._is_async = iscoroutinefunction(get_response)
-        if self._is_async:
-            markcoroutinefunction(self)
 
-    def __call__(self, request: HttpRequest) -> HttpResponseBase | Awaitable[HttpResponseBase]:
+    def __call__(self, request: HttpRequest) -> HttpResponseBase:
         """Django's entry."""
-        early = self.before(request)
-        if self._is_async:
-            return self._async(request, early)
-        answer = early or self.get_response(request)
-        assert isinstance(answer, HttpResponseBase)  # noqa: S101 - the sync chain
-        return self.after(request, answer)
-
-    async def _async(self, request: HttpRequest, early: HttpResponseBase | None) -> HttpResponseBase:
-        if early is None:
-            answer = self.get_response(request)
-            early = answer if isinstance(answer, HttpResponseBase) else await answer
-        return self.after(request, early)
+        return self.after(request, self.before(request) or self.get_response(request))
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
         """May answer in place of the view."""

@@ -96,6 +96,17 @@ def _article(role: Role) -> str:
     return {Role.VIEWER: "a viewer", Role.EDITOR: "an editor", Role.OWNER: "the owner"}[role]
 
 
+def find_role(project: Project, user: User) -> None:
+    """Notes the user's role as `with_role` does; their own projects cost no query."""
+    if project.owner_id == user.pk:
+        project.owner, project.rank = user, Role.OWNER.value  # type: ignore[attr-defined]
+        return
+    rows = with_role(Project.objects.filter(pk=project.pk), user).select_related("owner")
+    found = rows.first()
+    if found is not None:
+        project.owner, project.rank = found.owner, found.rank  # type: ignore[attr-defined]
+
+
 def with_role(rows: QuerySet[Project], user: User) -> QuerySet[Project]:
     """The same projects, each with the user's role as `rank`, in one query."""
     if user.is_guest:

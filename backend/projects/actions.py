@@ -13,7 +13,7 @@ from backend.accounts.audit import forget_old, note
 from backend.config.environment import environment
 from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError, NotFoundError
-from backend.projects import names, queries
+from backend.projects import kept, names, queries
 from backend.projects.access import Need
 from backend.projects.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.errors import (
@@ -279,6 +279,7 @@ def _apply(
     paths = [change.path for change in wanted]
     Draft.objects.filter(project=project, author=acting_user, path__in=paths).delete()
     if result.is_empty:
+        project.now = current
         return
     manifest = _manifest_after(result)
     size = _size_after(project, current, result)
@@ -288,6 +289,8 @@ def _apply(
         project=project, number=number, author=acting_user, message=message[:500], created_at=now
     )
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
+    for content in contents.values():
+        kept.put(content.sha256, content.data)
     Blob.objects.bulk_create(
         # In one order, so that two saves of the same blobs never wait for each other.
         [Blob(sha256=sha256, size=c.size, data=c.data) for sha256, c in sorted(contents.items())],
@@ -300,8 +303,23 @@ def _apply(
             for w in result.written
         ]
     )
-    touched = {*result.removed, *(w.path for w in result.written)} & set(current)
-    CurrentFile.objects.filter(project=project, path__in=touched).delete()
+    _replace_current(project, current, result, number, now)
+    project.revision, project.size, project.updated_at = number, size, now
+    if manifest is None:
+        Project.objects.filter(pk=project.pk).update(revision=number, size=size, updated_at=now)
+        return
+    project.name, project.name_key = manifest.name, names.key(manifest.name)
+    project.description = manifest.description
+    project.main_tree, project.universe = manifest.main_tree, manifest.universe
+    fields = ["name", "name_key", "description", "main_tree", "universe"]
+    _save_name(project, update_fields=["revision", "size", "updated_at", *fields])
+
+
+def _replace_current(
+    project: Project, current: Mapping[str, Existing], result: Plan, number: int, now: datetime
+) -> None:
+    if result.removed:
+        CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
     CurrentFile.objects.bulk_create(
         [
             CurrentFile(
@@ -313,16 +331,13 @@ def _apply(
                 blob_id=w.sha256,
             )
             for w in result.written
-        ]
+        ],
+        update_conflicts=True,
+        unique_fields=["project", "path_key"],
+        update_fields=["path", "revision", "updated_at", "blob"],
     )
-    project.revision, project.size, project.updated_at = number, size, now
-    fields = ["revision", "size", "updated_at"]
-    if manifest is not None:
-        project.name, project.name_key = manifest.name, names.key(manifest.name)
-        project.description = manifest.description
-        project.main_tree, project.universe = manifest.main_tree, manifest.universe
-        fields += ["name", "name_key", "description", "main_tree", "universe"]
-    _save_name(project, update_fields=fields)
+    left = {path: existing for path, existing in current.items() if path not in result.removed}
+    project.now = left | {w.path: Existing(w.path, number, w.sha256, w.size) for w in result.written}
 
 
 def _manifest_after(result: Plan) -> Manifest | None:

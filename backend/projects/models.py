@@ -9,6 +9,7 @@ stored once. The table of current files answers "open this project" in one query
 from __future__ import annotations
 
 import uuid
+from typing import TYPE_CHECKING
 
 from django.conf import settings
 from django.db import models
@@ -17,6 +18,11 @@ from django.db.models import Q
 from backend.accounts.models import Group
 from backend.projects.choices import SHARED_ROLES, Role
 from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from backend.projects.changes import Existing
 
 
 class Blob(models.Model):
@@ -44,8 +50,10 @@ class Project(models.Model):
     archived_at = models.DateTimeField(null=True, blank=True)
     deleted_at = models.DateTimeField(null=True, blank=True)
 
-    # No column: what the user who asked may do with it, as `queries` found out.
+    # No columns: what the user who asked may do with it, as `queries` found out; and its files,
+    # as the write left them that this row comes from.
     role: Role = Role.OWNER
+    now: Mapping[str, Existing] | None = None
 
     class Meta:
         constraints = [

@@ -8,11 +8,11 @@ from __future__ import annotations
 from contextlib import asynccontextmanager
 from typing import TYPE_CHECKING, Any, Final
 
-from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
 from django.db import transaction
 from django.db.models.signals import post_save
 
+from backend.config.telling import tell
 from backend.projects.models import ChangeSet
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ def _announce_later(sender: object, *, instance: ChangeSet, created: bool, **_: 
     }
     group = group_of(instance.project_id)
     # Robust: a lost notice must not make a save that is stored look as if it had failed.
-    transaction.on_commit(lambda: async_to_sync(get_channel_layer().group_send)(group, notice), robust=True)
+    transaction.on_commit(lambda: tell(group, notice), robust=True)
 
 
 def group_of(project_id: UUID) -> str:

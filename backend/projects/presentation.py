@@ -9,6 +9,7 @@ from backend.projects.checking import report
 from backend.projects.manifest import MANIFEST, read
 
 if TYPE_CHECKING:
+    from backend.projects.changes import Existing
     from backend.projects.models import ChangeSet, Draft, Project
     from backend.projects.queries import StoredFile
 
@@ -35,16 +36,23 @@ def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, 
 
 def file(stored: StoredFile) -> dict[str, Any]:
     """A file with its content."""
-    return file_info(stored) | {"updated_at": stored.updated_at.isoformat(), "content": stored.text}
-
-
-def file_info(stored: StoredFile) -> dict[str, Any]:
-    """A file without its content."""
     return {
         "path": stored.path,
         "revision": stored.revision,
         "size": len(stored.data),
         "sha256": stored.sha256,
+        "updated_at": stored.updated_at.isoformat(),
+        "content": stored.text,
+    }
+
+
+def file_info(existing: Existing) -> dict[str, Any]:
+    """A file without its content."""
+    return {
+        "path": existing.path,
+        "revision": existing.revision,
+        "size": existing.size,
+        "sha256": existing.sha256,
     }
 
 
@@ -63,11 +71,11 @@ def detail(project: Project) -> dict[str, Any]:
 
 def changed(project: Project) -> dict[str, Any]:
     """A project after a change set."""
-    files = queries.current_files(project)
-    found = report({path: stored.data for path, stored in files.items()})
+    files = queries.existing_files(project)
+    found = report(queries.contents(project))
     return {
         "revision": project.revision,
-        "files": [file_info(stored) for stored in files.values()],
+        "files": [file_info(files[path]) for path in sorted(files)],
         "actions": found.actions,
         "diagnostics": found.diagnostics,
     }

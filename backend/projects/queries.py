@@ -12,7 +12,7 @@ from django.db.models.functions import Concat, Lower
 
 from backend import __version__
 from backend.config.problems import NotFoundError
-from backend.projects import access, names
+from backend.projects import access, kept, names
 from backend.projects.access import Need
 from backend.projects.changes import Existing
 from backend.projects.choices import Role
@@ -78,10 +78,12 @@ def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> 
         NotFoundError: there is none, or none that this user may know of.
         RoleTooLowError: the user may see it, but not do this.
     """
-    rows = Project.objects.select_related("owner")
+    rows = Project.objects.filter(id=project_id, deleted_at=None)
     if lock:
         rows = rows.select_for_update(of=("self",))
-    found = access.with_role(rows.filter(id=project_id, deleted_at=None), user).first()
+    found = next(iter(rows), None)
+    if found is not None:
+        access.find_role(found, user)
     return access.gate(found, user=user, need=need)
 
 
@@ -147,7 +149,9 @@ def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
 
 
 def existing_files(project: Project) -> dict[str, Existing]:
-    """The current files without their bytes."""
+    """The current files without their bytes; those that the write left which `project` comes from."""
+    if project.now is not None:
+        return dict(project.now)
     rows = CurrentFile.objects.filter(project=project).values_list(
         "path", "revision", "blob_id", "blob__size"
     )
@@ -155,17 +159,20 @@ def existing_files(project: Project) -> dict[str, Existing]:
 
 
 def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
-    """The current files (all, or these) with their bytes, in one query, in the order of their paths."""
+    """The current files (all, or these) with their bytes, in the order of their paths: one query or two."""
     rows = CurrentFile.objects.filter(project=project)
     if paths is not None:
         rows = rows.filter(path__in=paths)
-    fields = rows.order_by("path").values_list("path", "revision", "blob_id", "updated_at", "blob__data")
-    return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in fields}
+    fields = list(rows.order_by("path").values_list("path", "revision", "blob_id", "updated_at"))
+    data = kept.contents(row[2] for row in fields)
+    return {row[0]: StoredFile(*row, data=data[row[2]]) for row in fields}
 
 
 def contents(project: Project) -> dict[str, bytes]:
     """The bytes of the current files, as the translator takes them."""
-    return {path: file.data for path, file in current_files(project).items()}
+    files = existing_files(project)
+    data = kept.contents(file.sha256 for file in files.values())
+    return {path: data[files[path].sha256] for path in sorted(files)}
 
 
 def change_set(project: Project, number: int) -> ChangeSet:

@@ -29,6 +29,7 @@ export function checkSchema(value: Json, root: Schema, schema: Schema = root, pa
     const tried = (kinds as Schema[]).map((kind) => checkSchema(value, root, kind, path));
     return tried.some((found) => found.length === 0) ? [] : (tried[0] ?? []);
   }
+  if (Array.isArray(schema['oneOf'])) return checkChosen(value, root, schema, path);
   switch (schema['type']) {
     case 'null':
       return value === null ? [] : [issue(path, 'number')];
@@ -43,6 +44,21 @@ export function checkSchema(value: Json, root: Schema, schema: Schema = root, pa
     default:
       return checkNumber(value, schema, path);
   }
+}
+
+/** One of several kinds, told apart by a key of its own. */
+function checkChosen(value: Json, root: Schema, schema: Schema, path: Path): Issue[] {
+  if (!isObject(value)) return [issue(path, 'object')];
+  const { propertyName = 'kind', mapping = {} } = schema['discriminator'] as {
+    propertyName?: string;
+    mapping?: Readonly<Record<string, string>>;
+  };
+  const chosen = value[propertyName];
+  if (chosen === undefined) return [issue(path, 'missing', { name: propertyName })];
+  const reference =
+    typeof chosen === 'string' && Object.hasOwn(mapping, chosen) ? mapping[chosen] : undefined;
+  if (reference !== undefined) return checkSchema(value, root, definition(root, reference), path);
+  return [issue([...path, propertyName], 'choice', { choices: Object.keys(mapping).join(', ') })];
 }
 
 function definition(root: Schema, reference: string): Schema {
@@ -99,10 +115,13 @@ function checkString(value: Json, schema: Schema, path: Path): Issue[] {
 
 function checkNumber(value: Json, schema: Schema, path: Path): Issue[] {
   if (typeof value !== 'number' || !Number.isFinite(value)) return [issue(path, 'number')];
+  if (schema['type'] === 'integer' && !Number.isInteger(value)) return [issue(path, 'integer')];
   const low = schema['minimum'] as number | undefined;
   const above = schema['exclusiveMinimum'] as number | undefined;
   const high = (schema['maximum'] as number | undefined) ?? Infinity;
   if (above !== undefined && value <= above) return [issue(path, 'above', { above })];
+  const under = schema['exclusiveMaximum'] as number | undefined;
+  if (under !== undefined && value >= under) return [issue(path, 'under', { under })];
   if ((low !== undefined && value < low) || value > high) {
     return [issue(path, 'range', { low: low ?? above ?? '−∞', high })];
   }

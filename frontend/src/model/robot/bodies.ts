@@ -1,0 +1,31 @@
+import { splicedAll } from '../document/splice';
+import { escaped } from '../document/xml';
+import { append, removed } from '../document/xmlEdits';
+import { NOTHING, rounded, type RobotEdit } from './edits';
+import { bodiesOf, extentOf } from './solids';
+import type { Robot } from './types';
+import { geometryText, list } from './writing';
+
+/** Adds a shape to a link, seen and touched. */
+export function addBody(robot: Robot, name: string, shape: 'box' | 'cylinder' | 'sphere'): RobotEdit {
+  const link = robot.urdf.links.get(name);
+  if (!link) return NOTHING;
+  const { high } = extentOf(link);
+  const size = { box: [0.1, 0.1, 0.1], cylinder: [0.05, 0.1], sphere: [0.05] }[shape];
+  const origin = `<origin xyz="${list([0, 0, rounded(high[2] + 0.05)])}"/>`;
+  const geometry = `${origin}<geometry>${geometryText(shape, size)}</geometry>`;
+  const material = `<material name="${escaped(name)}_color_${bodiesOf(link).length}"><color rgba="${list([0.82, 0.84, 0.87, 1])}"/></material>`;
+  const text = `<visual>${geometry}${material}</visual>\n<collision>${geometry}</collision>`;
+  return { ops: [], urdf: splicedAll(robot.urdfText, [append(robot.urdfText, link.element, text)]) };
+}
+
+/** Takes a shape of a link out; the last one that can be seen of the base stays. */
+export function removeBody(robot: Robot, name: string, index: number): RobotEdit {
+  const link = robot.urdf.links.get(name);
+  const body = link && bodiesOf(link)[index];
+  if (!link || !body || (name === robot.urdf.root && bodiesOf(link).length === 1)) return NOTHING;
+  const splices = [body.visual, body.collision].flatMap((solid) =>
+    solid ? [removed(robot.urdfText, solid.element)] : [],
+  );
+  return { ops: [], urdf: splicedAll(robot.urdfText, splices) };
+}

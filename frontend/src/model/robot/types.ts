@@ -1,0 +1,50 @@
+/** Robots: how one drives and senses (`robot.yaml`), and its body (a URDF). SI units, frame of the root link. */
+
+import type { JsonObject, Pose } from '../document/values';
+import type { Urdf } from './urdf';
+
+export type SensorKind = 'lidar' | 'camera' | 'imu' | 'bumper' | 'battery';
+export const SENSOR_KINDS: readonly SensorKind[] = ['lidar', 'camera', 'imu', 'bumper', 'battery'];
+
+export interface Sensor {
+  readonly index: number;
+  readonly kind: SensorKind;
+  readonly name: string;
+  /** A battery sits at no link. */
+  readonly link: string | null;
+  readonly raw: JsonObject;
+}
+
+export type PartKind = 'base' | 'wheel' | 'caster' | 'link' | SensorKind;
+
+/** Something of a robot that can be selected. */
+export interface Part {
+  readonly key: string;
+  readonly kind: PartKind;
+  readonly name: string;
+  readonly link: string | null;
+  /** Links whose shapes this part shows: its own, unless another part shows it. */
+  readonly shows: string | null;
+  readonly sensor: Sensor | null;
+  readonly pose: Pose;
+}
+
+export interface Robot {
+  /** The value of `robot.yaml`. */
+  readonly raw: JsonObject;
+  readonly name: string;
+  readonly description: string;
+  readonly drive: JsonObject;
+  /** Joints of the driven wheels. */
+  readonly left: readonly string[];
+  readonly right: readonly string[];
+  readonly wheelRadius: number;
+  readonly track: number;
+  readonly sensors: readonly Sensor[];
+  readonly parts: readonly Part[];
+  readonly urdf: Urdf;
+  readonly urdfText: string;
+}
+
+export const partOf = (robot: Robot, key: string): Part | undefined =>
+  robot.parts.find((part) => part.key === key);

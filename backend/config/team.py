@@ -210,7 +210,14 @@ def postgresql(url: str) -> dict[str, Any]:
         "PASSWORD": unquote(parts.password or ""),
         "HOST": host,
         "PORT": str(parts.port or ""),
-        "OPTIONS": {"pool": pool, "application_name": "bt-studio"} | query,
+        # Most statements are of few kinds: PostgreSQL reads and plans each kind once.
+        "OPTIONS": {
+            "pool": pool,
+            "application_name": "bt-studio",
+            "server_side_binding": True,
+            "prepare_threshold": 3,
+        }
+        | query,
     }
 
 

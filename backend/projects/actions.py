@@ -13,7 +13,7 @@ from backend.accounts.audit import forget_old, note
 from backend.config.environment import environment
 from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError, NotFoundError
-from backend.projects import kept, names, queries
+from backend.projects import kept, names, queries, rows
 from backend.projects.access import Need
 from backend.projects.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.errors import (
@@ -23,8 +23,8 @@ from backend.projects.errors import (
     matches,
 )
 from backend.projects.manifest import MANIFEST, Manifest, read, write
-from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, IdempotencyKey, Project
-from backend.projects.signals import project_deleted
+from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, IdempotencyKey, Project
+from backend.projects.signals import project_deleted, revision_made
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -276,8 +276,7 @@ def _apply(
     result = plan(current, wanted)
     if result.conflicts:
         raise conflict_error(project, result.conflicts)
-    paths = [change.path for change in wanted]
-    Draft.objects.filter(project=project, author=acting_user, path__in=paths).delete()
+    rows.forget_drafts(project, acting_user.pk, [change.path for change in wanted])
     if result.is_empty:
         project.now = current
         return
@@ -285,59 +284,35 @@ def _apply(
     size = _size_after(project, current, result)
     number = project.revision + 1
     transaction_lock(BLOBS, shared=True)
-    change = ChangeSet.objects.create(
+    change = ChangeSet(
         project=project, number=number, author=acting_user, message=message[:500], created_at=now
     )
+    rows.add_change(change)
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
     for content in contents.values():
         kept.put(content.sha256, content.data)
-    Blob.objects.bulk_create(
-        # In one order, so that two saves of the same blobs never wait for each other.
-        [Blob(sha256=sha256, size=c.size, data=c.data) for sha256, c in sorted(contents.items())],
-        ignore_conflicts=True,
-    )
-    FileRevision.objects.bulk_create(
-        [FileRevision(change=change, path=path, blob=None) for path in result.removed]
-        + [
-            FileRevision(change=change, path=w.path, blob_id=w.sha256, renamed_from=w.renamed_from)
-            for w in result.written
-        ]
-    )
-    _replace_current(project, current, result, number, now)
+    rows.add_blobs((sha256, c.size, c.data) for sha256, c in contents.items())
+    removed = [(path, None, "") for path in result.removed]
+    rows.add_revisions(change, removed + [(w.path, w.sha256, w.renamed_from) for w in result.written])
+    if result.removed:
+        CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
+    rows.put_current(project, change, [(w.path, names.key(w.path), w.sha256) for w in result.written])
+    left = {path: existing for path, existing in current.items() if path not in result.removed}
+    project.now = left | {w.path: Existing(w.path, number, w.sha256, w.size) for w in result.written}
+    _advance(project, number, size, now, manifest)
+    revision_made.send(Project, change=change)
+
+
+def _advance(project: Project, number: int, size: int, now: datetime, manifest: Manifest | None) -> None:
     project.revision, project.size, project.updated_at = number, size, now
     if manifest is None:
-        Project.objects.filter(pk=project.pk).update(revision=number, size=size, updated_at=now)
+        rows.advance(project)
         return
     project.name, project.name_key = manifest.name, names.key(manifest.name)
     project.description = manifest.description
     project.main_tree, project.universe = manifest.main_tree, manifest.universe
     fields = ["name", "name_key", "description", "main_tree", "universe"]
     _save_name(project, update_fields=["revision", "size", "updated_at", *fields])
-
-
-def _replace_current(
-    project: Project, current: Mapping[str, Existing], result: Plan, number: int, now: datetime
-) -> None:
-    if result.removed:
-        CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
-    CurrentFile.objects.bulk_create(
-        [
-            CurrentFile(
-                project=project,
-                path=w.path,
-                path_key=names.key(w.path),
-                revision=number,
-                updated_at=now,
-                blob_id=w.sha256,
-            )
-            for w in result.written
-        ],
-        update_conflicts=True,
-        unique_fields=["project", "path_key"],
-        update_fields=["path", "revision", "updated_at", "blob"],
-    )
-    left = {path: existing for path, existing in current.items() if path not in result.removed}
-    project.now = left | {w.path: Existing(w.path, number, w.sha256, w.size) for w in result.written}
 
 
 def _manifest_after(result: Plan) -> Manifest | None:

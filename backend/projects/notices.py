@@ -10,33 +10,32 @@ from typing import TYPE_CHECKING, Any, Final
 
 from channels.layers import get_channel_layer
 from django.db import transaction
-from django.db.models.signals import post_save
 
 from backend.config.telling import tell
-from backend.projects.models import ChangeSet
+from backend.projects.signals import revision_made
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable
     from uuid import UUID
+
+    from backend.projects.models import ChangeSet
 
 KIND: Final = "revision"
 
 
 def watch_revisions() -> None:
     """From now on each change set is announced when it is committed."""
-    post_save.connect(_announce_later, sender=ChangeSet, dispatch_uid="announce_revision")
+    revision_made.connect(_announce_later, dispatch_uid="announce_revision")
 
 
-def _announce_later(sender: object, *, instance: ChangeSet, created: bool, **_: object) -> None:
-    if not created:
-        return
+def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
     notice = {
         "type": KIND,
-        "revision": instance.number,
-        "author": instance.author.username if instance.author else "",
-        "message": instance.message,
+        "revision": change.number,
+        "author": change.author.username if change.author else "",
+        "message": change.message,
     }
-    group = group_of(instance.project_id)
+    group = group_of(change.project_id)
     # Robust: a lost notice must not make a save that is stored look as if it had failed.
     transaction.on_commit(lambda: tell(group, notice), robust=True)
 

@@ -12,9 +12,8 @@ from django.db.models.functions import Concat, Lower
 
 from backend import __version__
 from backend.config.problems import NotFoundError
-from backend.projects import access, kept, names
+from backend.projects import access, kept, names, rows
 from backend.projects.access import Need
-from backend.projects.changes import Existing
 from backend.projects.choices import Role
 from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
 
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
+    from backend.projects.changes import Existing
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
@@ -152,10 +152,7 @@ def existing_files(project: Project) -> dict[str, Existing]:
     """The current files without their bytes; those that the write left which `project` comes from."""
     if project.now is not None:
         return dict(project.now)
-    rows = CurrentFile.objects.filter(project=project).values_list(
-        "path", "revision", "blob_id", "blob__size"
-    )
-    return {row[0]: Existing(*row) for row in rows}
+    return rows.existing(project)
 
 
 def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:

@@ -7,6 +7,8 @@ import random
 import signal
 import sqlite3
 import threading
+import time
+from contextlib import suppress
 
 import pytest
 import requests
@@ -47,25 +49,29 @@ class Storm:
         session = requests.Session()
         session.headers.update(self.server.headers)
         address = f"{self.server.base}/api/v1/projects/{project}"
-        revision = session.get(address).json()["revision"]
-        for number in range(100_000):
-            text = f"{self.name} {number}"
-            body = {
-                "files": [
-                    {"path": p, "base_revision": revision if revision > 1 else 0, "content": text}
-                    for p in FILES
-                ]
-            }
-            try:
-                answer = session.post(f"{address}/changes", json=body)
-            except requests.RequestException:
-                return
-            assert answer.status_code == 200, answer.text
-            revision = answer.json()["revision"]
-            self.acknowledged[project][revision] = text
-            self.saves += 1
-            if self.saves >= self.enough:
-                self.raging.set()
+        with suppress(requests.RequestException):  # the server was killed
+            revision = answered(session.get, address)["revision"]
+            for number in range(100_000):
+                text = f"{self.name} {number}"
+                base = revision if revision > 1 else 0
+                files = [{"path": p, "base_revision": base, "content": text} for p in FILES]
+                revision = answered(session.post, f"{address}/changes", json={"files": files})["revision"]
+                self.acknowledged[project][revision] = text
+                self.saves += 1
+                if self.saves >= self.enough:
+                    self.raging.set()
+
+
+def answered(ask, address, **options):
+    """The JSON of an answer; where the database is out of reach for a while (503), it is asked again."""
+    for _ in range(100):
+        answer = ask(address, timeout=TIMEOUT_S, **options)
+        if answer.status_code != 503:
+            break
+        log.warning("%s: %s", address, answer.text)
+        time.sleep(0.2)
+    assert answer.status_code == 200, (answer.status_code, answer.text)
+    return answer.json()
 
 
 def check(server, project, acknowledged):
@@ -73,7 +79,7 @@ def check(server, project, acknowledged):
     with requests.Session() as session:
         session.headers.update(server.headers)
         address = f"{server.base}/api/v1/projects/{project}"
-        newest = session.get(address, timeout=TIMEOUT_S).json()
+        newest = answered(session.get, address)
         assert max(acknowledged, default=1) <= newest["revision"] <= max(acknowledged, default=1) + 1
         now = {f["path"]: f["content"] for f in newest["files"]}
         assert len({now.get(path) for path in FILES}) == 1

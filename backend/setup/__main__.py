@@ -53,6 +53,7 @@ def main(arguments: list[str]) -> None:
         python_step(),
         packages_step(goal),
         own_package_step(),
+        bytecode_step(),
         node_step(),
         front_end_step(),
         tf2_step(),
@@ -149,7 +150,7 @@ def install_packages(lock: Path, build_lock: Path) -> None:
     """Installs the build tools by pip, and with them the lock; each file is checked by its hash."""
     pip = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run([*pip, "--require-hashes", "-r", str(build_lock)])
-    run([*uv_install(), "--require-hashes", "-r", str(lock)])
+    run([*uv_install(), "--compile-bytecode", "--require-hashes", "-r", str(lock)])
 
 
 def uv_install() -> list[str]:
@@ -165,6 +166,19 @@ def own_package_step() -> Step:
         [ROOT / "pyproject.toml"],
         VENV / "bin" / "bt-studio",
         lambda: run([*uv_install(), "--no-deps", "--no-build-isolation", "--editable", str(ROOT)]),
+    )
+
+
+def bytecode_step() -> Step:
+    """Our own modules, compiled: a session's processes start in half the time, also where none may write."""
+    packages = [ROOT / name for name in ("backend", "executor", "translator", "tree_gardener")]
+    compile_all = [str(PYTHON), "-m", "compileall", "-q", "-j", "0", *map(str, packages)]
+    return Step(
+        "bytecode",
+        "compiling BT Studio's own modules",
+        [source for package in packages for source in sorted(package.rglob("*.py"))],
+        VENV,
+        lambda: run(compile_all),
     )
 
 

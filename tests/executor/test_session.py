@@ -70,10 +70,12 @@ async def test_run_pause_step_resume_stop_and_run_again():
 
 async def settled(client):
     """Where the robot is when no pose is on its way any more."""
-    place = None
-    while place != (place := client.robot_position()) or place is None:
+    for _ in range(100):
+        place = client.robot_position()
         await asyncio.sleep(0.3)
-    return place
+        if place is not None and place == client.robot_position():
+            return place
+    raise TimeoutError("the robot never stands still")
 
 
 async def test_topics_are_listed_echoed_published_and_described():

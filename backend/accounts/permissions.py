@@ -44,7 +44,11 @@ class TeacherRequiredError(StudioError):
 
 
 class MayAsk(BasePermission):
-    """Users may ask anything; guests may read projects, and what a view says is `open_to_guests`."""
+    """Users may ask anything; guests may read projects, and what a view says is `open_to_guests`.
+
+    Of such a view they may use the methods that read, and POST where it says `guests_post`: what is asked
+    with a body because it is long, and changes nothing.
+    """
 
     def has_permission(self, request: Request, view: APIView) -> bool:
         """Raises what the user is told."""
@@ -52,9 +56,11 @@ class MayAsk(BasePermission):
         if not isinstance(user, User):
             raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")
         of_project = "project_id" in getattr(view, "kwargs", {})
-        if user.is_guest and not (
-            request.method in SAFE_METHODS and (of_project or getattr(view, "open_to_guests", False))
-        ):
+        is_open = of_project or getattr(view, "open_to_guests", False)
+        reads = request.method in SAFE_METHODS or (
+            request.method == "POST" and getattr(view, "guests_post", False)
+        )
+        if user.is_guest and not (reads and is_open):
             raise AccountRequiredError("You came by a read-only link.", hint="Sign in to do this.")
         return True
 

@@ -67,7 +67,10 @@ class ReadTreeDoneSerializer(TreeTextSerializer):
 
 
 class TreeXml(APIView):
-    """A tree as text."""
+    """A tree as text; who may read a project may read its trees so."""
+
+    open_to_guests = True
+    guests_post = True
 
     @extend_schema(
         operation_id="write_tree_xml",

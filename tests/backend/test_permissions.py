@@ -95,7 +95,7 @@ POLICY = {
     ("post", "/api/v1/groups/{group_id}/invitations"): (401, 403, 404, 403, 404, 404),
     ("delete", "/api/v1/invitations/{invitation_id}"): NOT_OWNED,
     ("post", "/api/v1/actions/inspect"): (401, 403, 200, 200, 200, 200),
-    ("post", "/api/v1/trees/xml"): PERSONAL,
+    ("post", "/api/v1/trees/xml"): OPEN,
     ("post", "/api/v1/trees/diagram"): PERSONAL,
     ("post", "/api/v1/python/format"): CONTAINED,
     ("post", "/api/v1/python/lint"): CONTAINED,

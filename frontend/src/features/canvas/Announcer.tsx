@@ -19,6 +19,7 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
   const diagram = useProjectStore((state) => state.diagrams[treeId]);
   const id = useProjectStore((state) => (state.activeTree === treeId ? state.selection[0] : undefined));
   const status = useLiveStore((state) => state.statuses.get(liveKey(treeId, id ?? '')) ?? 'IDLE');
+  const fault = useLiveStore((state) => state.faults.get(liveKey(treeId, id ?? '')));
   const textOf = useProblemText();
   const problem = problems.get(id ?? '');
   const node = id === undefined ? undefined : diagram?.nodes[id];
@@ -34,6 +35,7 @@ export const Announcer = memo(function Announcer({ treeId, problems }: Announcer
       ? t('announce.child', { ...ordinal(diagram, parent, id), parent: displayName(above) })
       : t('announce.root'),
     ...(status === 'IDLE' ? [] : [t(`status.${status}`)]),
+    ...(fault === undefined ? [] : [t('announce.fault', { message: fault })]),
     ...(problem ? [t('announce.problem', { message: textOf(problem).message })] : []),
     ...(node.disabled ? [t('announce.disabled')] : []),
   ];

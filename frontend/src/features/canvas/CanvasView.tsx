@@ -58,7 +58,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const { held, onDrag, onDrop } = useDragging(tree, root);
   const connecting = useConnecting(tree);
   const palette = usePaletteDrop(tree);
-  const viewport = useViewport(treeId, tree.layout);
+  const viewport = useViewport(treeId, tree.layout, tree.diagram);
   useReveal(treeId, tree.layout);
 
   const [projection] = useState(() => new FlowProjection());
@@ -128,7 +128,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       tabIndex={0}
       onKeyDown={(event) => {
         if (chosenEdge !== null && (event.key === 'Delete' || event.key === 'Backspace')) {
-          viewport.cut(chosenEdge.slice(chosenEdge.indexOf('-') + 1), layout);
+          viewport.cut(chosenEdge, layout);
           setChosenEdge(null);
           event.preventDefault();
         } else onCanvasKey(event);

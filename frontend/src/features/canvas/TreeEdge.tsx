@@ -7,7 +7,7 @@ import type { TreeEdge as TreeEdgeType } from './flow';
 import classes from './TreeEdge.module.css';
 
 function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
-  const { id, target, data, sourceX, sourceY, targetX, targetY, selected } = props;
+  const { target, data, sourceX, sourceY, targetX, targetY, selected } = props;
   const key = liveKey(data?.tree ?? '', data?.node ?? target);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
   const dx = useCarried((state) => (state.tops.has(target) ? state.dx : 0));
@@ -15,7 +15,6 @@ function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
   return (
     <g className={classes['edge']} data-status={status} data-selected={selected || undefined}>
       <BaseEdge
-        id={id}
         path={elbow(sourceX, sourceY, targetX + dx, targetY + dy, data?.isHorizontal ?? false)}
         interactionWidth={18}
       />

@@ -10,8 +10,6 @@ interface Carried {
 
 export const useCarried = create<Carried>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
 
-const childOf = (edge: string): NodeId => edge.slice(edge.indexOf('-') + 1);
-
 /**
  * Moves blocks with the hand that holds them. The browser moves what is drawn, by the property
  * `translate`, which React does not set: no block renders, however many are moved and however large
@@ -40,7 +38,7 @@ export class Hand {
       if (this.ids.has(element.dataset['id'] ?? '')) element.style.translate = by;
     }
     for (const element of this.canvas.querySelectorAll<SVGElement>('.react-flow__edge')) {
-      const child = childOf(element.dataset['id'] ?? '');
+      const child = element.dataset['id'] ?? '';
       if (this.ids.has(child) && !this.tops.has(child)) element.style.translate = by;
     }
   }

@@ -150,7 +150,8 @@ export class FlowProjection {
       return known;
     }
     return {
-      id: `${parent}-${child}`,
+      // A block has one parent: its own id names what leads to it.
+      id: child,
       type: 'tree',
       source: parent,
       target: child,

@@ -1,7 +1,7 @@
-import type { ReactFlowInstance, Viewport } from '@xyflow/react';
+import { useStoreApi, type ReactFlowInstance, type Viewport } from '@xyflow/react';
 import { useCallback, useMemo } from 'react';
-import type { NodeId } from '@/model/diagram';
-import type { Layout } from '@/model/layout';
+import type { Diagram, NodeId } from '@/model/diagram';
+import type { Box, Layout } from '@/model/layout';
 import { disconnect } from '@/store/project/commands';
 import type { BlockNode, TreeEdge } from './flow';
 
@@ -10,16 +10,38 @@ const viewports = new Map<string, Viewport>();
 
 export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3 } as const;
 
-export function useViewport(treeId: string, layout: Layout) {
+/** Below this zoom the names of blocks are hard to read. */
+const READABLE = 0.6;
+const EDGE = 48;
+
+/** The top of the tree, readable, near the edge that it grows from: how a tree begins that does not fit. */
+function atRoot(
+  { width, height }: { width: number; height: number },
+  root: Box,
+  isHorizontal: boolean,
+): Viewport {
+  const zoom = READABLE + 0.1;
+  return isHorizontal
+    ? { x: EDGE - root.x * zoom, y: height / 2 - (root.y + root.height / 2) * zoom, zoom }
+    : { x: width / 2 - (root.x + root.width / 2) * zoom, y: EDGE - root.y * zoom, zoom };
+}
+
+export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
+  const store = useStoreApi();
   const known = viewports.get(treeId);
   const isEmpty = layout.width === 0;
   const initial = useMemo(() => known ?? { x: 80, y: 80, zoom: 1 }, [known]);
 
   const onInit = useCallback(
     (flow: ReactFlowInstance<BlockNode, TreeEdge>) => {
-      if (!viewports.has(treeId) && !isEmpty) void flow.fitView(FIT);
+      if (viewports.has(treeId) || isEmpty) return;
+      const pane = store.getState();
+      const fits = Math.min(pane.width / layout.width, pane.height / layout.height) / (1 + FIT.padding);
+      const root = layout.positions[diagram.root ?? ''];
+      if (fits >= READABLE || !root) void flow.fitView(FIT);
+      else void flow.setViewport(atRoot(pane, root, diagram.layout === 'horizontal'));
     },
-    [treeId, isEmpty],
+    [store, treeId, isEmpty, layout, diagram],
   );
 
   const onMoveEnd = useCallback(

@@ -4,6 +4,7 @@ import {
   IconFileCode,
   IconFileText,
   IconGitFork,
+  IconHistory,
   IconPencil,
   IconStar,
   IconTrash,
@@ -11,12 +12,13 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { openRename } from '@/features/code/newFile';
+import { setScope } from '@/features/history/scope';
 import { undoNotification } from '@/features/projects/undoNotification';
 import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
-import { closeTab, openTab, type DocumentTab } from './tabs';
+import { closeTab, openTab, showPanel, type DocumentTab } from './tabs';
 
 interface ExplorerItemProps {
   readonly path: string;
@@ -57,6 +59,12 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
       undoLabel: t('undo'),
       undo: () => useProjectStore.getState().addFile(path, text),
     });
+  };
+
+  const showHistory = () => {
+    openTab(tab);
+    setScope('file');
+    showPanel('history');
   };
 
   return (
@@ -102,6 +110,9 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
                 {t('explorer.rename')}
               </Menu.Item>
             ) : null}
+            <Menu.Item disabled={isBinary} leftSection={<IconHistory size={16} />} onClick={showHistory}>
+              {t('explorer.history')}
+            </Menu.Item>
             <Menu.Item color="red" disabled={isMain} leftSection={<IconTrash size={16} />} onClick={remove}>
               {t('explorer.delete')}
             </Menu.Item>

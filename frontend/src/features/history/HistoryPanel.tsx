@@ -10,16 +10,15 @@ import { useComparison } from './compare';
 import { groupRevisions, type RevisionGroup } from './groups';
 import classes from './history.module.css';
 import { RevisionRow } from './RevisionRow';
+import { setScope, useScope } from './scope';
 import { useHistory } from './useHistory';
-
-type Scope = 'file' | 'project';
 
 /** Every state that the document in front, or the project, was saved in. */
 export function HistoryPanel() {
   const { t } = useTranslation('history');
   const panel = useRef<HTMLDivElement>(null);
   const isVisible = useVisible(panel);
-  const [scope, setScope] = useState<Scope>('file');
+  const scope = useScope((state) => state.scope);
   const front = useTabs((state) => state.front);
   const file = front?.kind === 'tree' ? treePath(front.id) : front?.kind === 'file' ? front.path : null;
   const path = scope === 'file' && file !== null ? file : '';
@@ -39,7 +38,7 @@ export function HistoryPanel() {
           fullWidth
           aria-label={t('scope.label')}
           value={path ? 'file' : 'project'}
-          onChange={(value) => setScope(value as Scope)}
+          onChange={(value) => setScope(value === 'project' ? 'project' : 'file')}
           data={[
             { value: 'file', label: name, disabled: file === null },
             { value: 'project', label: t('scope.project') },

@@ -2,9 +2,11 @@ import { IconAlertTriangle, IconInfoCircle } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { fixesFor } from '@/model/fixes';
+import { liveKey, useLiveStore } from '@/store/project/live';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { QuickFixes } from '@/ui/QuickFixes';
+import { FaultOfRun } from './FaultOfRun';
 import { useProblemText } from '@/ui/useProblemText';
 import classes from './Inspector.module.css';
 
@@ -14,7 +16,7 @@ interface NodeProblemsProps {
   readonly onFixed?: () => void;
 }
 
-/** What is wrong with the block and what to do, above its fields. */
+/** What is wrong with the block and what to do, above its fields; what failed in the last run first. */
 export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
@@ -23,9 +25,11 @@ export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
     () => problemsOf(diagram, vocabulary, diagnostics).filter((each) => each.node === id),
     [diagram, vocabulary, diagnostics, id],
   );
-  if (problems.length === 0) return null;
+  const fault = useLiveStore((state) => state.faults.get(liveKey(diagram.id, id)));
+  if (problems.length === 0 && fault === undefined) return null;
   return (
     <ul className={classes['problems']}>
+      {fault === undefined ? null : <FaultOfRun tree={diagram.id} id={id} message={fault} />}
       {problems.map((problem, index) => {
         const { message, hint } = textOf(problem);
         const Mark = problem.severity === 'note' ? IconInfoCircle : IconAlertTriangle;

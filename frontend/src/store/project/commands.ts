@@ -31,6 +31,7 @@ import {
 } from '@/model/rules';
 import type { QuickAddGoal } from './editor';
 import { useProjectStore } from './index';
+import { liveKey, useLiveStore } from './live';
 import { problemsOf } from './problems';
 import type { EditOptions } from './state';
 
@@ -47,6 +48,7 @@ export function hasProblem(id: NodeId | undefined): boolean {
   const diagram = activeDiagram();
   const { vocabulary, diagnostics } = store();
   if (!diagram || id === undefined) return false;
+  if (useLiveStore.getState().faults.has(liveKey(diagram.id, id))) return true;
   return problemsOf(diagram, vocabulary, diagnostics).some((problem) => problem.node === id);
 }
 

@@ -27,6 +27,10 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
+  const openProblems = () => {
+    useProjectStore.getState().select(tree, [id]);
+    setEditor({ fixing: id });
+  };
   return (
     <div
       className={`${classes['block']} ${isHorizontal ? classes['horizontal'] : ''}`}
@@ -53,17 +57,10 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       {fault !== undefined && (
         <ProblemMark
           problem={{ source: 'server', severity: 'error', node: id, code: '', message: fault, hint: '' }}
+          {...(inside ? {} : { onOpen: openProblems })}
         />
       )}
-      {fault === undefined && problem && (
-        <ProblemMark
-          problem={problem}
-          onOpen={() => {
-            useProjectStore.getState().select(tree, [id]);
-            setEditor({ fixing: id });
-          }}
-        />
-      )}
+      {fault === undefined && problem && <ProblemMark problem={problem} onOpen={openProblems} />}
       {data.look && (
         <button
           type="button"

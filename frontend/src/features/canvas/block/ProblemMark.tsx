@@ -9,7 +9,7 @@ const ICONS = { error: IconExclamationMark, warning: IconAlertTriangleFilled, no
 
 interface ProblemMarkProps {
   readonly problem: ShownProblem;
-  /** Shows what mends it; absent of what a run told. */
+  /** Shows it in full with what mends it; absent in a tree that is only looked into. */
   readonly onOpen?: () => void;
 }
 

@@ -1,0 +1,10 @@
+import { create } from 'zustand';
+
+type Scope = 'file' | 'project';
+
+/** Whether the history is that of the document in front or of the whole project. */
+export const useScope = create<{ readonly scope: Scope }>(() => ({ scope: 'file' }));
+
+export const setScope = (scope: Scope): void => {
+  useScope.setState({ scope });
+};

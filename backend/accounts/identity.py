@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
@@ -24,7 +25,7 @@ LINKS: Final = "links"
 def identify(cookies: Mapping[str, str]) -> User | None:
     """The local user, whoever is signed in, a guest with a link, or nobody."""
     if not environment().is_team:
-        return local_user()
+        return the_local_user()
     key = cookies.get(settings.SESSION_COOKIE_NAME)
     if not key:
         return None
@@ -36,6 +37,12 @@ def identify(cookies: Mapping[str, str]) -> User | None:
     if user is not None:
         user.links = links
     return user
+
+
+@lru_cache(maxsize=1)
+def the_local_user() -> User:
+    """On localhost nobody can change the one user, so one look is enough."""
+    return local_user()
 
 
 def _links(session: Any) -> frozenset[UUID]:

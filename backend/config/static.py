@@ -23,6 +23,12 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
         super().__init__(get_response, settings)
 
+    def __call__(self, request: HttpRequest) -> HttpResponse:
+        """Looks for files but where there are none."""
+        is_api = request.path_info.startswith("/api/")
+        answer: HttpResponse = self.get_response(request) if is_api else super().__call__(request)
+        return answer
+
     def immutable_file_test(self, path: str, url: str) -> bool:
         """Vite puts a hash of the content into the names of all assets."""
         return url.startswith("/assets/")

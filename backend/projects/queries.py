@@ -78,10 +78,7 @@ def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> 
         NotFoundError: there is none, or none that this user may know of.
         RoleTooLowError: the user may see it, but not do this.
     """
-    rows = Project.objects.filter(id=project_id, deleted_at=None)
-    if lock:
-        rows = rows.select_for_update(of=("self",))
-    found = next(iter(rows), None)
+    found = rows.project(project_id, lock=lock)
     if found is not None:
         access.find_role(found, user)
     return access.gate(found, user=user, need=need)

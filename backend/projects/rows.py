@@ -1,4 +1,4 @@
-"""The statements of a save, written once.
+"""The statements of a save, written out.
 
 Django's ORM puts each statement together anew whenever it is used. For these that cost more processor time
 than everything else that a save does, so they are plain SQL, in the dialect that SQLite and PostgreSQL share.
@@ -16,6 +16,7 @@ from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRev
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+    from uuid import UUID
 
     from django.db.models import Model
 
@@ -51,6 +52,13 @@ def _insert(
             cursor.execute(_insert_sql(model, fields, len(some), then), values)
             found = cursor.fetchone()[0] if then.startswith("RETURNING") else None
     return found
+
+
+def project(project_id: UUID, *, lock: bool = False) -> Project | None:
+    """A project that is not deleted; with `lock`, nobody else writes to it until the transaction ends."""
+    ending = " FOR UPDATE" if lock and connection.features.has_select_for_update else ""
+    sql = f"SELECT * FROM {_table(Project)} WHERE id = %s AND deleted_at IS NULL{ending}"  # noqa: S608
+    return next(iter(Project.objects.raw(sql, [_value(Project, "id", project_id)])), None)
 
 
 def existing(project: Project) -> dict[str, Existing]:

@@ -9,6 +9,7 @@ from django.conf import settings
 from django.test import Client
 
 from backend.accounts.actions import local_user
+from backend.accounts.identity import the_local_user
 from backend.config import guard
 from backend.config.environment import environment
 
@@ -58,6 +59,12 @@ def django_db_modify_db_settings(tmp_path_factory):
     if environment().is_postgresql:
         return
     settings.DATABASES["default"]["TEST"]["NAME"] = str(tmp_path_factory.mktemp("database") / "test.sqlite3")
+
+
+@pytest.fixture(autouse=True)
+def _the_local_user():
+    """Each test has a database, and so a local user, of its own."""
+    the_local_user.cache_clear()
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { useTabs } from '@/features/frame/tabs';
-import classes from './code.module.css';
+import frame from './editorFrame.module.css';
 import { marksFor } from './diagnostics';
 import { extensionsFor } from './extensions';
 import { isOurs, lintMarks, servedMark } from './findings';
@@ -70,8 +70,8 @@ export function CodeTab({ path }: CodeTabProps) {
     );
   }
   return (
-    <div className={classes['frame']}>
-      <div ref={host} className={classes['editor']} data-testid="code-editor" data-path={path} />
+    <div className={frame['frame']}>
+      <div ref={host} className={frame['editor']} data-testid="code-editor" data-path={path} />
       {path.endsWith('.py') ? <LanguageStatus path={path} /> : null}
     </div>
   );

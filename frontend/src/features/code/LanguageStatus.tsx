@@ -6,6 +6,7 @@ import { useLanguageStore, type LanguageState } from '@/store/language';
 import { retryLanguage } from './language/client';
 import { formatsOnSave, setFormatsOnSave } from './language/ruff';
 import classes from './code.module.css';
+import frame from './editorFrame.module.css';
 
 /** Under an editor of Python: whether there is help, and what to do when there is none. */
 export function LanguageStatus({ path }: { readonly path: string }) {
@@ -13,12 +14,7 @@ export function LanguageStatus({ path }: { readonly path: string }) {
   const state = useLanguageStore((store) => store.state);
   const [formats, setFormats] = useState(formatsOnSave);
   return (
-    <div
-      className={classes['language']}
-      data-state={state.kind}
-      data-testid="language-state"
-      data-path={path}
-    >
+    <div className={frame['bar']} data-state={state.kind} data-testid="language-state" data-path={path}>
       <span className={classes['languageText']} role="status">
         {textOf(state, t)}
       </span>

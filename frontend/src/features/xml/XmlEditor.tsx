@@ -1,19 +1,10 @@
-import {
-  closeBrackets,
-  closeBracketsKeymap,
-  autocompletion,
-  completionKeymap,
-} from '@codemirror/autocomplete';
-import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
-import { bracketMatching, foldGutter, foldKeymap, indentOnInput, indentUnit } from '@codemirror/language';
-import { lintGutter, lintKeymap, setDiagnostics } from '@codemirror/lint';
-import { search, searchKeymap } from '@codemirror/search';
+import { indentUnit } from '@codemirror/language';
+import { setDiagnostics } from '@codemirror/lint';
 import { Annotation, Compartment, EditorState, Transaction } from '@codemirror/state';
-import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from '@codemirror/view';
+import { EditorView } from '@codemirror/view';
 import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
-import { editorTheme } from '@/features/code/editorTheme';
-import { fontSizeKeys } from '@/features/code/fontSize';
+import { basics } from '@/features/code/basics';
 import { useProjectStore } from '@/store/project';
 import { problemsOf } from '@/store/project/problems';
 import type { XmlLink, XmlSnapshot } from '@/store/xml/link';
@@ -22,6 +13,7 @@ import { pieceThatDiffers } from './difference';
 import { findingMarks, problemMarks } from './marks';
 import { dimMetadata, hiddenMetadata, nodeAt, nodeRanges, rangesOf, setRanges, setSelected } from './ranges';
 import { treeXml } from './schema';
+import frame from '@/features/code/editorFrame.module.css';
 import classes from './xml.module.css';
 
 interface XmlEditorProps {
@@ -63,41 +55,24 @@ export function XmlEditor({ treeId, link, snapshot, showsMetadata }: XmlEditorPr
   useLook(view, showsMetadata);
   useSelection(view, treeId, snapshot);
   useMarks(view, treeId, snapshot);
-  return <div ref={host} className={classes['editor']} data-testid="xml-editor" data-tree={treeId} />;
+  return (
+    <div
+      ref={host}
+      className={`${frame['editor']} ${classes['editor']}`}
+      data-testid="xml-editor"
+      data-tree={treeId}
+    />
+  );
 }
 
 function extensions(label: string, link: XmlLink, treeId: string) {
   return [
-    lineNumbers(),
-    history(),
-    foldGutter(),
-    drawSelection(),
-    EditorState.readOnly.of(useProjectStore.getState().role === 'viewer'),
-    indentOnInput(),
-    bracketMatching(),
-    closeBrackets(),
-    autocompletion(),
-    highlightActiveLine(),
-    search({ top: true }),
-    lintGutter(),
+    basics(label),
     indentUnit.of('  '),
     language.of(treeXml(useProjectStore.getState().vocabulary)),
     metadata.of(hiddenMetadata),
     nodeRanges,
-    editorTheme,
     EditorView.lineWrapping,
-    EditorView.contentAttributes.of({ 'aria-label': label }),
-    keymap.of([
-      ...fontSizeKeys,
-      ...closeBracketsKeymap,
-      ...defaultKeymap,
-      ...searchKeymap,
-      ...historyKeymap,
-      ...foldKeymap,
-      ...completionKeymap,
-      ...lintKeymap,
-      indentWithTab,
-    ]),
     EditorView.updateListener.of((update) => {
       if (update.transactions.some((change) => change.annotation(fromTree))) return;
       if (update.docChanged) link.edited(update.state.doc.toString());

@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { XmlLink, type XmlSnapshot, type XmlState } from '@/store/xml/link';
 import { XmlEditor } from './XmlEditor';
+import editor from '@/features/code/editorFrame.module.css';
 import classes from './xml.module.css';
 
 const SHOWS_KEY = 'bts.xml.metadata';
@@ -34,7 +35,7 @@ function TreeXml({ projectId, treeId }: { readonly projectId: string; readonly t
   useEffect(() => link.start(), [link]);
   const { state } = snapshot;
   return (
-    <div className={classes['frame']}>
+    <div className={editor['frame']}>
       {state.kind === 'parted' ? <Parted link={link} /> : null}
       {state.kind === 'loading' ? (
         <Center flex={1}>
@@ -43,7 +44,7 @@ function TreeXml({ projectId, treeId }: { readonly projectId: string; readonly t
       ) : (
         <XmlEditor treeId={treeId} link={link} snapshot={snapshot} showsMetadata={shows} />
       )}
-      <div className={classes['bar']} data-testid="xml-state" data-state={state.kind}>
+      <div className={`${editor['bar']} ${classes['bar']}`} data-testid="xml-state" data-state={state.kind}>
         <StateIcon state={state} />
         <span className={classes['said']} role="status" title={sayState(snapshot, t)}>
           {sayState(snapshot, t)}

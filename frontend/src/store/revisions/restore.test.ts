@@ -1,37 +1,20 @@
 import { beforeEach, expect, it, vi } from 'vitest';
 import { api } from '@/api/client';
 import { revisions } from '@/api/revisions';
-import type { ProjectDetail } from '@/api/types';
 import { useProjectStore } from '@/store/project';
 import { treePath } from '@/store/project/state';
 import { catchUp } from '@/store/saving/live';
+import { oneBlock, projectDetail, projectFile } from '../testing';
 import { restoreRevision } from './restore';
 
 const ACTION = 'actions/Go.py';
 
-function diagram(type: string): string {
-  const nodes = { n1: { type } };
-  return JSON.stringify({ format: 'bt-studio/diagram', version: 1, id: 'Main', root: 'n1', nodes });
-}
-
-function detail(revision: number, type: string, source: string): ProjectDetail {
-  const file = (path: string, content: string) => ({ path, revision, size: 1, sha256: '', content });
-  return {
-    id: 'p1',
-    name: 'Test',
-    description: '',
-    main_tree: 'Main',
-    universe: '',
+const detail = (revision: number, type: string, source: string) =>
+  projectDetail(
     revision,
-    created_at: '',
-    updated_at: '',
-    root_diagram: null,
-    settings: { name: 'Test', main_tree: 'Main' },
-    files: [file(treePath('Main'), diagram(type)), file(ACTION, source)],
-    actions: [],
-    diagnostics: [],
-  };
-}
+    [projectFile(treePath('Main'), revision, oneBlock('Main', type)), projectFile(ACTION, revision, source)],
+    'Main',
+  );
 
 const store = () => useProjectStore.getState();
 const type = () => store().diagrams['Main']?.nodes['n1']?.type;

@@ -1,44 +1,11 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '@/api/client';
-import type { ProjectDetail, ProjectFile } from '@/api/types';
+import type { ProjectFile } from '@/api/types';
 import { useProjectStore } from '@/store/project';
+import { oneBlock, projectDetail, projectFile } from '../testing';
 import { catchUp } from './live';
 
-const file = (path: string, revision: number, content: string): ProjectFile => ({
-  path,
-  revision,
-  size: content.length,
-  sha256: '',
-  content,
-});
-
-const tree = (id: string, type: string) =>
-  JSON.stringify({
-    format: 'bt-studio/diagram',
-    version: 1,
-    id,
-    root: 'n1',
-    nodes: { n1: { type } },
-    drafts: [],
-  });
-
-function detail(revision: number, files: ProjectFile[]): ProjectDetail {
-  return {
-    id: 'p1',
-    name: 'Test',
-    description: '',
-    main_tree: 'Main',
-    universe: '',
-    revision,
-    created_at: '',
-    updated_at: '',
-    root_diagram: null,
-    settings: { name: 'Test', main_tree: 'Main' },
-    files,
-    actions: [],
-    diagnostics: [],
-  };
-}
+const detail = (revision: number, files: ProjectFile[]) => projectDetail(revision, files, 'Main');
 
 const store = () => useProjectStore.getState();
 const notice = (revision: number) =>
@@ -53,9 +20,9 @@ beforeEach(() => {
   onTaken.mockReset();
   store().load(
     detail(1, [
-      file('actions/Go.py', 1, 'go'),
-      file('actions/Turn.py', 1, 'turn'),
-      file('trees/Main.json', 1, tree('Main', 'Go')),
+      projectFile('actions/Go.py', 1, 'go'),
+      projectFile('actions/Turn.py', 1, 'turn'),
+      projectFile('trees/Main.json', 1, oneBlock('Main', 'Go')),
     ]),
   );
 });
@@ -63,9 +30,9 @@ beforeEach(() => {
 describe('a revision that was made elsewhere', () => {
   it('is taken over, with files that are new, changed and gone', async () => {
     serverHas(2, [
-      file('actions/Go.py', 2, 'go on'),
-      file('actions/New.py', 2, 'new'),
-      file('trees/Main.json', 2, tree('Main', 'Turn')),
+      projectFile('actions/Go.py', 2, 'go on'),
+      projectFile('actions/New.py', 2, 'new'),
+      projectFile('trees/Main.json', 2, oneBlock('Main', 'Turn')),
     ]);
     await catchUp('p1', notice(2), onTaken);
     expect(store().currentText('actions/Go.py')).toBe('go on');
@@ -80,9 +47,9 @@ describe('a revision that was made elsewhere', () => {
   it('leaves what is edited here alone, on its old base, so that saving asks', async () => {
     store().setFileText('actions/Go.py', 'mine');
     serverHas(2, [
-      file('actions/Go.py', 2, 'theirs'),
-      file('actions/Turn.py', 2, 'turned'),
-      file('trees/Main.json', 1, tree('Main', 'Go')),
+      projectFile('actions/Go.py', 2, 'theirs'),
+      projectFile('actions/Turn.py', 2, 'turned'),
+      projectFile('trees/Main.json', 1, oneBlock('Main', 'Go')),
     ]);
     await catchUp('p1', notice(2), onTaken);
     expect(store().currentText('actions/Go.py')).toBe('mine');
@@ -101,9 +68,9 @@ describe('a revision that was made elsewhere', () => {
   it('is no conflict when both sides wrote the same', async () => {
     store().setFileText('actions/Go.py', 'same');
     serverHas(2, [
-      file('actions/Go.py', 2, 'same'),
-      file('actions/Turn.py', 1, 'turn'),
-      file('trees/Main.json', 1, tree('Main', 'Go')),
+      projectFile('actions/Go.py', 2, 'same'),
+      projectFile('actions/Turn.py', 1, 'turn'),
+      projectFile('trees/Main.json', 1, oneBlock('Main', 'Go')),
     ]);
     await catchUp('p1', notice(2), onTaken);
     expect(store().pendingChanges()).toEqual([]);

@@ -1,8 +1,9 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
-import type { ChangesResult, FileChange, ProjectDetail } from '@/api/types';
+import type { ChangesResult, FileChange } from '@/api/types';
 import { useProjectStore } from '@/store/project';
+import { projectDetail, projectFile } from '../testing';
 import { saveNow, startAutosave, stopAutosave } from './autosave';
 import { resolveConflict, restoreDraft } from './conflicts';
 import { readDraft } from './drafts';
@@ -10,23 +11,8 @@ import { useSavingStore } from './store';
 
 const PATH = 'actions/Go.py';
 
-function detail(revision = 1, content = 'first'): ProjectDetail {
-  return {
-    id: 'p1',
-    name: 'Test',
-    description: '',
-    main_tree: 'MainTree',
-    universe: 'walled_room',
-    revision,
-    created_at: '',
-    updated_at: '',
-    root_diagram: null,
-    settings: { name: 'Test', main_tree: 'MainTree' },
-    files: [{ path: PATH, revision, size: content.length, sha256: '', content }],
-    actions: [],
-    diagnostics: [],
-  };
-}
+const detail = (revision = 1, content = 'first') =>
+  projectDetail(revision, [projectFile(PATH, revision, content)]);
 
 /** A server that keeps revisions and refuses stale bases, as ours does. */
 function fakeServer(initial: string) {

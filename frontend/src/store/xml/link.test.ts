@@ -1,40 +1,15 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { ApiError } from '@/api/errors';
 import { trees } from '@/api/trees';
-import type { ProjectDetail } from '@/api/types';
 import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
+import { oneBlock, projectDetail, projectFile } from '../testing';
 import { keptXml } from './kept';
 import { XmlLink } from './link';
 
 const TREE = 'MainTree';
 
-function project(): ProjectDetail {
-  const diagram = {
-    format: 'bt-studio/diagram',
-    version: 1,
-    id: TREE,
-    root: 'n1',
-    nodes: { n1: { type: 'A' } },
-  };
-  return {
-    id: 'p1',
-    name: 'Test',
-    description: '',
-    main_tree: TREE,
-    universe: '',
-    revision: 1,
-    created_at: '',
-    updated_at: '',
-    root_diagram: null,
-    settings: { name: 'Test', main_tree: TREE },
-    files: [
-      { path: `trees/${TREE}.json`, revision: 1, size: 1, sha256: '', content: JSON.stringify(diagram) },
-    ],
-    actions: [],
-    diagnostics: [],
-  };
-}
+const project = () => projectDetail(1, [projectFile(`trees/${TREE}.json`, 1, oneBlock(TREE, 'A'))]);
 
 /** A translator for trees of one block: `<type/>`, with a comment that stays in the text. */
 function translate() {

@@ -1,0 +1,42 @@
+import type { ProjectDetail, ProjectFile } from '@/api/types';
+
+/** A file as the server tells it. */
+export const projectFile = (path: string, revision: number, content: string): ProjectFile => ({
+  path,
+  revision,
+  size: content.length,
+  sha256: '',
+  content,
+});
+
+/** A diagram of one block. */
+export const oneBlock = (tree: string, type: string): string =>
+  JSON.stringify({
+    format: 'bt-studio/diagram',
+    version: 1,
+    id: tree,
+    root: 'n1',
+    nodes: { n1: { type } },
+    drafts: [],
+  });
+
+/** A project as the server tells it, for tests of the stores. */
+export const projectDetail = (
+  revision: number,
+  files: readonly ProjectFile[],
+  mainTree = 'MainTree',
+): ProjectDetail => ({
+  id: 'p1',
+  name: 'Test',
+  description: '',
+  main_tree: mainTree,
+  universe: '',
+  revision,
+  created_at: '',
+  updated_at: '',
+  root_diagram: null,
+  settings: { name: 'Test', main_tree: mainTree },
+  files: [...files],
+  actions: [],
+  diagnostics: [],
+});

@@ -17,6 +17,7 @@ from executor.world.objects import Kind, SceneObjects
 from executor.world.paint import texture_key, textures_of
 from executor.world.placement import put_at_rest
 from executor.world.randomize import draw
+from executor.world.rays import RayCaster
 from executor.world.robot import BulletRobot
 from executor.world.transforms import Pose, compose, from_xyz_rpy
 
@@ -164,6 +165,7 @@ class BulletWorld:
             robot.restore(saved, self.time_s)
         for actor, gait in zip(self._content.actors, state.actors, strict=True):
             actor.restore(gait)
+        self._rays.moved()
         self._poses = None
         self._collisions.clear()
 
@@ -191,6 +193,7 @@ class BulletWorld:
             elif body in self._content.bodies:
                 put_at_rest(self._bullet, self._content.bodies[body].uid, wanted)
                 self._objects.place(self._content.objects[body], wanted)
+                self._rays.moved()
             else:
                 raise WorldError(f"there is no body {body!r} that can be moved")
         self._poses = None
@@ -228,6 +231,7 @@ class BulletWorld:
         self._objects, self._content = SceneObjects(), _Content()
         universe, content = self._universe, self._content
         content.ground = make_ground(self._bullet, universe.ground.friction)
+        self._rays = RayCaster(self._bullet)
         for model in universe.models:
             if model.is_assembly:
                 self._add_assembly(model)
@@ -235,11 +239,16 @@ class BulletWorld:
                 self._add_model(model)
         content.actors = [BulletActor(self._bullet, actor) for actor in universe.actors]
         content.robots = [
-            BulletRobot(self._bullet, config, place, index=i, seed=self._seed)
+            BulletRobot(self._bullet, self._rays, config, place, index=i, seed=self._seed)
             for i, (config, place) in enumerate(zip(self._configs, universe.robots, strict=True))
         ]
         content.names.update({uid: actor.id for actor in content.actors for uid in actor.uids})
         content.names.update({robot.uid: robot.id for robot in content.robots})
+        for uid in [
+            *(uid for actor in content.actors for uid in actor.uids),
+            *(r.uid for r in content.robots),
+        ]:
+            self._rays.add_body(uid)
         self._scene = self._make_scene()
 
     def _set_up_physics(self) -> None:
@@ -256,14 +265,25 @@ class BulletWorld:
         kind: Kind = "dynamic" if body.is_dynamic else "static"
         object_id = self._objects.add(model.id, "", kind, [scene_shape(model)], from_xyz_rpy(model.pose))
         self._content.objects[model.id] = object_id
+        if model.solid:
+            self._show_to_rays(model, body)
         if body.is_dynamic:
             self._objects.add_mover(lambda: self._where(object_id, body.uid))
+
+    def _show_to_rays(self, model: Model, body: Body) -> None:
+        if model.shape == "box" and not body.is_dynamic:
+            self._rays.add_still_box(body.uid, model.size)
+        elif model.shape == "cylinder" and not body.is_dynamic:
+            self._rays.add_still_cylinder(body.uid, model.size[0], model.size[1])
+        else:
+            self._rays.add_body(body.uid)
 
     def _add_assembly(self, model: Model) -> None:
         made = Assembly(self._bullet, model, self._assemblies[model.file])
         made.add_to_scene(self._objects)
         self._content.assemblies[model.id] = made
         self._content.names[made.uid] = model.id
+        self._rays.add_body(made.uid)
 
     def _where(self, object_id: int, uid: int) -> Sequence[tuple[int, Pose]]:
         position, orientation = self._bullet.getBasePositionAndOrientation(uid)

@@ -1,4 +1,4 @@
-"""A LIDAR by ray casting, within the physics server."""
+"""A LIDAR by ray casting."""
 
 from __future__ import annotations
 
@@ -14,17 +14,25 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.robots.config import Lidar
-    from executor.world.engine import Bullet
+    from executor.world.rays import RayCaster
     from executor.world.transforms import Pose
 
 
 class LidarCaster:
-    """Casts the rays of one LIDAR; those of its own robot's group pass through the robot."""
+    """Casts the rays of one LIDAR, which pass through its own robot.
 
-    def __init__(self, bullet: Bullet, config: Lidar, filter_mask: int, seed: tuple[int, ...]) -> None:
-        self._bullet = bullet
+    Args:
+        rays: casts them.
+        config: how many, and how far.
+        own: the robot's body.
+        mask: Bullet's collision filter, in which the robot's group is missing.
+        seed: of the noise.
+    """
+
+    def __init__(self, rays: RayCaster, config: Lidar, own: int, mask: int, seed: tuple[int, ...]) -> None:
+        self._rays = rays
         self._config = config
-        self._mask = filter_mask
+        self._own, self._mask = own, mask
         self._seed = seed
         angles = config.angle_min + np.arange(config.rays) * config.angle_increment
         # A little longer than the range, so that what is just in range is never missed by rounding.
@@ -33,10 +41,8 @@ class LidarCaster:
 
     def scan(self, time_s: float, pose: Pose) -> LidarReading:
         """Measures from a pose."""
-        ends = (rotation(pose[3:]) @ self._directions).T + np.array(pose[:3])
-        starts = [list(pose[:3])] * self._config.rays
-        hits = self._bullet.rayTestBatch(starts, ends.tolist(), numThreads=1, collisionFilterMask=self._mask)
-        fractions = np.fromiter((hit[2] for hit in hits), np.float64, len(hits))
+        directions = rotation(pose[3:]) @ self._directions
+        fractions = self._rays.cast(pose[:3], directions, self._own, self._mask)
         return LidarReading(time_s, self._valid(fractions * self._reach, fractions < 1.0, time_s), pose)
 
     def _valid(

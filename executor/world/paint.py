@@ -49,7 +49,7 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
         if not key or key in found:
             continue
         try:
-            jpeg, tile = _shipped(thing.texture) if thing.texture in TEXTURES else _own(thing.texture, assets)
+            jpeg, tile = shipped(thing.texture) if thing.texture in TEXTURES else _own(thing.texture, assets)
         except PaintError as error:
             raise WorldError(f"the texture {thing.texture!r} of {name} cannot be used: {error}") from error
         found[key] = Texture(jpeg, list(thing.tile or tile))
@@ -113,7 +113,8 @@ def _jpeg(bgr: NDArray[np.uint8]) -> bytes:
 
 
 @functools.cache
-def _shipped(name: str) -> tuple[bytes, tuple[float, float]]:
+def shipped(name: str) -> tuple[bytes, tuple[float, float]]:
+    """Returns a texture of ours as JPEG, and the width and height in m that it covers."""
     draw, tile = _PAINTERS[name]
     rgb = np.clip(draw(np.random.default_rng(7)), 0.0, 1.0) * 255
     return _jpeg(np.ascontiguousarray(rgb[:, :, ::-1].round().astype(np.uint8))), tile

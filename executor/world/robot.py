@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from executor.world.imu import ImuReading
     from executor.world.interface import LidarReading
     from executor.world.objects import SceneObjects
+    from executor.world.rays import RayCaster
 
 DEFAULT_FRICTION: Final = 0.8
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
@@ -51,8 +52,15 @@ class _Saved:
 class BulletRobot:
     """A robot with a differential drive, made from its configuration."""
 
-    def __init__(
-        self, bullet: Bullet, config: RobotConfig, place: RobotPlace, *, index: int, seed: int
+    def __init__(  # noqa: PLR0913 - a robot, and what it stands in
+        self,
+        bullet: Bullet,
+        rays: RayCaster,
+        config: RobotConfig,
+        place: RobotPlace,
+        *,
+        index: int,
+        seed: int,
     ) -> None:
         self.id = place.id
         self.config = config
@@ -79,7 +87,7 @@ class BulletRobot:
         self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
         mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
         self._lidars = {
-            lidar.name: LidarCaster(bullet, lidar, mask, (seed, index, i))
+            lidar.name: LidarCaster(rays, lidar, self.uid, mask, (seed, index, i))
             for i, lidar in enumerate(config.lidars)
         }
         self._drive.observe(*self._wheel_angles(), 0.0)

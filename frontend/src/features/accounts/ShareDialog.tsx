@@ -1,21 +1,13 @@
-import {
-  ActionIcon,
-  Alert,
-  Avatar,
-  Button,
-  Group,
-  Modal,
-  Select,
-  Stack,
-  Text,
-  TextInput,
-} from '@mantine/core';
-import { IconLink, IconUsers, IconX } from '@tabler/icons-react';
+import { Alert, Avatar, Button, Group, Modal, Select, Stack, Text, TextInput } from '@mantine/core';
+import { IconLink, IconUsers } from '@tabler/icons-react';
 import { useMutation, useQuery, useQueryClient } from '@tanstack/react-query';
-import { useState, type FormEvent, type ReactNode } from 'react';
+import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { accounts, type SharedRole, type Shares } from './api';
+import { useProjectStore } from '@/store/project';
+import { accounts, type SharedRole } from './api';
 import { CopyRow } from './CopyRow';
+import { MakeOwner } from './MakeOwner';
+import { label, Row, SharedRows } from './SharedRows';
 
 interface ShareDialogProps {
   readonly projectId: string;
@@ -29,12 +21,12 @@ export function ShareDialog({ projectId, name, isOpen, onClose }: ShareDialogPro
   const { t } = useTranslation('accounts');
   return (
     <Modal opened={isOpen} onClose={onClose} title={t('share.title', { name })} size="lg" centered>
-      {isOpen ? <Sharing projectId={projectId} /> : null}
+      {isOpen ? <Sharing projectId={projectId} onClose={onClose} /> : null}
     </Modal>
   );
 }
 
-function Sharing({ projectId }: { readonly projectId: string }) {
+function Sharing({ projectId, onClose }: Pick<ShareDialogProps, 'projectId' | 'onClose'>) {
   const { t, i18n } = useTranslation('accounts');
   const queries = useQueryClient();
   const key = ['shares', projectId];
@@ -45,7 +37,16 @@ function Sharing({ projectId }: { readonly projectId: string }) {
     onSettled: () => queries.invalidateQueries({ queryKey: key }),
   });
   const run = (step: () => Promise<unknown>) => change.mutate(step);
-  const problem = change.error ?? error;
+  const [nextOwner, setNextOwner] = useState<string | null>(null);
+  const transfer = useMutation({
+    mutationFn: (username: string) => accounts.makeOwner(projectId, username),
+    onSuccess: () => {
+      onClose();
+      useProjectStore.setState({ role: 'editor' });
+      return queries.invalidateQueries({ queryKey: ['projects'] });
+    },
+  });
+  const problem = transfer.error ?? change.error ?? error;
   if (!data) return problem ? <Alert color="red">{problem.message}</Alert> : null;
   const addable = groups.filter((group) => !data.groups.some((shared) => shared.id === group.id));
   return (
@@ -68,8 +69,16 @@ function Sharing({ projectId }: { readonly projectId: string }) {
             {t('role.owner')}
           </Text>
         </Row>
-        <Shared shares={data} projectId={projectId} run={run} />
+        <SharedRows shares={data} projectId={projectId} run={run} onMakeOwner={setNextOwner} />
       </Stack>
+      {nextOwner === null ? null : (
+        <MakeOwner
+          who={nextOwner}
+          isBusy={transfer.isPending}
+          onConfirm={() => transfer.mutate(nextOwner)}
+          onCancel={() => setNextOwner(null)}
+        />
+      )}
       {addable.length > 0 ? (
         <Select
           placeholder={t('share.addGroup')}
@@ -104,104 +113,6 @@ function Sharing({ projectId }: { readonly projectId: string }) {
         </Text>
       </Stack>
     </Stack>
-  );
-}
-
-function label(person: { username: string; name: string }): string {
-  return person.name ? `${person.name} (${person.username})` : person.username;
-}
-
-interface SharedProps {
-  readonly shares: Shares;
-  readonly projectId: string;
-  readonly run: (step: () => Promise<unknown>) => void;
-}
-
-function Shared({ shares, projectId, run }: SharedProps) {
-  const { t } = useTranslation('accounts');
-  return (
-    <>
-      {shares.people.map((person) => (
-        <Row
-          key={person.username}
-          picture={<Avatar size="sm" name={person.username} color="initials" />}
-          name={label(person)}
-        >
-          <RoleSelect
-            value={person.role}
-            who={person.username}
-            onChange={(role) => run(() => accounts.shareWithPerson(projectId, person.username, role))}
-          />
-          <Remove
-            label={t('share.remove', { who: person.username })}
-            onClick={() => run(() => accounts.unshareWithPerson(projectId, person.username))}
-          />
-        </Row>
-      ))}
-      {shares.groups.map((group) => (
-        <Row key={group.id} picture={<IconUsers size={22} />} name={group.name}>
-          <RoleSelect
-            value={group.role}
-            who={group.name}
-            onChange={(role) => run(() => accounts.shareWithGroup(projectId, group.id, role))}
-          />
-          <Remove
-            label={t('share.remove', { who: group.name })}
-            onClick={() => run(() => accounts.unshareWithGroup(projectId, group.id))}
-          />
-        </Row>
-      ))}
-    </>
-  );
-}
-
-interface RowProps {
-  readonly picture: ReactNode;
-  readonly name: string;
-  readonly children: ReactNode;
-}
-
-function Row({ picture, name, children }: RowProps) {
-  return (
-    <Group component="li" gap={10} wrap="nowrap" mih={36}>
-      {picture}
-      <Text flex={1} truncate="end" title={name}>
-        {name}
-      </Text>
-      {children}
-    </Group>
-  );
-}
-
-interface RoleSelectProps {
-  readonly value: SharedRole;
-  readonly who: string;
-  readonly onChange: (role: SharedRole) => void;
-}
-
-function RoleSelect({ value, who, onChange }: RoleSelectProps) {
-  const { t } = useTranslation('accounts');
-  return (
-    <Select
-      size="xs"
-      w={140}
-      aria-label={t('share.roleOf', { who })}
-      allowDeselect={false}
-      data={[
-        { value: 'viewer', label: t('role.viewer') },
-        { value: 'editor', label: t('role.editor') },
-      ]}
-      value={value}
-      onChange={(role) => role && onChange(role as SharedRole)}
-    />
-  );
-}
-
-function Remove({ label: words, onClick }: { readonly label: string; readonly onClick: () => void }) {
-  return (
-    <ActionIcon aria-label={words} title={words} onClick={onClick}>
-      <IconX size={16} />
-    </ActionIcon>
   );
 }
 

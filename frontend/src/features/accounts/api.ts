@@ -49,6 +49,8 @@ export const accounts = {
     requestJson<Shares>(shares(projectId), { method: 'POST', body: { name, role } }),
   unshareWithPerson: (projectId: string, username: string) =>
     requestJson<undefined>(`${shares(projectId)}/people/${part(username)}`, { method: 'DELETE' }),
+  makeOwner: (projectId: string, name: string) =>
+    requestJson<Shares>(`/projects/${part(projectId)}/transfer`, { method: 'POST', body: { name } }),
   shareWithGroup: (projectId: string, groupId: string, role: SharedRole) =>
     requestJson<Shares>(`${shares(projectId)}/groups/${groupId}`, { method: 'PUT', body: { role } }),
   unshareWithGroup: (projectId: string, groupId: string) =>

@@ -48,6 +48,7 @@ export const theme = createTheme({
   cursorType: 'pointer',
   components: {
     Notification: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
+    Modal: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
     Tooltip: { defaultProps: { openDelay: 350, withArrow: true, fz: 'xs' } },
     ActionIcon: { defaultProps: { variant: 'subtle', color: 'gray' } },
     Button: { defaultProps: { size: 'sm' } },

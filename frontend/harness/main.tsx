@@ -22,7 +22,7 @@ setNavigator({
   openTree: (id) => {
     location.search = `?tree=${id}`;
   },
-  openFile: () => undefined,
+  openFile: () => undefined, aimAt: () => undefined,
 });
 Object.assign(window, { project: useProjectStore, live: useLiveStore });
 

@@ -89,7 +89,7 @@ describe('FileDialog', () => {
 
   it('makes an action from a template and opens it', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), openFile });
+    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), openFile });
     openNewFile('action');
     render(
       <MantineProvider env="test">

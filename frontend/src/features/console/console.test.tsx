@@ -103,7 +103,7 @@ describe('ConsolePanel', () => {
 
   it('opens the line that a link names', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), openFile });
+    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), openFile });
     act(() => {
       useSessionStore.setState(appendLogs(initialSession, [log('see Forward.py:12')]));
     });

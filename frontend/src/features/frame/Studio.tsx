@@ -30,7 +30,7 @@ import classes from './frame.module.css';
 import { loadLayout } from './layoutModel';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
-import { followFront, openTab, reopen, showPanel, useTabs } from './tabs';
+import { aimAt, followFront, openTab, reopen, showPanel, useTabs } from './tabs';
 import { TopBar } from './TopBar';
 import { useProject } from './useProject';
 import { Waiting } from './Waiting';
@@ -86,6 +86,7 @@ function Workbench({ projectId }: StudioProps) {
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
     return () => {

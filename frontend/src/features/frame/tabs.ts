@@ -61,11 +61,14 @@ export function openTab(tab: DocumentTab, line?: number): void {
   const id = tabId(tab);
   if (model.getNodeById(id)) model.doAction(Actions.selectTab(id));
   else model.doAction(Actions.addTab(jsonOf(tab), EDITORS, DockLocation.CENTER, -1, true));
-  if (tab.kind === 'file' && line) {
-    requests += 1;
-    useTabs.setState({ target: { path: tab.path, line, request: requests } });
-  }
+  if (tab.kind === 'file' && line) aimAt(tab.path, line);
   focusDocument(tab);
+}
+
+/** Has the editor that shows a file put its cursor on a line. */
+export function aimAt(path: string, line: number): void {
+  requests += 1;
+  useTabs.setState({ target: { path, line, request: requests } });
 }
 
 export function closeTab(tab: DocumentTab): void {

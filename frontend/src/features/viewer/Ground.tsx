@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from 'react';
 import * as THREE from 'three';
-import type { TextureCache } from './TextureCache';
+import type { Pictures } from './TextureCache';
 
 const SIDE_M = 200;
 
@@ -10,7 +10,7 @@ interface GroundProps {
   readonly isSimple: boolean;
   /** Name of the picture on it, among `textures`. */
   readonly picture?: string | undefined;
-  readonly textures?: TextureCache;
+  readonly textures?: Pictures;
 }
 
 /** The endless floor at z = 0. */
@@ -34,7 +34,7 @@ export function Ground({ color, isDark, isSimple, picture, textures }: GroundPro
 }
 
 /** The ground's picture, with a corner at the origin of the world; null until it is there. */
-function useGroundPicture(textures?: TextureCache, name = ''): THREE.Texture | null {
+function useGroundPicture(textures?: Pictures, name = ''): THREE.Texture | null {
   const [map, setMap] = useState<THREE.Texture | null>(null);
   useEffect(() => {
     let own: THREE.Texture | null = null;

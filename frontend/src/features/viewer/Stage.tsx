@@ -1,16 +1,14 @@
-import { OrbitControls } from '@react-three/drei/core/OrbitControls';
-import { useFrame, useThree } from '@react-three/fiber';
-import { useEffect, useMemo, useRef, type ComponentRef } from 'react';
+import { useFrame } from '@react-three/fiber';
+import { useEffect, useMemo, useRef } from 'react';
 import * as THREE from 'three';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { forEachPose, type Pose } from '@/store/session/poses';
 import { trail } from '@/store/session/trail';
-import { Ground } from './Ground';
 import { FramesView, FrustumView } from './HelperViews';
 import { LidarView } from './LidarView';
-import { Lights } from './Lights';
 import { MeasureLine } from './MeasureLine';
+import { Surroundings, useSight, type Orbit } from './Surroundings';
 import { TextureCache } from './TextureCache';
 import { TrailView } from './TrailView';
 import type { ViewOptions } from './viewOptions';
@@ -25,11 +23,6 @@ interface StageProps {
   readonly isDark: boolean;
 }
 
-const LOOKS = {
-  light: { sky: '#e6ebf3', gridMain: '#7c8598', gridLine: '#a3abbb' },
-  dark: { sky: '#151922', gridMain: '#8d96a8', gridLine: '#5b6474' },
-};
-
 /** What is drawn: the world, its light, and what helps to read it. */
 export function Stage({ scene, options, isDark }: StageProps) {
   const isSimple = isSoftwareWebGl();
@@ -43,8 +36,7 @@ export function Stage({ scene, options, isDark }: StageProps) {
   const trailView = useMemo(() => new TrailView(trail), []);
   const framesView = useMemo(() => new FramesView(scene, world), [scene, world]);
   const frustum = useMemo(() => new FrustumView(scene, world), [scene, world]);
-  const controls = useRef<ComponentRef<typeof OrbitControls>>(null);
-  const look = isDark ? LOOKS.dark : LOOKS.light;
+  const controls = useRef<Orbit | null>(null);
 
   useEffect(() => () => world.dispose(), [world]);
   useEffect(() => () => lidar.dispose(), [lidar]);
@@ -89,64 +81,30 @@ export function Stage({ scene, options, isDark }: StageProps) {
     if (isMoving) requestFrame();
   });
 
-  useViewpoint(world, controls, options.viewpoint);
+  useSight(controls, options.viewpoint, () => ({
+    bounds: world.bounds,
+    kind: options.viewpoint.kind,
+    least: 4,
+    most: 24,
+  }));
   useTools(world, controls);
 
   return (
-    <>
-      <color attach="background" args={[look.sky]} />
-      {isSimple ? null : <fog attach="fog" args={[look.sky, 30, 90]} />}
-      <Lights scene={scene} bounds={world.bounds} isDark={isDark} hasShadows={!isSimple} />
-      <Ground
-        color={scene.ground_color}
-        picture={scene.ground_texture}
-        textures={textures}
-        isDark={isDark}
-        isSimple={isSimple}
-      />
-      {options.grid ? (
-        <gridHelper
-          key={look.gridMain}
-          args={[40, 40, look.gridMain, look.gridLine]}
-          rotation={[Math.PI / 2, 0, 0]}
-          position={[0, 0, 0.003]}
-          material-transparent
-          material-opacity={0.45}
-        />
-      ) : null}
+    <Surroundings
+      controls={controls}
+      isDark={isDark}
+      lights={scene.lights}
+      bounds={world.bounds}
+      ground={{ color: scene.ground_color, picture: scene.ground_texture }}
+      textures={textures}
+      hasGrid={options.grid}
+      reach={[0.4, 60]}
+    >
       <primitive object={world.group} />
       {options.rays ? <primitive object={lidar.group} /> : null}
       {options.trail ? <primitive object={trailView.line} /> : null}
       {options.frames ? <primitive object={framesView.origin} /> : null}
       <MeasureLine />
-      <OrbitControls
-        ref={controls}
-        makeDefault
-        maxPolarAngle={Math.PI / 2 - 0.02}
-        minDistance={0.4}
-        maxDistance={60}
-      />
-    </>
+    </Surroundings>
   );
-}
-
-type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
-
-/** Puts the camera where the user asked for it; each request is a new object. */
-function useViewpoint(world: World, controls: Controls, viewpoint: ViewOptions['viewpoint']): void {
-  const camera = useThree((state) => state.camera);
-  const invalidate = useThree((state) => state.invalidate);
-  useEffect(() => {
-    const center = world.bounds.isEmpty() ? new THREE.Vector3() : world.bounds.getCenter(new THREE.Vector3());
-    center.z = 0.2;
-    const size = Math.min(Math.max(world.bounds.getSize(new THREE.Vector3()).length(), 4), 24);
-    const offset =
-      viewpoint.kind === 'top'
-        ? new THREE.Vector3(-0.001, 0, size * 1.05)
-        : new THREE.Vector3(-0.62 * size, -0.42 * size, 0.55 * size);
-    camera.position.copy(center).add(offset);
-    controls.current?.target.copy(center);
-    controls.current?.update();
-    invalidate();
-  }, [world, controls, viewpoint, camera, invalidate]);
 }

@@ -3,13 +3,37 @@ import type { Texture as TextureData } from '@/generated/messages';
 
 type Take = (texture: THREE.Texture) => void;
 
+/** Pictures by name, which arrive when they do. */
+export interface Pictures {
+  /** Hands out the picture of a name, which repeats, as soon as it is there; a damaged one never is. */
+  whenLoaded(name: string, take: Take): void;
+  /** Width and height of a repetition in m. */
+  tileOf(name: string): readonly [number, number];
+  dispose(): void;
+}
+
+/** Loads a picture that repeats; null where it cannot be had. */
+export function loadTexture(
+  address: string,
+  anisotropy: number,
+  done: (texture: THREE.Texture | null) => void,
+): void {
+  const arrived = (texture: THREE.Texture) => {
+    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+    texture.colorSpace = THREE.SRGBColorSpace;
+    texture.anisotropy = anisotropy;
+    done(texture);
+  };
+  new THREE.TextureLoader().load(address, arrived, undefined, () => done(null));
+}
+
 interface Loading {
   texture: THREE.Texture | null;
   waiting: Take[];
 }
 
 /** The pictures of a scene, decoded once each. What waits for one is drawn without it until then. */
-export class TextureCache {
+export class TextureCache implements Pictures {
   private readonly known = new Map<string, Loading>();
   private isOver = false;
 
@@ -19,7 +43,6 @@ export class TextureCache {
     private readonly anisotropy = 4,
   ) {}
 
-  /** Hands out the picture of a name, which repeats, as soon as it is there; a damaged one never is. */
   whenLoaded(name: string, take: Take): void {
     const data = this.textures[name];
     if (!data) return;
@@ -33,7 +56,6 @@ export class TextureCache {
     }
   }
 
-  /** Width and height of a repetition in m. */
   tileOf(name: string): readonly [number, number] {
     const [width = 1, height = 1] = this.textures[name]?.tile ?? [];
     return [width, height];
@@ -47,17 +69,12 @@ export class TextureCache {
 
   private load(jpeg: Uint8Array<ArrayBuffer>, loading: Loading): void {
     const address = URL.createObjectURL(new Blob([jpeg], { type: 'image/jpeg' }));
-    const end = () => URL.revokeObjectURL(address);
-    const done = (texture: THREE.Texture) => {
-      end();
-      if (this.isOver) return;
-      texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
-      texture.colorSpace = THREE.SRGBColorSpace;
-      texture.anisotropy = this.anisotropy;
+    loadTexture(address, this.anisotropy, (texture) => {
+      URL.revokeObjectURL(address);
+      if (this.isOver || !texture) return;
       loading.texture = texture;
       for (const take of loading.waiting.splice(0)) take(texture);
       this.onLoaded();
-    };
-    new THREE.TextureLoader().load(address, done, undefined, end);
+    });
   }
 }

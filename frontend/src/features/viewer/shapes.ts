@@ -2,7 +2,7 @@ import * as THREE from 'three';
 import type { Shape } from '@/generated/messages';
 import type { Pose } from '@/store/session/poses';
 import type { GeometryCache } from './geometry';
-import type { TextureCache } from './TextureCache';
+import type { Pictures } from './TextureCache';
 
 export function setPose(position: THREE.Vector3, rotation: THREE.Quaternion, pose: Pose): void {
   position.set(pose[0] ?? 0, pose[1] ?? 0, pose[2] ?? 0);
@@ -15,7 +15,7 @@ export class MaterialCache {
 
   constructor(
     private readonly isSimple: boolean,
-    readonly textures: TextureCache | null = null,
+    readonly textures: Pictures | null = null,
   ) {}
 
   get([r = 0.7, g = 0.7, b = 0.7, a = 1]: readonly number[], picture = ''): THREE.Material {

@@ -6,9 +6,10 @@ import { removeWaypoint, setField, setWaypoint } from '@/model/universe/edits';
 import type { Json } from '@/model/document/values';
 import type { ActorThing } from '@/model/universe/types';
 import { extendWay } from './commands';
-import { edit, isReadOnly, select, type UniverseEditor } from './editor';
-import { ColorField, FieldGroup, NumberField } from './fields';
-import classes from './worldEditor.module.css';
+import { isReadOnly, select } from '@/features/editor3d/session';
+import { edit, type UniverseEditor } from './editor';
+import { ColorField, FieldGroup, NumberField } from '@/features/editor3d/fields';
+import classes from '@/features/editor3d/editor3d.module.css';
 
 interface ActorFieldsProps {
   readonly editor: UniverseEditor;

@@ -2,9 +2,10 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setFieldOfAll } from '@/model/universe/edits';
 import { thingOf } from '@/model/universe/types';
-import { edit, readingOf, select, type UniverseEditor } from './editor';
-import { ColorField } from './fields';
-import classes from './worldEditor.module.css';
+import { select } from '@/features/editor3d/session';
+import { edit, readingOf, type UniverseEditor } from './editor';
+import { ColorField } from '@/features/editor3d/fields';
+import classes from '@/features/editor3d/editor3d.module.css';
 
 /** What several things have in common: a colour, and how they are handled together. */
 export function ManyFields({ editor, count }: { readonly editor: UniverseEditor; readonly count: number }) {

@@ -1,13 +1,14 @@
 import { Select, Switch } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { setField } from '@/model/universe/edits';
+import { place, setField } from '@/model/universe/edits';
 import { type Json } from '@/model/document/values';
 import { FILES, SIZE_MEANING, type ModelThing } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
 import { resize } from './commands';
-import { edit, isReadOnly, select, type UniverseEditor } from './editor';
-import { ColorField, FieldGroup, NumberField } from './fields';
-import { PoseFields } from './PoseFields';
+import { isReadOnly, select } from '@/features/editor3d/session';
+import { edit, type UniverseEditor } from './editor';
+import { ColorField, FieldGroup, NumberField } from '@/features/editor3d/fields';
+import { PoseFields } from '@/features/editor3d/PoseFields';
 import { TextureField } from './TextureField';
 
 interface ModelFieldsProps {
@@ -39,13 +40,16 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
   const canWeigh = shape !== 'plane' && thing.solid;
   return (
     <>
-      <PoseFields editor={editor} thing={thing} />
+      <PoseFields
+        pose={thing.pose}
+        onChange={(pose) => edit(editor, 'move', (now) => place(now, new Map([[key, pose]])))}
+      />
       {SIZE_MEANING[shape].length > 0 ? (
-        <FieldGroup title={shape === 'mesh' ? t('scale') : t('size_m')}>
+        <FieldGroup title={shape === 'mesh' ? t('editor3d:scale') : t('editor3d:size_m')}>
           {SIZE_MEANING[shape].map((meaning, index) => (
             <NumberField
               key={meaning}
-              label={t(`dimension.${meaning}`)}
+              label={t(`editor3d:dimension.${meaning}`)}
               value={thing.size[index] ?? 1}
               min={0.001}
               testId={`field-size-${index}`}

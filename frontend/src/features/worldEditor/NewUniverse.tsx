@@ -50,7 +50,7 @@ function Form({ first }: { readonly first: string }) {
   });
   const shown = name ?? freeName(`my_${base}`, taken);
   const problem = !ID.test(shown)
-    ? t('problem.name')
+    ? t('editor3d:problem.name')
     : taken.has(shown.toLowerCase())
       ? t('new.taken')
       : null;

@@ -1,4 +1,4 @@
-import { ActionIcon, Divider, Menu, Tooltip } from '@mantine/core';
+import { Divider, Menu } from '@mantine/core';
 import {
   IconBallFootball,
   IconCube,
@@ -17,15 +17,14 @@ import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { FILES } from '@/model/universe/types';
+import { PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
 import { useProjectStore } from '@/store/project';
 import { KINDS, placeThing, type Kind, type Placeable } from './commands';
 import type { UniverseEditor } from './editor';
 import { bringMesh, MESH_KINDS } from './upload';
-import classes from './worldEditor.module.css';
+import classes from '@/features/editor3d/editor3d.module.css';
 
-export const DRAGGED = 'application/x-bts-thing';
-
-export const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
+const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   wall: IconWall,
   box: IconCube,
   cylinder: IconCylinder,
@@ -42,23 +41,15 @@ export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   return (
     <div className={classes['palette']} role="toolbar" aria-label={t('palette')} aria-orientation="vertical">
       {KINDS.map((kind) => {
-        const Icon = KIND_ICONS[kind];
         return (
-          <Tooltip key={kind} label={t(`kind.${kind}`)} position="right">
-            <ActionIcon
-              size="lg"
-              aria-label={t('place', { what: t(`kind.${kind}`) })}
-              data-testid={`place-${kind}`}
-              draggable
-              onDragStart={(event) => {
-                event.dataTransfer.setData(DRAGGED, JSON.stringify({ kind } satisfies Placeable));
-                event.dataTransfer.effectAllowed = 'copy';
-              }}
-              onClick={() => placeThing(editor, { kind })}
-            >
-              <Icon size={20} stroke={1.6} />
-            </ActionIcon>
-          </Tooltip>
+          <PlaceButton
+            key={kind}
+            icon={KIND_ICONS[kind]}
+            label={t(`kind.${kind}`)}
+            testId={`place-${kind}`}
+            what={{ kind } satisfies Placeable}
+            onPlace={() => placeThing(editor, { kind })}
+          />
         );
       })}
       <Divider />
@@ -72,22 +63,13 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('worldEditor');
   const robots = useRobots();
   return (
-    <Menu position="right-start">
-      <Tooltip label={t('robots')} position="right">
-        <Menu.Target>
-          <ActionIcon size="lg" aria-label={t('robots')} data-testid="place-robot">
-            <IconRobot size={20} stroke={1.6} />
-          </ActionIcon>
-        </Menu.Target>
-      </Tooltip>
-      <Menu.Dropdown>
-        {robots.map(({ id, name }) => (
-          <Menu.Item key={id} onClick={() => placeThing(editor, { kind: 'robot', model: id })}>
-            {name}
-          </Menu.Item>
-        ))}
-      </Menu.Dropdown>
-    </Menu>
+    <PlaceMenu icon={IconRobot} label={t('robots')} testId="place-robot" position="right-start">
+      {robots.map(({ id, name }) => (
+        <Menu.Item key={id} onClick={() => placeThing(editor, { kind: 'robot', model: id })}>
+          {name}
+        </Menu.Item>
+      ))}
+    </PlaceMenu>
   );
 }
 
@@ -119,27 +101,18 @@ function FileMenu({ editor }: { readonly editor: UniverseEditor }) {
     .sort((a, b) => a.file.localeCompare(b.file));
   return (
     <>
-      <Menu position="right-end">
-        <Tooltip label={t('files')} position="right">
-          <Menu.Target>
-            <ActionIcon size="lg" aria-label={t('files')} data-testid="place-file">
-              <IconPuzzle size={20} stroke={1.6} />
-            </ActionIcon>
-          </Menu.Target>
-        </Tooltip>
-        <Menu.Dropdown>
-          <Menu.Label>{t(found.length > 0 ? 'filesHere' : 'noFiles')}</Menu.Label>
-          {found.map(({ file, shape }) => (
-            <Menu.Item key={file} onClick={() => placeThing(editor, { kind: 'file', shape, file })}>
-              {file}
-            </Menu.Item>
-          ))}
-          <Menu.Divider />
-          <Menu.Item leftSection={<IconUpload size={16} />} onClick={() => input.current?.click()}>
-            {t('bringMesh')}
+      <PlaceMenu icon={IconPuzzle} label={t('files')} testId="place-file" position="right-end">
+        <Menu.Label>{t(found.length > 0 ? 'filesHere' : 'noFiles')}</Menu.Label>
+        {found.map(({ file, shape }) => (
+          <Menu.Item key={file} onClick={() => placeThing(editor, { kind: 'file', shape, file })}>
+            {file}
           </Menu.Item>
-        </Menu.Dropdown>
-      </Menu>
+        ))}
+        <Menu.Divider />
+        <Menu.Item leftSection={<IconUpload size={16} />} onClick={() => input.current?.click()}>
+          {t('bringMesh')}
+        </Menu.Item>
+      </PlaceMenu>
       <input
         ref={input}
         type="file"

@@ -1,10 +1,11 @@
 import { Select } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { setField } from '@/model/universe/edits';
+import { place, setField } from '@/model/universe/edits';
 import type { RobotThing } from '@/model/universe/types';
-import { edit, isReadOnly, type UniverseEditor } from './editor';
+import { isReadOnly } from '@/features/editor3d/session';
+import { edit, type UniverseEditor } from './editor';
 import { useRobots } from './Palette';
-import { PoseFields } from './PoseFields';
+import { PoseFields } from '@/features/editor3d/PoseFields';
 
 interface RobotFieldsProps {
   readonly editor: UniverseEditor;
@@ -29,7 +30,11 @@ export function RobotFields({ editor, thing }: RobotFieldsProps) {
           if (model) edit(editor, 'model', (now) => setField(now, thing.key, 'model', model));
         }}
       />
-      <PoseFields editor={editor} thing={thing} isUpright />
+      <PoseFields
+        pose={thing.pose}
+        isUpright
+        onChange={(pose) => edit(editor, 'move', (now) => place(now, new Map([[thing.key, pose]])))}
+      />
     </>
   );
 }

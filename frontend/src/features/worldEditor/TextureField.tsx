@@ -2,7 +2,7 @@ import { Select } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { PICTURE, TEXTURES } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
-import { isReadOnly } from './editor';
+import { isReadOnly } from '@/features/editor3d/session';
 
 interface TextureFieldProps {
   readonly value: string;
@@ -19,8 +19,6 @@ export function TextureField({ value, onChange }: TextureFieldProps) {
     <Select
       size="xs"
       label={t('texture')}
-      {...(value ? { description: t('textureHint') } : {})}
-      inputWrapperOrder={['label', 'input', 'description']}
       disabled={isReadOnly()}
       allowDeselect={false}
       value={value}

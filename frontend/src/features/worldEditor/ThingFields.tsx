@@ -3,10 +3,10 @@ import { idProblem, rename } from '@/model/universe/edits';
 import type { Thing, Universe } from '@/model/universe/types';
 import { ActorFields } from './ActorFields';
 import { edit, type UniverseEditor } from './editor';
-import { TextField } from './fields';
+import { TextField } from '@/features/editor3d/fields';
 import { ModelFields } from './ModelFields';
 import { RobotFields } from './RobotFields';
-import classes from './worldEditor.module.css';
+import classes from '@/features/editor3d/editor3d.module.css';
 
 interface ThingFieldsProps {
   readonly editor: UniverseEditor;
@@ -22,12 +22,12 @@ export function ThingFields({ editor, universe, thing }: ThingFieldsProps) {
   return (
     <div className={classes['form']} data-testid="thing-fields">
       <TextField
-        label={`${t('id')} · ${kind}`}
+        label={`${t('editor3d:id')} · ${kind}`}
         value={thing.id}
         testId="field-id"
         problem={(id) => {
           const problem = idProblem(universe, thing.key, id);
-          return problem ? t(`problem.${problem}`, { id, most: 80 }) : null;
+          return problem ? t(`editor3d:problem.${problem}`, { id, most: 80 }) : null;
         }}
         onCommit={(id) => edit(editor, 'rename', (now) => rename(now, thing.key, id))}
       />

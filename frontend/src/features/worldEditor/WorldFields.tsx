@@ -2,10 +2,11 @@ import { useTranslation } from 'react-i18next';
 import { setWorld } from '@/model/universe/edits';
 import { valueAt, type Json, type Path } from '@/model/document/values';
 import { type Universe } from '@/model/universe/types';
-import { edit, select, type UniverseEditor } from './editor';
-import { ColorField, FieldGroup, NumberField, TextField } from './fields';
+import { select } from '@/features/editor3d/session';
+import { edit, type UniverseEditor } from './editor';
+import { ColorField, FieldGroup, NumberField, TextField } from '@/features/editor3d/fields';
 import { TextureField } from './TextureField';
-import classes from './worldEditor.module.css';
+import classes from '@/features/editor3d/editor3d.module.css';
 
 interface WorldFieldsProps {
   readonly editor: UniverseEditor;
@@ -32,7 +33,7 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
       <TextField
         label={t('worldName')}
         value={universe.name}
-        problem={(name) => (name.trim() === '' || name.length > 120 ? t('problem.empty') : null)}
+        problem={(name) => (name.trim() === '' || name.length > 120 ? t('editor3d:problem.empty') : null)}
         onCommit={(name) => set(['name'], name)}
       />
       <TextField

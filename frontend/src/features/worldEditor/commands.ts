@@ -13,7 +13,8 @@ import {
 import { middleOf, rounded, snapped, standingHeight, wallBetween } from '@/model/universe/geometry';
 import { type JsonObject, type Point } from '@/model/document/values';
 import { thingOf, type Section, type Shape, type Universe } from '@/model/universe/types';
-import { edit, readingOf, select, type UniverseEditor } from './editor';
+import { select } from '@/features/editor3d/session';
+import { edit, readingOf, type UniverseEditor } from './editor';
 
 /** Things that the palette offers: what each is made of, but for its id and place. */
 export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;

@@ -4,7 +4,7 @@ import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { saveNow } from '@/store/saving/autosave';
-import { readMesh } from './meshes';
+import { readMesh } from '@/features/editor3d/meshes';
 
 export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
 

@@ -44,6 +44,7 @@ function universeOf(raw: JsonObject): Universe {
     ground: {
       color: color(ground['color'], ground['texture'] ? '#ffffff' : '#d8d4cc'),
       texture: text(ground['texture'], ''),
+      tile: tileOf(ground['tile']),
       friction: number(ground['friction'], 0.9),
     },
     things: thingsOf(raw),
@@ -57,6 +58,11 @@ function universeOf(raw: JsonObject): Universe {
     view: { eye: vector(view['eye'], [-4.5, -5, 4.5]), target: vector(view['target'], [0, 0, 0.2]) },
     random: randomOf(raw['random']),
   };
+}
+
+function tileOf(value: unknown): Point | null {
+  const [width = 0, height = 0] = numbers(value, [0, 0]);
+  return width > 0 && height > 0 ? [width, height] : null;
 }
 
 function randomOf(value: unknown): Universe['random'] {
@@ -111,6 +117,7 @@ function modelOf(
     pose: pose(said['pose']),
     color: color(said['color'], said['texture'] ? '#ffffff' : '#9aa4b0'),
     texture: text(said['texture'], ''),
+    tile: tileOf(said['tile']),
     mass: number(said['mass'], 0),
     friction: number(said['friction'], 0.6),
     restitution: number(said['restitution'], 0),

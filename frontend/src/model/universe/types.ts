@@ -46,6 +46,8 @@ export interface ModelThing extends Placed {
   readonly color: string;
   /** A texture that we ship, a picture of the project, or nothing. */
   readonly texture: string;
+  /** Width and height of one repetition of the texture in m, where it is said. */
+  readonly tile: Point | null;
   readonly mass: number;
   readonly friction: number;
   readonly restitution: number;
@@ -80,7 +82,12 @@ export interface Universe {
   readonly raw: JsonObject;
   readonly name: string;
   readonly description: string;
-  readonly ground: { readonly color: string; readonly texture: string; readonly friction: number };
+  readonly ground: {
+    readonly color: string;
+    readonly texture: string;
+    readonly tile: Point | null;
+    readonly friction: number;
+  };
   readonly things: readonly Thing[];
   readonly lights: readonly Light[];
   readonly view: { readonly eye: Vector; readonly target: Vector };

@@ -4,6 +4,8 @@ import { actionPath } from './state';
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
+  /** Puts the cursor of the editor that shows a file on a line, wherever that editor is. */
+  aimAt(path: string, line: number): void;
 }
 
 let navigator: Navigator | null = null;
@@ -23,4 +25,8 @@ export function openAction(name: string): void {
 
 export function openFile(path: string, line?: number): void {
   navigator?.openFile(path, line);
+}
+
+export function aimAt(path: string, line: number): void {
+  navigator?.aimAt(path, line);
 }

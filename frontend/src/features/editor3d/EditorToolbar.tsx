@@ -11,63 +11,65 @@ import {
   IconRotate,
   IconRulerMeasure,
   IconView360Arrow,
-  IconWall,
 } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
-import { perform, useActionTable } from '@/actions/registry';
-import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/world';
-import { GRIDS, travel, type Mode, type UniverseEditor } from './editor';
-import classes from './worldEditor.module.css';
+import { useActionTable } from '@/actions/registry';
+import classes from './editor3d.module.css';
+import { travel, type Editor, type Mode } from './session';
 
-const MODE_ICONS: readonly (readonly [Mode, typeof IconArrowsMove, string])[] = [
-  ['move', IconArrowsMove, 'M'],
-  ['turn', IconRotate, 'R'],
-  ['size', IconRulerMeasure, 'S'],
-];
+const MODE_ICONS: Readonly<Record<Mode, readonly [typeof IconArrowsMove, string]>> = {
+  move: [IconArrowsMove, 'M'],
+  turn: [IconRotate, 'R'],
+  size: [IconRulerMeasure, 'S'],
+};
+
+interface EditorToolbarProps {
+  readonly editor: Editor;
+  readonly label: string;
+  readonly modes: readonly Mode[];
+  readonly grids: readonly number[];
+  /** How the text beside is called. */
+  readonly textLabel: string;
+  readonly textTestId: string;
+  readonly undoTestId: string;
+  readonly onRun: () => void;
+  /** Tools of this editor alone. */
+  readonly children?: ReactNode;
+}
+
+const gridLabel = (step: number): string => (step < 0.05 ? `${step * 1000} mm` : `${step} m`);
 
 /** Tools, grid, views, steps back, the text, and the way to a robot that drives here. */
-export function EditorToolbar({ editor }: { readonly editor: UniverseEditor }) {
-  const { t } = useTranslation('worldEditor');
+export function EditorToolbar(props: EditorToolbarProps) {
+  const { editor, label, modes, grids, textLabel, textTestId, undoTestId, onRun, children } = props;
+  const { t } = useTranslation('editor3d');
   const { mode, tool, grid, history, isTextShown } = useStore(editor.store);
   const canRun = useActionTable(({ actions }) => actions['run.run'] !== undefined);
   const { setState } = editor.store;
-
-  const runHere = () => {
-    const universe = editor.path.replace(/^universes\/|\.yaml$/g, '');
-    const { settings } = useProjectStore.getState();
-    useWorldChoice.setState({ universe: settings?.universe === universe ? null : universe });
-    perform('run.run');
-  };
-
   return (
-    <div className={classes['toolbar']} role="toolbar" aria-label={t('tools')}>
+    <div className={classes['toolbar']} role="toolbar" aria-label={label}>
       <SegmentedControl
         size="xs"
         value={tool === 'wall' ? '' : mode}
         aria-label={t('mode.label')}
         onChange={(value) => setState({ mode: value as Mode, tool: 'select' })}
-        data={MODE_ICONS.map(([value, Icon, key]) => ({
-          value,
-          label: (
-            <Tooltip label={`${t(`mode.${value}`)} (${key})`}>
-              <span className={classes['mode']}>
-                <Icon size={16} aria-label={t(`mode.${value}`)} />
-              </span>
-            </Tooltip>
-          ),
-        }))}
+        data={modes.map((value) => {
+          const [Icon, key] = MODE_ICONS[value];
+          return {
+            value,
+            label: (
+              <Tooltip label={`${t(`mode.${value}`)} (${key})`}>
+                <span className={classes['mode']}>
+                  <Icon size={16} aria-label={t(`mode.${value}`)} />
+                </span>
+              </Tooltip>
+            ),
+          };
+        })}
       />
-      <Tool
-        label={`${t('drawWalls')} (W)`}
-        isPressed={tool === 'wall'}
-        testId="draw-walls"
-        onClick={() => setState({ tool: tool === 'wall' ? 'select' : 'wall' })}
-      >
-        <IconWall size={18} />
-      </Tool>
+      {children}
       <Select
         size="xs"
         w={104}
@@ -77,7 +79,10 @@ export function EditorToolbar({ editor }: { readonly editor: UniverseEditor }) {
         checkIconPosition="right"
         value={String(grid)}
         onChange={(value) => setState({ grid: Number(value) })}
-        data={GRIDS.map((step) => ({ value: String(step), label: step === 0 ? t('gridOff') : `${step} m` }))}
+        data={grids.map((step) => ({
+          value: String(step),
+          label: step === 0 ? t('gridOff') : gridLabel(step),
+        }))}
       />
       <Divider orientation="vertical" my={4} />
       <Tool label={`${t('topView')} (T)`} onClick={() => setState({ viewpoint: { kind: 'top' } })}>
@@ -93,7 +98,7 @@ export function EditorToolbar({ editor }: { readonly editor: UniverseEditor }) {
       <Tool
         label={t('undo')}
         isDisabled={history.past.length === 0}
-        testId="universe-undo"
+        testId={undoTestId}
         onClick={() => travel(editor, 'undo')}
       >
         <IconArrowBackUp size={18} />
@@ -103,9 +108,9 @@ export function EditorToolbar({ editor }: { readonly editor: UniverseEditor }) {
       </Tool>
       <span className={classes['space']} />
       <Tool
-        label={t('text')}
+        label={textLabel}
         isPressed={isTextShown}
-        testId="universe-text"
+        testId={textTestId}
         onClick={() => setState({ isTextShown: !isTextShown })}
       >
         <IconCode size={18} />
@@ -115,7 +120,7 @@ export function EditorToolbar({ editor }: { readonly editor: UniverseEditor }) {
         leftSection={<IconPlayerPlayFilled size={14} />}
         disabled={!canRun}
         data-testid="run-here"
-        onClick={runHere}
+        onClick={onRun}
       >
         {t('runHere')}
       </Button>
@@ -132,7 +137,7 @@ interface ToolProps {
   readonly children: ReactNode;
 }
 
-function Tool({ label, isPressed, isDisabled = false, testId, onClick, children }: ToolProps) {
+export function Tool({ label, isPressed, isDisabled = false, testId, onClick, children }: ToolProps) {
   return (
     <Tooltip label={label}>
       <ActionIcon

@@ -1,26 +1,26 @@
 import { useTranslation } from 'react-i18next';
-import { place } from '@/model/universe/edits';
 import type { Pose } from '@/model/document/values';
-import { edit, type UniverseEditor } from './editor';
 import { FieldGroup, NumberField } from './fields';
 
 interface PoseFieldsProps {
-  readonly editor: UniverseEditor;
-  readonly thing: { readonly key: string; readonly pose: Pose };
-  /** Robots stand upright: of the angles only the heading is theirs. */
+  readonly pose: Pose;
+  /** Of the angles only the heading counts. */
   readonly isUpright?: boolean;
+  readonly step?: number;
+  /** Numbers its fields are found by in tests begin so. */
+  readonly testId?: string;
+  readonly onChange: (pose: Pose) => void;
 }
 
 const PLACES = ['x', 'y', 'z'] as const;
 const ANGLES = ['roll', 'pitch', 'yaw'] as const;
 const DEGREES = 180 / Math.PI;
 
-export function PoseFields({ editor, thing, isUpright = false }: PoseFieldsProps) {
-  const { t } = useTranslation('worldEditor');
-  const set = (index: number, value: number) => {
-    const pose = thing.pose.map((part, at) => (at === index ? value : part)) as unknown as Pose;
-    edit(editor, 'move', (now) => place(now, new Map([[thing.key, pose]])));
-  };
+/** Where something is, in m, and how it is turned, in degrees. */
+export function PoseFields({ pose, isUpright = false, step, testId = 'field', onChange }: PoseFieldsProps) {
+  const { t } = useTranslation('editor3d');
+  const set = (index: number, value: number) =>
+    onChange(pose.map((part, at) => (at === index ? value : part)) as unknown as Pose);
   return (
     <>
       <FieldGroup title={t('place_m')}>
@@ -28,8 +28,9 @@ export function PoseFields({ editor, thing, isUpright = false }: PoseFieldsProps
           <NumberField
             key={axis}
             label={axis}
-            testId={`field-${axis}`}
-            value={thing.pose[index] ?? 0}
+            testId={`${testId}-${axis}`}
+            value={pose[index] ?? 0}
+            {...(step === undefined ? {} : { step })}
             onCommit={(value) => set(index, value)}
           />
         ))}
@@ -41,8 +42,8 @@ export function PoseFields({ editor, thing, isUpright = false }: PoseFieldsProps
               key={axis}
               label={axis}
               step={15}
-              testId={`field-${axis}`}
-              value={Math.round((thing.pose[index + 3] ?? 0) * DEGREES * 100) / 100}
+              testId={`${testId}-${axis}`}
+              value={Math.round((pose[index + 3] ?? 0) * DEGREES * 100) / 100}
               onCommit={(value) => set(index + 3, value / DEGREES)}
             />
           ),

@@ -1,59 +1,48 @@
 import { ActionIcon, TextInput, Tooltip } from '@mantine/core';
-import {
-  IconBox,
-  IconCopyPlus,
-  IconCube,
-  IconCylinder,
-  IconPuzzle,
-  IconRobot,
-  IconSphere,
-  IconSquare,
-  IconTrash,
-  IconUser,
-  IconWorld,
-} from '@tabler/icons-react';
-import { useEffect, useRef, useState, type KeyboardEvent, type MouseEvent } from 'react';
+import { IconCopyPlus, IconTrash, type IconBox } from '@tabler/icons-react';
+import { useEffect, useRef, useState, type KeyboardEvent, type MouseEvent, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
-import { idProblem, rename } from '@/model/universe/edits';
-import type { Thing, Universe } from '@/model/universe/types';
-import { deleteSelected, duplicateSelected } from './commands';
-import { edit, isReadOnly, select, toggle, type UniverseEditor } from './editor';
-import classes from './worldEditor.module.css';
+import classes from './editor3d.module.css';
+import { isReadOnly, select, toggle, type Editor } from './session';
 
-interface ThingListProps {
-  readonly editor: UniverseEditor;
-  readonly universe: Universe;
+/** A thing as the list shows it. */
+export interface Listed {
+  readonly key: string;
+  readonly name: string;
+  readonly icon: typeof IconBox;
+  readonly color?: string;
 }
 
-const SHAPE_ICONS = {
-  box: IconCube,
-  cylinder: IconCylinder,
-  sphere: IconSphere,
-  plane: IconSquare,
-  mesh: IconPuzzle,
-  urdf: IconBox,
-  sdf: IconBox,
-};
-
-function iconOf(thing: Thing): typeof IconBox {
-  if (thing.section === 'actors') return IconUser;
-  return thing.section === 'robots' ? IconRobot : SHAPE_ICONS[thing.shape];
+interface ThingListProps {
+  readonly editor: Editor;
+  readonly title: string;
+  readonly things: readonly Listed[];
+  /** The whole, which no row stands for. */
+  readonly whole: { readonly label: string; readonly icon: typeof IconBox };
+  readonly onDuplicate: () => void;
+  readonly onDelete: () => void;
+  /** Why a thing cannot be called so; null where it can. Without it, things are not renamed here. */
+  readonly nameProblem?: (key: string, name: string) => string | null;
+  readonly onRename?: (key: string, name: string) => void;
 }
 
 /** Every thing by name, in the order of the document. */
-export function ThingList({ editor, universe }: ThingListProps) {
-  const { t } = useTranslation('worldEditor');
+export function ThingList(props: ThingListProps) {
+  const { editor, title, things, whole, onDuplicate, onDelete, nameProblem, onRename } = props;
+  const { t } = useTranslation('editor3d');
   const selection = useStore(editor.store, (state) => state.selection);
   const [renaming, setRenaming] = useState<string | null>(null);
   const list = useRef<HTMLDivElement>(null);
-  const { things } = universe;
   const last = selection.at(-1);
 
   useEffect(() => {
     const row = last === undefined ? null : list.current?.querySelector(`[data-key="${CSS.escape(last)}"]`);
     row?.scrollIntoView({ block: 'nearest' });
   }, [last]);
+
+  const canRename = onRename !== undefined && !isReadOnly();
+  const Whole = whole.icon;
 
   const choose = (key: string, event: MouseEvent | KeyboardEvent) => {
     if (event.ctrlKey || event.metaKey) return toggle(editor, key);
@@ -73,9 +62,9 @@ export function ThingList({ editor, universe }: ThingListProps) {
       requestAnimationFrame(() =>
         list.current?.querySelector<HTMLElement>('[aria-selected="true"]')?.focus(),
       );
-    } else if (event.key === 'F2' && last !== undefined && !isReadOnly()) setRenaming(last);
-    else if (event.key === 'Delete') deleteSelected(editor);
-    else if (event.key.toLowerCase() === 'd' && (event.ctrlKey || event.metaKey)) duplicateSelected(editor);
+    } else if (event.key === 'F2' && last !== undefined && canRename) setRenaming(last);
+    else if (event.key === 'Delete') onDelete();
+    else if (event.key.toLowerCase() === 'd' && (event.ctrlKey || event.metaKey)) onDuplicate();
     else return;
     event.preventDefault();
     event.stopPropagation();
@@ -84,21 +73,25 @@ export function ThingList({ editor, universe }: ThingListProps) {
   return (
     <section className={classes['things']}>
       <header className={classes['thingsHead']}>
-        <h3>{t('things', { count: things.length })}</h3>
-        <ListButton label={t('world')} isDisabled={selection.length === 0} onClick={() => select(editor, [])}>
-          <IconWorld size={16} />
+        <h3>{title}</h3>
+        <ListButton
+          label={whole.label}
+          isDisabled={selection.length === 0}
+          onClick={() => select(editor, [])}
+        >
+          <Whole size={16} />
         </ListButton>
         <ListButton
           label={`${t('duplicate')} (Ctrl+D)`}
           isDisabled={selection.length === 0 || isReadOnly()}
-          onClick={() => duplicateSelected(editor)}
+          onClick={() => onDuplicate()}
         >
           <IconCopyPlus size={16} />
         </ListButton>
         <ListButton
           label={`${t('delete')} (Del)`}
           isDisabled={selection.length === 0 || isReadOnly()}
-          onClick={() => deleteSelected(editor)}
+          onClick={() => onDelete()}
         >
           <IconTrash size={16} />
         </ListButton>
@@ -108,11 +101,11 @@ export function ThingList({ editor, universe }: ThingListProps) {
         role="listbox"
         tabIndex={-1}
         aria-multiselectable="true"
-        aria-label={t('things', { count: things.length })}
+        aria-label={title}
         onKeyDown={onKey}
       >
         {things.map((thing, index) => {
-          const Icon = iconOf(thing);
+          const Icon = thing.icon;
           const isSelected = selection.includes(thing.key);
           return (
             // The list hears the keys for all of its rows.
@@ -126,18 +119,21 @@ export function ThingList({ editor, universe }: ThingListProps) {
               data-testid={`thing-${thing.key}`}
               onClick={(event) => choose(thing.key, event)}
               onDoubleClick={() => {
-                if (!isReadOnly()) setRenaming(thing.key);
+                if (canRename) setRenaming(thing.key);
               }}
             >
               <Icon size={15} stroke={1.6} aria-hidden="true" />
               {renaming === thing.key ? (
-                <Rename editor={editor} universe={universe} thing={thing} onEnd={() => setRenaming(null)} />
+                <Rename
+                  thing={thing}
+                  problemOf={(name) => nameProblem?.(thing.key, name) ?? null}
+                  onName={(name) => onRename?.(thing.key, name)}
+                  onEnd={() => setRenaming(null)}
+                />
               ) : (
-                <span className={classes['name']}>{thing.id || t('nameless')}</span>
+                <span className={classes['name']}>{thing.name}</span>
               )}
-              {'color' in thing ? (
-                <span className={classes['dot']} style={{ background: thing.color }} />
-              ) : null}
+              {thing.color ? <span className={classes['dot']} style={{ background: thing.color }} /> : null}
             </div>
           );
         })}
@@ -150,7 +146,7 @@ interface ListButtonProps {
   readonly label: string;
   readonly isDisabled: boolean;
   readonly onClick: () => void;
-  readonly children: React.ReactNode;
+  readonly children: ReactNode;
 }
 
 function ListButton({ label, isDisabled, onClick, children }: ListButtonProps) {
@@ -163,17 +159,19 @@ function ListButton({ label, isDisabled, onClick, children }: ListButtonProps) {
   );
 }
 
-interface RenameProps extends ThingListProps {
-  readonly thing: Thing;
+interface RenameProps {
+  readonly thing: Listed;
+  readonly problemOf: (name: string) => string | null;
+  readonly onName: (name: string) => void;
   readonly onEnd: () => void;
 }
 
-function Rename({ editor, universe, thing, onEnd }: RenameProps) {
-  const { t } = useTranslation('worldEditor');
-  const [name, setName] = useState(thing.id);
-  const problem = idProblem(universe, thing.key, name);
+function Rename({ thing, problemOf, onName, onEnd }: RenameProps) {
+  const { t } = useTranslation('editor3d');
+  const [name, setName] = useState(thing.name);
+  const problem = problemOf(name);
   const finish = () => {
-    if (!problem) edit(editor, 'rename', (now) => rename(now, thing.key, name));
+    if (!problem) onName(name);
     onEnd();
   };
   return (
@@ -183,7 +181,7 @@ function Rename({ editor, universe, thing, onEnd }: RenameProps) {
       aria-label={t('id')}
       value={name}
       autoFocus // eslint-disable-line jsx-a11y/no-autofocus -- the user has just asked to type here
-      error={problem ? t(`problem.${problem}`, { id: name, most: 80 }) : null}
+      error={problem}
       onChange={(event) => setName(event.currentTarget.value)}
       onFocus={(event) => event.currentTarget.select()}
       onBlur={finish}

@@ -1,8 +1,8 @@
 import { ColorInput, NumberInput, TextInput } from '@mantine/core';
 import { useState, type ReactNode } from 'react';
 import { rounded } from '@/model/universe/geometry';
-import { isReadOnly } from './editor';
-import classes from './worldEditor.module.css';
+import { isReadOnly } from './session';
+import classes from './editor3d.module.css';
 
 interface NumberFieldProps {
   readonly label: string;

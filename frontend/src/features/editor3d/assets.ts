@@ -6,7 +6,7 @@ import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
 
 /** Something that is fetched to be drawn: null while it is on its way, or where it cannot be had. */
-type Fetched<T> = { value: T | null; failed: boolean };
+export type Fetched<T> = { value: T | null; failed: boolean };
 
 /** Meshes and robots that a universe names, fetched once; `onArrival` tells that there is more to draw. */
 export class Assets {
@@ -68,7 +68,8 @@ export class Assets {
   }
 }
 
-const fileUrl = (path: string): string => {
+/** Where a file of the project is fetched. */
+export const fileUrl = (path: string): string => {
   const { projectId } = useProjectStore.getState();
   return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
 };

@@ -1,38 +1,47 @@
 import { IconAlertTriangle } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { DocumentProblem } from '@/model/document/yaml';
-import { openFile } from '@/store/project/navigation';
-import { select, type UniverseEditor } from './editor';
-import classes from './worldEditor.module.css';
+import { aimAt, openFile } from '@/store/project/navigation';
+import { select, type Editor } from './session';
+import classes from './editor3d.module.css';
 
 interface ProblemListProps {
   readonly problems: readonly DocumentProblem[];
-  readonly path: string;
-  readonly editor?: UniverseEditor;
+  /** The files of the document's texts. */
+  readonly paths: readonly string[];
+  /** How the whole is spoken of. */
+  readonly title: string;
+  readonly editor?: Editor;
 }
 
 const SHOWN = 50;
 
 /** What is wrong, each with a way to its line and to its thing. */
-export function ProblemList({ problems, path, editor }: ProblemListProps) {
-  const { t } = useTranslation('worldEditor');
+export function ProblemList({ problems, paths, title, editor }: ProblemListProps) {
+  const { t } = useTranslation('editor3d');
   if (problems.length === 0) return null;
-  const go = ({ line, thing }: DocumentProblem) => {
+  const go = ({ line, thing, text }: DocumentProblem) => {
     if (editor) {
-      editor.store.setState({ isTextShown: true });
+      editor.store.setState({ isTextShown: true, shownText: text });
       if (thing !== null) select(editor, [thing]);
     }
-    openFile(path, line);
+    const path = paths[text];
+    if (path === undefined) return;
+    if (editor && text > 0) aimAt(path, line);
+    else openFile(path, line);
   };
   return (
-    <section className={classes['problems']} aria-label={t('problems', { count: problems.length })}>
-      <h3>{t('problems', { count: problems.length })}</h3>
+    <section className={classes['problems']} aria-label={title}>
+      <h3>{title}</h3>
       <ul>
         {problems.slice(0, SHOWN).map((problem, index) => (
           <li key={index}>
             <button type="button" onClick={() => go(problem)}>
               <IconAlertTriangle size={14} aria-hidden="true" />
-              <span className={classes['line']}>{t('line', { line: problem.line })}</span>
+              <span className={classes['line']}>
+                {paths.length > 1 ? `${paths[problem.text]?.split('/').at(-1) ?? ''} · ` : ''}
+                {t('line', { line: problem.line })}
+              </span>
               <span>
                 {problem.path.length > 0 && problem.kind !== 'missing' ? (
                   <code>{problem.path.join('.')}</code>

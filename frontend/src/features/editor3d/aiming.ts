@@ -1,10 +1,10 @@
 import * as THREE from 'three';
 import type { Point } from '@/model/document/values';
-import type { EditorScene } from './EditorScene';
+import type { ThingScene } from './ThingScene';
 
 const ray = new THREE.Raycaster();
 
-interface Aimed {
+export interface Aimed {
   readonly key: string;
   readonly height: number;
   /** The point of a way that is under the pointer. */
@@ -25,7 +25,7 @@ export function thingAt(
   event: At,
   canvas: HTMLElement,
   camera: THREE.Camera,
-  scene: EditorScene,
+  scene: Pick<ThingScene<{ key: string }>, 'group' | 'keyOf'>,
 ): Aimed | null {
   aim(event, canvas, camera);
   const hits = ray.intersectObject(scene.group).filter(({ object }) => object.visible);

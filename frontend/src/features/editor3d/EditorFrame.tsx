@@ -1,0 +1,97 @@
+import { Alert, Button, SegmentedControl, Text } from '@mantine/core';
+import { IconAlertTriangle, IconCube3dSphere } from '@tabler/icons-react';
+import { lazy, Suspense, type ReactNode } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useStore } from 'zustand';
+import { hasWebGl } from '@/features/viewer/webgl';
+import type { DocumentProblem } from '@/model/document/yaml';
+import classes from './editor3d.module.css';
+import { ProblemList } from './ProblemList';
+import type { Editor } from './session';
+
+const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
+
+/** How a kind of document is spoken of. */
+interface Words {
+  readonly noWebGl: string;
+  readonly unreadable: string;
+  readonly problems: string;
+}
+
+interface EditorFrameProps {
+  readonly editor: Editor;
+  readonly testId: string;
+  /** The files of the document that are there. */
+  readonly paths: readonly string[];
+  readonly problems: readonly DocumentProblem[];
+  readonly words: Words;
+  readonly toolbar: ReactNode;
+  /** View and panel; null where the document cannot be shown. */
+  readonly children: ReactNode;
+}
+
+/** A document in 3D with its text beside; the text alone where there is no 3D. */
+export function EditorFrame({ editor, testId, paths, problems, words, toolbar, children }: EditorFrameProps) {
+  const { t } = useTranslation('editor3d');
+  const { isTextShown, shownText } = useStore(editor.store);
+  const path = paths[shownText] ?? paths[0] ?? editor.path;
+  const list = <ProblemList problems={problems} paths={paths} title={words.problems} editor={editor} />;
+  const text = (
+    <div className={classes['text']}>
+      {paths.length > 1 ? (
+        <SegmentedControl
+          fullWidth
+          size="xs"
+          radius={0}
+          aria-label={t('whichText')}
+          value={path}
+          onChange={(value) => editor.store.setState({ shownText: Math.max(paths.indexOf(value), 0) })}
+          data={paths.map((each) => ({ value: each, label: each.split('/').at(-1) ?? each }))}
+        />
+      ) : null}
+      <div className={classes['code']}>
+        <Suspense fallback={<Text p="sm">{t('loadingText')}</Text>}>
+          <CodeTab key={path} path={path} />
+        </Suspense>
+      </div>
+    </div>
+  );
+  if (paths.length === 0 || !hasWebGl()) {
+    return (
+      <div className={classes['tab']} data-testid={`${testId}-text`}>
+        {paths.length === 0 ? null : (
+          <Alert icon={<IconCube3dSphere size={18} />} color="gray" radius={0} py="xs">
+            {words.noWebGl}
+          </Alert>
+        )}
+        {list}
+        {text}
+      </div>
+    );
+  }
+  return (
+    <div className={classes['tab']} data-testid={testId} data-path={editor.path}>
+      {toolbar}
+      <div className={classes['work']} data-text={isTextShown || undefined}>
+        <div className={classes['stage']}>
+          {children ?? (
+            <div className={classes['unreadable']} role="alert">
+              <IconAlertTriangle size={28} aria-hidden="true" />
+              <Text fw={600}>{words.unreadable}</Text>
+              <Text size="sm" c="dimmed">
+                {t('unreadableHint')}
+              </Text>
+              {isTextShown ? null : (
+                <Button variant="light" onClick={() => editor.store.setState({ isTextShown: true })}>
+                  {t('showText')}
+                </Button>
+              )}
+            </div>
+          )}
+        </div>
+        {isTextShown ? text : null}
+      </div>
+      {list}
+    </div>
+  );
+}

@@ -1,0 +1,63 @@
+import { ActionIcon, Menu, Tooltip } from '@mantine/core';
+import type { IconCube } from '@tabler/icons-react';
+import type { ReactNode } from 'react';
+import { useTranslation } from 'react-i18next';
+
+export const DRAGGED = 'application/x-bts-thing';
+
+type Icon = typeof IconCube;
+
+interface PlaceButtonProps {
+  readonly icon: Icon;
+  readonly label: string;
+  readonly testId: string;
+  /** What the view is told when the button is dragged there. */
+  readonly what: object;
+  readonly onPlace: () => void;
+}
+
+/** Something to place: clicked, it comes to stand in the middle of the view; dragged, where it is let go. */
+export function PlaceButton({ icon: Icon, label, testId, what, onPlace }: PlaceButtonProps) {
+  const { t } = useTranslation('editor3d');
+  return (
+    <Tooltip label={label} position="right">
+      <ActionIcon
+        size="lg"
+        aria-label={t('place', { what: label })}
+        data-testid={testId}
+        draggable
+        onDragStart={(event) => {
+          event.dataTransfer.setData(DRAGGED, JSON.stringify(what));
+          event.dataTransfer.effectAllowed = 'copy';
+        }}
+        onClick={onPlace}
+      >
+        <Icon size={20} stroke={1.6} />
+      </ActionIcon>
+    </Tooltip>
+  );
+}
+
+interface PlaceMenuProps {
+  readonly icon: Icon;
+  readonly label: string;
+  readonly testId: string;
+  readonly position: 'right-start' | 'right-end';
+  readonly children: ReactNode;
+}
+
+/** Several things to place under one button. */
+export function PlaceMenu({ icon: Icon, label, testId, position, children }: PlaceMenuProps) {
+  return (
+    <Menu position={position}>
+      <Tooltip label={label} position="right">
+        <Menu.Target>
+          <ActionIcon size="lg" aria-label={label} data-testid={testId}>
+            <Icon size={20} stroke={1.6} />
+          </ActionIcon>
+        </Menu.Target>
+      </Tooltip>
+      <Menu.Dropdown>{children}</Menu.Dropdown>
+    </Menu>
+  );
+}

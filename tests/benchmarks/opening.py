@@ -1,0 +1,106 @@
+"""How long a project of 500 files takes to open: the server's part, from the request to the whole answer.
+
+`python -m tests.benchmarks opening [--files 500]`. Cold is the first time after the start of the server, when
+nothing of the project has been read yet; warm is every other time. The processor time is told beside, since
+on a busy machine the clock says little.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import statistics
+import tempfile
+import time
+from pathlib import Path
+
+import psutil
+import requests
+
+from tests.backend.serving import Served, serving
+
+ACTION = '''"""Drives on for a while."""
+
+import py_trees
+from geometry_msgs.msg import Twist
+
+
+class {name}(py_trees.behaviour.Behaviour):
+    """Drives at a speed.
+
+    Ports:
+        speed (in, float): m/s.
+    """
+
+    def setup(self, **kwargs):
+        self.node = kwargs["node"]
+        self.publisher = self.node.create_publisher(Twist, "/cmd_vel", 10)
+
+    def update(self):
+        twist = Twist()
+        twist.linear.x = {number} / 100
+        self.publisher.publish(twist)
+        return py_trees.common.Status.RUNNING
+'''
+TIMES = 15
+
+
+def project_files(number: int) -> list[dict[str, object]]:
+    """As many files: two fifths actions, one fifth trees that use them, the rest notes."""
+    actions = [f"Drive{n}" for n in range(2 * number // 5)]
+    files = {f"actions/{name}.py": ACTION.format(name=name, number=n) for n, name in enumerate(actions)}
+    for n in range(number // 5):
+        nodes = {"n1": {"type": "Sequence", "children": ["n2", "n3", "n4"]}}
+        for m in (2, 3, 4):
+            nodes[f"n{m}"] = {"type": actions[(3 * n + m) % len(actions)]}
+        head = {"format": "bt-studio/diagram", "version": 1, "id": f"Tree{n}", "root": "n1"}
+        files[f"trees/Tree{n}.json"] = json.dumps(head | {"nodes": nodes})
+    for n in range(number - len(files) - 2):  # the new project has two
+        files[f"notes/{n}.txt"] = f"Note {n}. " * 40
+    return [{"path": path, "base_revision": 0, "content": text} for path, text in files.items()]
+
+
+def used_s(server: Served) -> float:
+    """Processor time of the server so far."""
+    times = psutil.Process(server.process.pid).cpu_times()
+    return float(times.user + times.system)
+
+
+def opened(server: Served, project: str) -> tuple[float, float, int]:
+    """Time to the whole answer and processor time, in ms; and the size of the answer."""
+    before, started = used_s(server), time.perf_counter()
+    answer = requests.get(f"{server.base}/api/v1/projects/{project}", headers=server.headers, timeout=60)
+    took = time.perf_counter() - started
+    answer.raise_for_status()
+    return 1000 * took, 1000 * (used_s(server) - before), len(answer.content)
+
+
+def main() -> None:
+    """Makes the project, starts the server again, and opens it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--files", type=int, default=500)
+    options, _ = parser.parse_known_args()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        with serving(folder) as server:
+            ask = requests.Session()
+            ask.headers.update(server.headers)
+            base = f"{server.base}/api/v1/projects"
+            project = ask.post(base, json={"name": "Large"}, timeout=60).json()["id"]
+            changes = {"files": project_files(options.files)}
+            ask.post(f"{base}/{project}/changes", json=changes, timeout=60).raise_for_status()
+        with serving(folder) as server:
+            # The first request of all pays for imports; that is no matter of this project.
+            small = {"name": "Small"}
+            requests.post(f"{server.base}/api/v1/projects", json=small, headers=server.headers, timeout=60)
+            took, used, size = opened(server, project)
+            print(f"{options.files} files, {size / 1e3:.0f} kB, load average {os.getloadavg()[0]:.1f}")
+            print(f"  cold   {took:7.0f} ms   {used:7.0f} ms of processor")
+            warm = [opened(server, project) for _ in range(TIMES)]
+            took, used = (statistics.median(row[n] for row in warm) for n in (0, 1))
+            print(f"  warm   {took:7.0f} ms   {used:7.0f} ms of processor (median of {TIMES})")
+
+
+if __name__ == "__main__":
+    main()

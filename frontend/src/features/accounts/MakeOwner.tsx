@@ -12,12 +12,12 @@ interface MakeOwnerProps {
 export function MakeOwner({ who, isBusy, onConfirm, onCancel }: MakeOwnerProps) {
   const { t } = useTranslation('accounts');
   return (
-    <Alert color="orange" role="alert">
+    <Alert variant="default" role="alert">
       <Text size="sm" mb="sm">
         {t('share.makeOwnerNote', { who })}
       </Text>
       <Group gap={8}>
-        <Button size="xs" color="orange" variant="filled" loading={isBusy} onClick={onConfirm}>
+        <Button size="xs" variant="filled" loading={isBusy} onClick={onConfirm}>
           {t('share.makeOwner', { who })}
         </Button>
         <Button size="xs" variant="default" onClick={onCancel}>

@@ -47,7 +47,12 @@ export const theme = createTheme({
   headings: { fontWeight: '650' },
   cursorType: 'pointer',
   components: {
-    Notification: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
+    Notification: {
+      defaultProps: {
+        closeButtonProps: { 'aria-label': t('frame:close') },
+        styles: { description: { color: 'var(--bts-muted)' } },
+      },
+    },
     Modal: { defaultProps: { closeButtonProps: { 'aria-label': t('frame:close') } } },
     Tooltip: { defaultProps: { openDelay: 350, withArrow: true, fz: 'xs' } },
     ActionIcon: { defaultProps: { variant: 'subtle', color: 'gray' } },

@@ -1,4 +1,4 @@
-import { Avatar, Button, Menu, Text, UnstyledButton } from '@mantine/core';
+import { Avatar, Button, Menu, Text, UnstyledButton, VisuallyHidden } from '@mantine/core';
 import { IconChartPie, IconLogout, IconSettings, IconShield, IconUsers } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -25,8 +25,9 @@ export function UserMenu() {
     <>
       <Menu position="bottom-end" width={240}>
         <Menu.Target>
-          <UnstyledButton aria-label={t('menu', { name: me.user })} ml={4} style={{ borderRadius: '50%' }}>
+          <UnstyledButton ml={4} style={{ borderRadius: '50%' }}>
             <Avatar size={32} name={me.name || me.user} color="indigo" />
+            <VisuallyHidden>{t('menu', { name: me.user })}</VisuallyHidden>
           </UnstyledButton>
         </Menu.Target>
         <Menu.Dropdown>

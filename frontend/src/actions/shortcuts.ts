@@ -5,10 +5,9 @@ import { useActionTable, type UserAction } from './registry';
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
 
 function isTextField(target: EventTarget | null): boolean {
-  return (
-    target instanceof HTMLElement &&
-    (target.isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName))
-  );
+  // No `instanceof`: a panel in another window has that window's classes.
+  const { isContentEditable = false, tagName = '' } = (target ?? {}) as Partial<HTMLElement>;
+  return isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(tagName);
 }
 
 function handler(action: UserAction) {
@@ -21,16 +20,30 @@ function handler(action: UserAction) {
   };
 }
 
+function bind(target: Window, actions: readonly UserAction[]): () => void {
+  const bindings: Record<string, (event: KeyboardEvent) => void> = {};
+  for (const action of actions) {
+    if (action.shortcut) bindings[action.shortcut] = handler(action);
+  }
+  return tinykeys(target, bindings);
+}
+
+/** Binds every shortcut of the table, as it is at any time, to a window; answers how to end that. */
+export function bindShortcuts(target: Window): () => void {
+  let unbind = bind(target, Object.values(useActionTable.getState().actions));
+  const unfollow = useActionTable.subscribe(({ actions }) => {
+    unbind();
+    unbind = bind(target, Object.values(actions));
+  });
+  return () => {
+    unfollow();
+    unbind();
+  };
+}
+
 /** Binds every shortcut of the table to the window. */
 export function useShortcuts(): void {
-  const actions = useActionTable((table) => table.actions);
-  useEffect(() => {
-    const bindings: Record<string, (event: KeyboardEvent) => void> = {};
-    for (const action of Object.values(actions)) {
-      if (action.shortcut) bindings[action.shortcut] = handler(action);
-    }
-    return tinykeys(window, bindings);
-  }, [actions]);
+  useEffect(() => bindShortcuts(window), []);
 }
 
 const KEY_NAMES: Record<string, string> = { $mod: isMac ? '⌘' : 'Ctrl', Shift: isMac ? '⇧' : 'Shift' };

@@ -100,6 +100,8 @@ export const api = {
   behaviours: () => requestItems<BehaviourInfo>('/catalog/behaviours', 'behaviours'),
   universes: () => requestItems<UniverseInfo>('/catalog/universes', 'universes'),
   universeText: (id: string) => requestText(`/catalog/universes/${encodeURIComponent(id)}/text`),
+  robotConfig: (id: string) => requestText(`/catalog/robots/${encodeURIComponent(id)}/config`),
+  robotUrdf: (id: string) => requestText(`/catalog/robots/${encodeURIComponent(id)}/urdf`),
   robots: () => requestItems<UniverseInfo>('/catalog/robots', 'robots'),
 };
 

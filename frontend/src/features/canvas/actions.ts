@@ -1,3 +1,4 @@
+import { undoTarget } from '@/actions/undo';
 import { registerActions, type UserAction } from '@/actions/registry';
 import {
   IconArrowBackUp,
@@ -33,6 +34,10 @@ import { openQuickAddHere } from './quickAdd/open';
 
 const state = () => useProjectStore.getState();
 const history = () => state().histories[state().activeTree ?? ''];
+const canRedo = () => undoTarget()?.canRedo ?? (history()?.future.length ?? 0) > 0;
+/** A universe or a robot that is in front has steps of its own. */
+const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
+const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;
 const selectedNode = () => activeDiagram()?.nodes[state().selection[0] ?? ''];
 const hasSelection = () => state().selection.length > 0;
@@ -48,10 +53,8 @@ const rows: readonly UserAction[] = [
     labelKey: 'canvas:action.undo',
     icon: IconArrowBackUp,
     shortcut: '$mod+KeyZ',
-    enabled: () => (history()?.past.length ?? 0) > 0,
-    run: () => {
-      state().undo();
-    },
+    enabled: () => undoTarget()?.canUndo ?? (history()?.past.length ?? 0) > 0,
+    run: undoInFront,
   },
   {
     id: 'edit.redo',
@@ -59,10 +62,8 @@ const rows: readonly UserAction[] = [
     labelKey: 'canvas:action.redo',
     icon: IconArrowForwardUp,
     shortcut: '$mod+KeyY',
-    enabled: () => (history()?.future.length ?? 0) > 0,
-    run: () => {
-      state().redo();
-    },
+    enabled: canRedo,
+    run: redoInFront,
   },
   {
     id: 'edit.redoShift',
@@ -70,10 +71,8 @@ const rows: readonly UserAction[] = [
     labelKey: 'canvas:action.redo',
     shortcut: '$mod+Shift+KeyZ',
     hidden: true,
-    enabled: () => (history()?.future.length ?? 0) > 0,
-    run: () => {
-      state().redo();
-    },
+    enabled: canRedo,
+    run: redoInFront,
   },
   {
     id: 'edit.copy',

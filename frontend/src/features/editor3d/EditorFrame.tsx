@@ -8,6 +8,7 @@ import type { DocumentProblem } from '@/model/document/yaml';
 import classes from './editor3d.module.css';
 import { ProblemList } from './ProblemList';
 import type { Editor } from './session';
+import { useUndoInFront } from './useUndoInFront';
 
 const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
 
@@ -34,6 +35,7 @@ interface EditorFrameProps {
 export function EditorFrame({ editor, testId, paths, problems, words, toolbar, children }: EditorFrameProps) {
   const { t } = useTranslation('editor3d');
   const { isTextShown, shownText } = useStore(editor.store);
+  useUndoInFront(editor);
   const path = paths[shownText] ?? paths[0] ?? editor.path;
   const list = <ProblemList problems={problems} paths={paths} title={words.problems} editor={editor} />;
   const text = (

@@ -2,10 +2,25 @@ import { ActionIcon, Menu, Tooltip } from '@mantine/core';
 import type { IconCube } from '@tabler/icons-react';
 import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
+import classes from './editor3d.module.css';
 
 export const DRAGGED = 'application/x-bts-thing';
 
 type Icon = typeof IconCube;
+
+interface PaletteBarProps {
+  readonly label: string;
+  readonly children: ReactNode;
+}
+
+/** What can be placed, at the edge of the view. */
+export function PaletteBar({ label, children }: PaletteBarProps) {
+  return (
+    <div className={classes['palette']} role="toolbar" aria-label={label} aria-orientation="vertical">
+      {children}
+    </div>
+  );
+}
 
 interface PlaceButtonProps {
   readonly icon: Icon;

@@ -1,5 +1,6 @@
 import type * as THREE from 'three';
-import { requestText, urlOf } from '@/api/http';
+import { api } from '@/api/client';
+import { urlOf } from '@/api/http';
 import type { Shape } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { readMesh } from './meshes';
@@ -29,9 +30,7 @@ export class Assets {
   robot(id: string): Fetched<Shape[]> {
     return this.fetched(this.models, `robot:${id}`, async () => {
       const own = ownUrdf(id);
-      const text = own
-        ? (useProjectStore.getState().currentText(own) ?? '')
-        : await requestText(`/catalog/robots/${encodeURIComponent(id)}/urdf`);
+      const text = own ? (useProjectStore.getState().currentText(own) ?? '') : await api.robotUrdf(id);
       return resolved(urdfShapes(text), own ?? '');
     });
   }

@@ -24,10 +24,10 @@ export function box(size: number, [r = 0, g = 0, b = 0, a = 1]: readonly number[
 }
 
 /** The edges of the box round all that a node shows, in the node's own axes; seen through everything. */
-export function frameOf(node: THREE.Object3D): THREE.LineSegments {
+export function frameOf(node: THREE.Object3D, pad = 0.02): THREE.LineSegments {
   const bounds = new THREE.Box3().setFromObject(node, true);
   bounds.translate(node.position.clone().negate());
-  const size = bounds.getSize(new THREE.Vector3()).addScalar(0.02);
+  const size = bounds.getSize(new THREE.Vector3()).addScalar(pad);
   const edges = new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z));
   const material = new THREE.LineBasicMaterial({ color: ACCENT, depthTest: false, transparent: true });
   const frame = untouchable(new THREE.LineSegments(edges, material));
@@ -36,6 +36,16 @@ export function frameOf(node: THREE.Object3D): THREE.LineSegments {
   frame.visible = false;
   frame.userData['isMark'] = true;
   return frame;
+}
+
+/** Lines that are seen while their thing is selected. */
+export function markLines(geometry: THREE.BufferGeometry): THREE.LineSegments {
+  const material = new THREE.LineBasicMaterial({ color: ACCENT, transparent: true, opacity: 0.55 });
+  const lines = untouchable(new THREE.LineSegments(geometry, material));
+  lines.frustumCulled = false;
+  lines.visible = false;
+  lines.userData['isMark'] = true;
+  return lines;
 }
 
 /** Shows on the floor where a robot looks. */

@@ -3,27 +3,34 @@ import { IconPlus } from '@tabler/icons-react';
 import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { openNewFile, type NewFileKind } from '@/features/code/newFile';
+import { openNewRobot, ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { openNewUniverse, UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { ExplorerItem } from './ExplorerItem';
 import classes from './explorer.module.css';
 
-type Section = 'trees' | 'actions' | 'universes' | 'others';
+type Section = 'trees' | 'actions' | 'universes' | 'robots' | 'others';
 
-type NewKind = NewFileKind | 'universe';
+type NewKind = NewFileKind | 'universe' | 'robot';
 
 const NEW_KIND: Record<Section, NewKind> = {
   trees: 'tree',
   actions: 'action',
   universes: 'universe',
+  robots: 'robot',
   others: 'file',
 };
 
-const openNew = (kind: NewKind) => (kind === 'universe' ? openNewUniverse() : openNewFile(kind));
+function openNew(kind: NewKind): void {
+  if (kind === 'universe') openNewUniverse();
+  else if (kind === 'robot') openNewRobot();
+  else openNewFile(kind);
+}
 
 function sectionOf(path: string): Section {
   if (/^trees\/[^/]+\.json$/.test(path)) return 'trees';
   if (UNIVERSE_FILE.test(path)) return 'universes';
+  if (ROBOT_FILE.test(path)) return 'robots';
   return /^actions\/[^/]+\.py$/.test(path) ? 'actions' : 'others';
 }
 
@@ -32,7 +39,13 @@ export function Explorer() {
   const { t } = useTranslation('frame');
   const files = useProjectStore((state) => state.files);
   const sections = useMemo(() => {
-    const found: Record<Section, string[]> = { trees: [], actions: [], universes: [], others: [] };
+    const found: Record<Section, string[]> = {
+      trees: [],
+      actions: [],
+      universes: [],
+      robots: [],
+      others: [],
+    };
     for (const path of Object.keys(files).sort()) found[sectionOf(path)].push(path);
     return found;
   }, [files]);

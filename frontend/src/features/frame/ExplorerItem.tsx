@@ -6,6 +6,7 @@ import {
   IconGitFork,
   IconHistory,
   IconPencil,
+  IconRobot,
   IconStar,
   IconTrash,
   IconWorld,
@@ -14,6 +15,7 @@ import { useTranslation } from 'react-i18next';
 import { openRename } from '@/features/code/newFile';
 import { setScope } from '@/features/history/scope';
 import { undoNotification } from '@/features/projects/undoNotification';
+import { ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
@@ -28,7 +30,7 @@ interface ExplorerItemProps {
 
 function nameOf(path: string): string {
   const treeId = treeIdOf(path);
-  return treeId ?? path.replace(/^(actions|universes)\//, '');
+  return treeId ?? path.replace(/^(actions|universes)\//, '').replace(/^robots\/([^/]+)\/robot\.yaml$/, '$1');
 }
 
 export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
@@ -46,7 +48,9 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
       ? IconFileCode
       : UNIVERSE_FILE.test(path)
         ? IconWorld
-        : IconFileText;
+        : ROBOT_FILE.test(path)
+          ? IconRobot
+          : IconFileText;
 
   const remove = () => {
     const project = useProjectStore.getState();

@@ -11,6 +11,7 @@ const ROWS = [
   'project.newAction',
   'project.newTree',
   'project.newUniverse',
+  'project.newRobot',
   'project.worlds',
   'project.takeAway',
   null,

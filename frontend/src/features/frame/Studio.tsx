@@ -17,6 +17,7 @@ import { useRunReactions } from '@/features/run/useRunReactions';
 import { registerTopicActions } from '@/features/topics/actions';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
+import { NewRobot } from '@/features/robotEditor/NewRobot';
 import { Worlds } from '@/features/universe/Worlds';
 import { NewUniverse } from '@/features/worldEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
@@ -120,6 +121,7 @@ function Workbench({ projectId }: StudioProps) {
       <TakeAway />
       <Worlds />
       <NewUniverse />
+      <NewRobot />
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />

@@ -2,6 +2,7 @@ import { Anchor, Divider, Group, Text } from '@mantine/core';
 import { IconChevronRight } from '@tabler/icons-react';
 import type { MouseEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { useUndoTarget } from '@/actions/undo';
 import { ReadOnlyBadge } from '@/features/accounts/ReadOnlyBadge';
 import { ShareButton } from '@/features/accounts/ShareButton';
 import { UserMenu } from '@/features/accounts/UserMenu';
@@ -23,6 +24,7 @@ export function TopBar() {
   const history = useProjectStore((state) =>
     state.activeTree ? state.histories[state.activeTree] : undefined,
   );
+  const target = useUndoTarget((state) => state.target);
   const goHome = (event: MouseEvent) => {
     if (event.metaKey || event.ctrlKey) return;
     event.preventDefault();
@@ -48,8 +50,16 @@ export function TopBar() {
         {role === 'viewer' ? <ReadOnlyBadge /> : <SaveIndicator />}
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
-        <ActionButton action="edit.undo" testId="undo" isDisabled={!history?.past.length} />
-        <ActionButton action="edit.redo" testId="redo" isDisabled={!history?.future.length} />
+        <ActionButton
+          action="edit.undo"
+          testId="undo"
+          isDisabled={!(target?.canUndo ?? Boolean(history?.past.length))}
+        />
+        <ActionButton
+          action="edit.redo"
+          testId="redo"
+          isDisabled={!(target?.canRedo ?? Boolean(history?.future.length))}
+        />
         <Divider orientation="vertical" mx={4} my={8} />
         <RunControls />
       </Group>

@@ -5,6 +5,7 @@ import {
   IconCommand,
   IconDeviceFloppy,
   IconDownload,
+  IconExternalLink,
   IconGitFork,
   IconHistory,
   IconHome,
@@ -13,6 +14,7 @@ import {
   IconPlus,
   IconTerminal2,
   IconWorld,
+  IconRobot,
   IconWorldPlus,
   IconAlertTriangle,
 } from '@tabler/icons-react';
@@ -24,9 +26,11 @@ import { openNewFile } from '@/features/code/newFile';
 import { openTakeAway } from '@/features/export/takeAway';
 import { openShortcuts } from '@/features/onboarding/shortcutsDialog';
 import { openWorlds } from '@/features/universe/worlds';
+import { openNewRobot } from '@/features/robotEditor/newRobot';
 import { openNewUniverse } from '@/features/worldEditor/newUniverse';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
+import { popOut } from './popouts';
 import { openTab, showPanel, togglePanel } from './tabs';
 
 /** The tree that was edited last, with the keyboard in it. */
@@ -98,6 +102,13 @@ const rows: UserAction[] = [
     labelKey: 'frame:action.newUniverse',
     icon: IconWorldPlus,
     run: () => openNewUniverse(),
+  },
+  {
+    id: 'project.newRobot',
+    group: 'project',
+    labelKey: 'frame:action.newRobot',
+    icon: IconRobot,
+    run: () => openNewRobot(),
   },
   {
     id: 'project.worlds',
@@ -178,6 +189,27 @@ const rows: UserAction[] = [
     shortcut: '$mod+Slash',
     inTextFields: true,
     run: openShortcuts,
+  },
+  {
+    id: 'view.popOut3d',
+    group: 'view',
+    labelKey: 'frame:action.popOut3d',
+    icon: IconExternalLink,
+    run: () => popOut('viewer3d'),
+  },
+  {
+    id: 'view.popOutCamera',
+    group: 'view',
+    labelKey: 'frame:action.popOutCamera',
+    icon: IconExternalLink,
+    run: () => popOut('camera'),
+  },
+  {
+    id: 'view.popOutConsole',
+    group: 'view',
+    labelKey: 'frame:action.popOutConsole',
+    icon: IconExternalLink,
+    run: () => popOut('console'),
   },
   {
     id: 'view.resetLayout',

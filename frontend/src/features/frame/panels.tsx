@@ -12,10 +12,12 @@ import { TimelinePanel } from '@/features/timeline/TimelinePanel';
 import { TopicsPanel } from '@/features/topics/TopicsPanel';
 import { CameraPanel } from '@/features/viewer/CameraPanel';
 import { VideoPanel } from '@/features/viewer/VideoPanel';
+import { ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from './Explorer';
 import type { PanelId } from './layoutModel';
+import { InItsWindow } from './popouts';
 import type { DocumentTab } from './tabs';
 import { Waiting } from './Waiting';
 
@@ -29,6 +31,9 @@ const CompareTab = lazy(async () => ({
 }));
 const UniverseTab = lazy(async () => ({
   default: (await import('@/features/worldEditor/UniverseTab')).UniverseTab,
+}));
+const RobotTab = lazy(async () => ({
+  default: (await import('@/features/robotEditor/RobotTab')).RobotTab,
 }));
 const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
 
@@ -71,8 +76,9 @@ function documentOf(tab: DocumentTab): ReactNode {
   );
 }
 
-/** A universe is seen in 3D with its text beside; every other file is text. */
+/** Universes and robots are seen in 3D with their text beside; every other file is text. */
 function FileTab({ path }: { readonly path: string }) {
+  if (ROBOT_FILE.test(path)) return <RobotTab key={path} path={path} />;
   return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;
 }
 
@@ -80,5 +86,9 @@ function FileTab({ path }: { readonly path: string }) {
 export function renderTab(node: TabNode): ReactNode {
   const config = node.getConfig() as { tab?: DocumentTab } | undefined;
   const content = config?.tab ? documentOf(config.tab) : panels[node.getComponent() as PanelId]();
-  return <ErrorBoundary>{content}</ErrorBoundary>;
+  return (
+    <InItsWindow node={node}>
+      <ErrorBoundary>{content}</ErrorBoundary>
+    </InItsWindow>
+  );
 }

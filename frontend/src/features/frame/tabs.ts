@@ -39,7 +39,10 @@ function tabId(tab: DocumentTab): string {
 function nameOf(tab: DocumentTab): string {
   // The frame has words for it, as for its panels.
   if (tab.kind === 'compare') return 'panel.compare';
-  return tab.kind === 'tree' ? tab.id : (tab.path.split('/').at(-1) ?? tab.path);
+  if (tab.kind === 'tree') return tab.id;
+  // All robots are in files of the same name.
+  const robot = /^robots\/([^/]+)\/robot\.yaml$/.exec(tab.path)?.[1];
+  return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
 function jsonOf(tab: DocumentTab): IJsonTabNode {

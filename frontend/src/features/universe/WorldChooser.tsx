@@ -5,7 +5,9 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import type { UniverseInfo } from '@/api/types';
+import { ownRobots, openNewRobot } from '@/features/robotEditor/newRobot';
 import { useProjectStore } from '@/store/project';
+import { openFile } from '@/store/project/navigation';
 import { useWorldChoice } from '@/store/run/world';
 import { ChoiceCards } from './ChoiceCards';
 import { OUTSIDE, titled } from './titles';
@@ -42,9 +44,13 @@ export function WorldChooser() {
       .filter(({ id }) => !names.has(id))
       .map((info) => titled(title, 'universe', info)),
   ];
+  const ownMachines = ownRobots(Object.keys(paths));
   const machines: UniverseInfo[] = [
     { id: OF_UNIVERSE, name: t('robotOfUniverse'), description: t('robotOfUniverseHint') },
-    ...(robots.data ?? []).map((info) => titled(title, 'robot', info)),
+    ...ownMachines.map((id) => ({ id, name: id, description: t('ownRobot') })),
+    ...(robots.data ?? [])
+      .filter(({ id }) => !ownMachines.includes(id))
+      .map((info) => titled(title, 'robot', info)),
   ];
   const isOutside = universe === OUTSIDE && !names.has(OUTSIDE);
 
@@ -57,6 +63,13 @@ export function WorldChooser() {
       setSettings({ universe, robot: wanted ?? undefined });
     }
     closeWorlds();
+  };
+
+  /** Opens a robot of the project in its editor, or a copy of one that we ship. */
+  const changeRobot = () => {
+    closeWorlds();
+    if (ownMachines.includes(robot)) openFile(`robots/${robot}/robot.yaml`);
+    else openNewRobot(robot);
   };
 
   if (universes.isPending || robots.isPending) return <Loader size="sm" aria-label={t('loading')} />;
@@ -76,6 +89,13 @@ export function WorldChooser() {
             {t('robot')}
           </Text>
           <ChoiceCards label={t('robot')} items={machines} chosen={robot} onChoose={setRobot} />
+          {robot === OF_UNIVERSE ? null : (
+            <Group>
+              <Button variant="default" size="xs" data-testid="change-robot" onClick={changeRobot}>
+                {t(ownMachines.includes(robot) ? 'changeRobot' : 'changeCopy')}
+              </Button>
+            </Group>
+          )}
         </>
       )}
       <Group justify="space-between" align="flex-end" className={classes['decision']}>

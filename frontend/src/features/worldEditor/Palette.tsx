@@ -17,12 +17,12 @@ import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { FILES } from '@/model/universe/types';
-import { PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
+import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
+import { ownRobots } from '@/features/robotEditor/newRobot';
 import { useProjectStore } from '@/store/project';
 import { KINDS, placeThing, type Kind, type Placeable } from './commands';
 import type { UniverseEditor } from './editor';
 import { bringMesh, MESH_KINDS } from './upload';
-import classes from '@/features/editor3d/editor3d.module.css';
 
 const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   wall: IconWall,
@@ -39,7 +39,7 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('worldEditor');
   return (
-    <div className={classes['palette']} role="toolbar" aria-label={t('palette')} aria-orientation="vertical">
+    <PaletteBar label={t('palette')}>
       {KINDS.map((kind) => {
         return (
           <PlaceButton
@@ -55,7 +55,7 @@ export function Palette({ editor }: { readonly editor: UniverseEditor }) {
       <Divider />
       <RobotMenu editor={editor} />
       <FileMenu editor={editor} />
-    </div>
+    </PaletteBar>
   );
 }
 
@@ -77,9 +77,7 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
 export function useRobots(): readonly { readonly id: string; readonly name: string }[] {
   const files = useProjectStore((state) => state.files);
   const shipped = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
-  const own = Object.keys(files)
-    .map((path) => /^robots\/([^/]+)\/robot\.yaml$/.exec(path)?.[1])
-    .filter((id) => id !== undefined);
+  const own = ownRobots(Object.keys(files));
   return [
     ...own.map((id) => ({ id, name: id })),
     ...(shipped.data ?? []).filter(({ id }) => !own.includes(id)),

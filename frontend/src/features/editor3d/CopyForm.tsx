@@ -1,0 +1,94 @@
+import { Button, Group, Stack, Switch, Text, TextInput } from '@mantine/core';
+import { useState, type FormEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import type { UniverseInfo } from '@/api/types';
+import { ChoiceCards } from '@/features/universe/ChoiceCards';
+
+const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
+
+/** How the thing that is made is spoken of. */
+interface Words {
+  readonly hint: string;
+  readonly taken: string;
+  readonly use: string;
+}
+
+interface CopyFormProps {
+  readonly items: readonly UniverseInfo[];
+  readonly first: string;
+  /** Ids that are taken, in small letters. */
+  readonly taken: ReadonlySet<string>;
+  readonly words: Words;
+  readonly testId: string;
+  /** Makes it; what is thrown is shown. */
+  readonly onCreate: (base: string, name: string, isUsed: boolean) => Promise<void>;
+  readonly onCancel: () => void;
+}
+
+function freeName(wish: string, taken: ReadonlySet<string>): string {
+  for (let count = 1; ; count += 1) {
+    const name = count === 1 ? wish : `${wish}_${count}`;
+    if (!taken.has(name.toLowerCase())) return name;
+  }
+}
+
+/** Makes something of the project out of something that we ship. */
+export function CopyForm({ items, first, taken, words, testId, onCreate, onCancel }: CopyFormProps) {
+  const { t } = useTranslation('editor3d');
+  const [base, setBase] = useState(first);
+  const [name, setName] = useState<string | null>(null);
+  const [isUsed, setUsed] = useState(true);
+  const [state, setState] = useState<{ isBusy: boolean; error: string | null }>({
+    isBusy: false,
+    error: null,
+  });
+  const shown = name ?? freeName(`my_${base === 'template' ? 'robot' : base}`, taken);
+  const problem = !ID.test(shown) ? t('problem.name') : taken.has(shown.toLowerCase()) ? words.taken : null;
+
+  const submit = (event: FormEvent) => {
+    event.preventDefault();
+    if (problem || state.isBusy) return;
+    setState({ isBusy: true, error: null });
+    onCreate(base, shown, isUsed).catch((error: Error) => setState({ isBusy: false, error: error.message }));
+  };
+
+  return (
+    <form onSubmit={submit}>
+      <Stack gap="md" data-testid={`${testId}-form`}>
+        <Text size="sm">{words.hint}</Text>
+        <ChoiceCards label={t('copy.base')} items={items} chosen={base} onChoose={setBase} />
+        <TextInput
+          data-autofocus
+          label={t('copy.name')}
+          data-testid={`${testId}-name`}
+          value={shown}
+          error={problem}
+          onChange={(event) => setName(event.currentTarget.value)}
+        />
+        <Switch
+          label={words.use}
+          checked={isUsed}
+          onChange={(event) => setUsed(event.currentTarget.checked)}
+        />
+        {state.error ? (
+          <Text size="sm" c="var(--bts-failure)" role="alert">
+            {state.error}
+          </Text>
+        ) : null}
+        <Group justify="flex-end">
+          <Button variant="default" onClick={onCancel}>
+            {t('copy.cancel')}
+          </Button>
+          <Button
+            type="submit"
+            loading={state.isBusy}
+            disabled={problem !== null}
+            data-testid={`${testId}-ok`}
+          >
+            {t('copy.create')}
+          </Button>
+        </Group>
+      </Stack>
+    </form>
+  );
+}

@@ -1,0 +1,24 @@
+import { useEffect } from 'react';
+import { useStore } from 'zustand';
+import { useUndoTarget } from '@/actions/undo';
+import { useTabs } from '@/features/frame/tabs';
+import { isReadOnly, travel, type Editor } from './session';
+
+/** Has undo and redo of the frame work on this editor while it is the document in front. */
+export function useUndoInFront(editor: Editor): void {
+  const isInFront = useTabs(({ front }) => front?.kind === 'file' && front.path === editor.path);
+  const canUndo = useStore(editor.store, ({ history }) => history.past.length > 0);
+  const canRedo = useStore(editor.store, ({ history }) => history.future.length > 0);
+  useEffect(() => {
+    if (!isInFront) return;
+    const target = {
+      canUndo: canUndo && !isReadOnly(),
+      canRedo: canRedo && !isReadOnly(),
+      travel: (direction: 'undo' | 'redo') => travel(editor, direction),
+    };
+    useUndoTarget.setState({ target });
+    return () => {
+      if (useUndoTarget.getState().target === target) useUndoTarget.setState({ target: null });
+    };
+  }, [editor, isInFront, canUndo, canRedo]);
+}

@@ -1,0 +1,61 @@
+import { Loader, Modal } from '@mantine/core';
+import { useQuery } from '@tanstack/react-query';
+import { useTranslation } from 'react-i18next';
+import { api } from '@/api/client';
+import { CopyForm } from '@/features/editor3d/CopyForm';
+import { titled } from '@/features/universe/titles';
+import { useProjectStore } from '@/store/project';
+import { openFile } from '@/store/project/navigation';
+import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from './newRobot';
+
+/** Makes a robot of the project: of our template, or of a robot that we ship. */
+export function NewRobot() {
+  const { t } = useTranslation('robotEditor');
+  const base = useNewRobot((state) => state.base);
+  return (
+    <Modal
+      opened={base !== null}
+      onClose={closeNewRobot}
+      title={t('new.title')}
+      size={760}
+      closeButtonProps={{ 'aria-label': t('editor3d:copy.cancel') }}
+    >
+      {base !== null ? <Form first={base} /> : null}
+    </Modal>
+  );
+}
+
+async function create(base: string, name: string, isUsed: boolean): Promise<void> {
+  const { textsOfRobot } = await import('./textsOfRobot');
+  const { yaml, urdf, urdfName } = await textsOfRobot(base, name);
+  const project = useProjectStore.getState();
+  const path = `robots/${name}/robot.yaml`;
+  project.addFile(`robots/${name}/${urdfName}`, urdf);
+  project.addFile(path, yaml);
+  if (isUsed) project.setSettings({ robot: name });
+  closeNewRobot();
+  openFile(path);
+}
+
+function Form({ first }: { readonly first: string }) {
+  const { t } = useTranslation('robotEditor');
+  const { t: title } = useTranslation('worlds');
+  const files = useProjectStore((state) => state.files);
+  const robots = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
+  const taken = new Set(ownRobots(Object.keys(files)).map((id) => id.toLowerCase()));
+  if (robots.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
+  return (
+    <CopyForm
+      items={[
+        { id: TEMPLATE, name: t('new.template'), description: t('new.templateHint') },
+        ...(robots.data ?? []).map((info) => titled(title, 'robot', info)),
+      ]}
+      first={first}
+      taken={taken}
+      words={{ hint: t('new.hint'), taken: t('new.taken'), use: t('new.use') }}
+      testId="new-robot"
+      onCreate={create}
+      onCancel={closeNewRobot}
+    />
+  );
+}

@@ -1,0 +1,72 @@
+import { useEffect, useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { perform } from '@/actions/registry';
+import { EditorFrame } from '@/features/editor3d/EditorFrame';
+import { EditorToolbar } from '@/features/editor3d/EditorToolbar';
+import { followTexts } from '@/features/editor3d/session';
+import { readRobot } from '@/model/robot/read';
+import { useProjectStore } from '@/store/project';
+import { useWorldChoice } from '@/store/run/world';
+import { editorOf, GRIDS, urdfPathOf, type RobotEditor } from './editor';
+import { RobotPanel } from './RobotPanel';
+import { RobotView } from './RobotView';
+
+/** A robot of the project: seen and changed in 3D, with its configuration and its URDF beside. */
+export function RobotTab({ path }: { readonly path: string }) {
+  const { t } = useTranslation('robotEditor');
+  const editor = useMemo(() => editorOf(path), [path]);
+  const yaml = useProjectStore((state) => state.currentText(path));
+  const urdfPath = urdfPathOf(path, yaml ?? '');
+  const urdf = useProjectStore((state) => (urdfPath === null ? null : state.currentText(urdfPath)));
+  const { robot, problems } = useMemo(() => readRobot(yaml ?? '', urdf), [yaml, urdf]);
+
+  useEffect(() => {
+    if (yaml !== null) followTexts(editor);
+  }, [editor, yaml, urdf]);
+
+  const paths = [...(yaml === null ? [] : [path]), ...(urdf === null || urdfPath === null ? [] : [urdfPath])];
+  return (
+    <EditorFrame
+      editor={editor}
+      testId="robot-editor"
+      paths={paths}
+      problems={problems}
+      words={{
+        noWebGl: t('noWebGl'),
+        unreadable: t('unreadable'),
+        problems: t('problems', { count: problems.length }),
+      }}
+      toolbar={<RobotToolbar editor={editor} />}
+    >
+      {robot ? (
+        <>
+          <RobotView editor={editor} robot={robot} />
+          <RobotPanel editor={editor} robot={robot} />
+        </>
+      ) : null}
+    </EditorFrame>
+  );
+}
+
+/** The tools of every editor; it runs in the universe that is chosen. */
+function RobotToolbar({ editor }: { readonly editor: RobotEditor }) {
+  const { t } = useTranslation('robotEditor');
+  const runHere = () => {
+    const id = editor.path.split('/')[1] ?? '';
+    const { settings } = useProjectStore.getState();
+    useWorldChoice.setState({ robot: settings?.robot === id ? null : id });
+    perform('run.run');
+  };
+  return (
+    <EditorToolbar
+      editor={editor}
+      label={t('tools')}
+      modes={['move', 'turn']}
+      grids={GRIDS}
+      textLabel={t('text')}
+      textTestId="robot-text"
+      undoTestId="robot-undo"
+      onRun={runHere}
+    />
+  );
+}

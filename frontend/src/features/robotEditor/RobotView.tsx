@@ -1,0 +1,87 @@
+import { VisuallyHidden } from '@mantine/core';
+import { useEffect, useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { useStore } from 'zustand';
+import { EditorCanvas } from '@/features/editor3d/EditorCanvas';
+import { EditorStage } from '@/features/editor3d/EditorStage';
+import { onEditorKey, type KeyActs } from '@/features/editor3d/keys';
+import { isReadOnly, TURN_STEP } from '@/features/editor3d/session';
+import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
+import { isSoftwareWebGl } from '@/features/viewer/webgl';
+import type { Addable } from '@/model/robot/parts';
+import { partOf, type Robot } from '@/model/robot/types';
+import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
+import { readingOf, type RobotEditor } from './editor';
+import { carrierOf, handlesOf } from './gestures';
+import { RobotPalette } from './RobotPalette';
+import { RobotScene } from './RobotScene';
+
+interface RobotViewProps {
+  readonly editor: RobotEditor;
+  readonly robot: Robot;
+}
+
+/** Keys of the view, as `docs/how-to/make-a-robot.md` lists them. */
+const keysOf = (editor: RobotEditor): KeyActs => ({
+  modes: ['move', 'turn'],
+  nudge: (along, aside, up, factor) => nudge(editor, along, aside, up, factor),
+  turn: (sense) => turnSelected(editor, sense * TURN_STEP),
+  remove: () => removeSelected(editor),
+  duplicate: () => duplicateSelected(editor),
+  all: () => readingOf(editor).robot?.parts.map(({ key }) => key) ?? [],
+});
+
+/** The robot in 3D, with all joints at zero. */
+export function RobotView({ editor, robot }: RobotViewProps) {
+  const { t } = useTranslation('robotEditor');
+  const selection = useStore(editor.store, (state) => state.selection);
+  const part = partOf(robot, selection[0] ?? '');
+  const [x, y, z] = part?.pose ?? [0, 0, 0];
+  const shown = (value: number) => Math.round(value * 1e4) / 1e4;
+  return (
+    <EditorCanvas
+      label={t('view')}
+      testId="robot-view"
+      count={robot.parts.length}
+      near={0.01}
+      onKey={(event) => onEditorKey(editor, event, keysOf(editor))}
+      onDropped={(what, at) => placePart(editor, (what as { kind: Addable }).kind, at)}
+      stage={(isDark) => <RobotStage editor={editor} robot={robot} isDark={isDark} />}
+    >
+      {isReadOnly() ? null : <RobotPalette editor={editor} />}
+      <VisuallyHidden role="status">
+        {selection.length > 1 ? t('manySelected', { count: selection.length }) : null}
+        {selection.length === 1 && part
+          ? t('selectedAt', { name: part.name, x: shown(x), y: shown(y), z: shown(z) })
+          : null}
+      </VisuallyHidden>
+    </EditorCanvas>
+  );
+}
+
+const GROUND = { color: [0.85, 0.83, 0.8] };
+const SUN = [{ direction: [0.3, 0.4, -0.8], intensity: 1 }];
+
+function RobotStage({ editor, robot, isDark }: RobotViewProps & { readonly isDark: boolean }) {
+  const isSimple = isSoftwareWebGl();
+  const redraw = useThrottledInvalidate();
+  const folder = editor.path.slice(0, editor.path.lastIndexOf('/') + 1);
+  const scene = useMemo(() => new RobotScene(isSimple, redraw, folder), [isSimple, redraw, folder]);
+  const staged = useMemo(
+    () => ({ scene, handles: handlesOf(editor, scene), carrier: carrierOf(editor, scene) }),
+    [editor, scene],
+  );
+  useEffect(() => () => scene.dispose(), [scene]);
+  return (
+    <EditorStage
+      editor={editor}
+      staged={staged}
+      content={robot}
+      isDark={isDark}
+      lights={SUN}
+      ground={GROUND}
+      reach={[0.1, 12]}
+      extent={[0.4, 6]}
+    />
+  );
+}

@@ -1,0 +1,59 @@
+import { change, editorFor, textsOf, type Editor } from '@/features/editor3d/session';
+import { edited, type RobotEdit } from '@/model/robot/edits';
+import { readRobot, urdfNameOf, type RobotReading } from '@/model/robot/read';
+import type { Robot } from '@/model/robot/types';
+import { useProjectStore } from '@/store/project';
+
+export const GRIDS = [0, 0.001, 0.005, 0.01, 0.05] as const;
+
+/** A robot that is being edited: `robot.yaml` and its URDF. */
+export type RobotEditor = Editor;
+
+const folderOf = (path: string): string => path.slice(0, path.lastIndexOf('/') + 1);
+
+/** The file that holds a robot's links, if it is one that can be shown: a URDF beside `robot.yaml`. */
+export function urdfPathOf(path: string, yaml: string): string | null {
+  const name = urdfNameOf(yaml);
+  const isOurs = /\.urdf$/i.test(name) && !name.startsWith('/') && !name.split('/').includes('..');
+  return isOurs ? `${folderOf(path)}${name}` : null;
+}
+
+/** The editor of a robot of the open project; it outlives its tab. */
+export const editorOf = (path: string): RobotEditor =>
+  editorFor(path, {
+    pathsOf: (yaml) => {
+      const urdf = urdfPathOf(path, yaml);
+      return urdf === null ? [] : [urdf];
+    },
+    keysOf: ([yaml = '', urdf]) => readRobot(yaml, urdf ?? null).robot?.parts.map(({ key }) => key) ?? [],
+    grid: 0.005,
+  });
+
+/** The robot as it is now, as far as it can be read. */
+export function readingOf({ path }: RobotEditor): RobotReading {
+  const { currentText } = useProjectStore.getState();
+  const yaml = currentText(path) ?? '';
+  const urdf = urdfPathOf(path, yaml);
+  return readRobot(yaml, urdf === null ? null : currentText(urdf));
+}
+
+/** Changes the robot; one step of undo, joined with the last one of the same `mergeKey`. */
+export function edit(
+  editor: RobotEditor,
+  label: string,
+  make: (robot: Robot) => RobotEdit,
+  mergeKey?: string,
+): void {
+  const { robot } = readingOf(editor);
+  if (!robot) return;
+  change(
+    editor,
+    label,
+    () => {
+      const made = make(robot);
+      if (made.ops.length === 0 && made.urdf === undefined) return null;
+      return { texts: edited(textsOf(editor), made), select: made.select };
+    },
+    mergeKey,
+  );
+}

@@ -1,0 +1,80 @@
+import * as THREE from 'three';
+import { poseOf, type Handles } from '@/features/editor3d/Gizmo';
+import type { Carrier } from '@/features/editor3d/PointerTool';
+import { select, toggle } from '@/features/editor3d/session';
+import { jointOf, move, place } from '@/model/robot/edits';
+import { partOf, type Part } from '@/model/robot/types';
+import { edit, readingOf, type RobotEditor } from './editor';
+import type { RobotScene } from './RobotScene';
+
+/** The selected parts that can be put elsewhere. */
+function movable(editor: RobotEditor): Part[] {
+  const { robot } = readingOf(editor);
+  const { selection } = editor.store.getState();
+  return robot ? robot.parts.filter((part) => selection.includes(part.key) && jointOf(robot, part)) : [];
+}
+
+/** What the gizmo does to the parts of a robot. */
+export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
+  return {
+    stand: () => {
+      const { mode, grid } = editor.store.getState();
+      const parts = movable(editor);
+      const [only] = parts;
+      if (!only) return null;
+      const isOne = parts.length === 1;
+      return {
+        pose: only.pose,
+        mode: isOne && mode === 'turn' ? 'turn' : 'move',
+        turnsFreely: true,
+        isFlat: false,
+        grid,
+      };
+    },
+    held: () => scene.carriedBy(movable(editor).map(({ key }) => key)),
+    show: () => {
+      const { robot } = readingOf(editor);
+      if (robot) scene.showRobot(robot);
+    },
+    commit: (mode, pivot, start) => {
+      const parts = movable(editor);
+      const [only] = parts;
+      if (!only) return;
+      if (parts.length === 1) {
+        edit(editor, mode, (robot) => place(robot, new Map([[only.key, poseOf(pivot)]])));
+        return;
+      }
+      const { x, y, z } = pivot.position.clone().sub(new THREE.Vector3().setFromMatrixPosition(start));
+      edit(editor, 'move', (robot) =>
+        move(
+          robot,
+          parts.map(({ key }) => key),
+          [x, y, z],
+        ),
+      );
+    },
+  };
+}
+
+/** What the pointer does to the parts of a robot: the base stays, everything else is carried at its height. */
+export function carrierOf(editor: RobotEditor, scene: RobotScene): Carrier {
+  return {
+    take: (hit) => {
+      const { robot } = readingOf(editor);
+      const part = robot ? partOf(robot, hit.key) : undefined;
+      if (!robot || !part || !jointOf(robot, part)) return null;
+      const { selection } = editor.store.getState();
+      const keys = selection.includes(hit.key) ? selection : [hit.key];
+      return { keys, anchor: [part.pose[0], part.pose[1]], nodes: scene.carriedBy(keys) };
+    },
+    drop: (keys, [dx, dy]) => {
+      if (!keys.every((key) => editor.store.getState().selection.includes(key))) select(editor, keys);
+      edit(editor, 'move', (robot) => move(robot, keys, [dx, dy, 0]));
+    },
+    click: (hit, isAdding) => {
+      if (!hit) select(editor, []);
+      else if (isAdding) toggle(editor, hit.key);
+      else select(editor, [hit.key]);
+    },
+  };
+}

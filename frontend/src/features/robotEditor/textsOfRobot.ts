@@ -1,0 +1,27 @@
+import { api } from '@/api/client';
+import { rewrite } from '@/model/document/rewrite';
+import { urdfNameOf } from '@/model/robot/read';
+import templateUrdf from '@/model/robot/template/robot.urdf?raw';
+import templateYaml from '@/model/robot/template/robot.yaml?raw';
+import { TEMPLATE } from './newRobot';
+
+interface RobotTexts {
+  readonly yaml: string;
+  readonly urdf: string;
+  readonly urdfName: string;
+}
+
+/** The files of a new robot, made of our template or of a robot that we ship; its name is that of its folder. */
+export async function textsOfRobot(base: string, name: string): Promise<RobotTexts> {
+  const [yaml, urdf] =
+    base === TEMPLATE
+      ? [templateYaml, templateUrdf]
+      : await Promise.all([api.robotConfig(base), api.robotUrdf(base)]);
+  const words = name.replaceAll('_', ' ');
+  const title = `${words.charAt(0).toUpperCase()}${words.slice(1)}`;
+  return {
+    yaml: rewrite(yaml, [{ kind: 'set', path: ['name'], value: title }]),
+    urdf,
+    urdfName: urdfNameOf(yaml) || 'robot.urdf',
+  };
+}

@@ -73,7 +73,7 @@ function MyData({ me }: { readonly me: Me }) {
           {end.error.message}
         </Alert>
       ) : null}
-      <Button color="red" disabled={typed !== me.user} loading={end.isPending} onClick={() => end.mutate()}>
+      <Button color="red.9" disabled={typed !== me.user} loading={end.isPending} onClick={() => end.mutate()}>
         {t('data.delete')}
       </Button>
     </Stack>

@@ -158,6 +158,10 @@ def uv_install() -> list[str]:
     return [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
 
 
+# A path instead of an import hook, which every process would load.
+OWN_OPTIONS = ["--no-deps", "--no-build-isolation", "--config-settings", "editable_mode=compat"]
+
+
 def own_package_step() -> Step:
     """The `bt-studio` program, pointing at this clone."""
     return Step(
@@ -165,7 +169,7 @@ def own_package_step() -> Step:
         "installing bt-studio itself into .venv",
         [ROOT / "pyproject.toml"],
         VENV / "bin" / "bt-studio",
-        lambda: run([*uv_install(), "--no-deps", "--no-build-isolation", "--editable", str(ROOT)]),
+        lambda: run([*uv_install(), *OWN_OPTIONS, "--editable", str(ROOT)]),
     )
 
 

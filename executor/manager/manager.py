@@ -21,9 +21,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
-from executor.manager.folders import Folders
 from executor.manager.gate import fetch_listener
-from executor.manager.server import SessionServer
 from executor.ros.environment import ros_environment
 from executor.session.events import (
     EndSession,
@@ -45,6 +43,8 @@ from executor.supervision.shared_memory import remove_abandoned_segments
 from executor.supervision.supervisor import Supervisor
 
 if TYPE_CHECKING:
+    from executor.manager.folders import Folders
+    from executor.manager.server import SessionServer
     from executor.ram.server import RamServer
 
 __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_programs"]
@@ -111,10 +111,7 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 def session_programs(domain_id: int) -> dict[Kind, Program]:
     """Returns the real world and application, with their limits."""
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    own = {
-        "PYTHONDONTWRITEBYTECODE": "1",
-        "PYDANTIC_DISABLE_PLUGINS": "__all__",
-    }  # it looks through all wheels
+    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # it looks through all wheels
     environment = {**ros_environment(domain_id), **threads, **own}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
@@ -146,34 +143,46 @@ class Manager:
         self._supervisor = Supervisor(
             settings.programs or session_programs(self.domain_id), self.take, self._on_frame, reaps_all=True
         )
-        self._server = self._make_server()
-        self._folders = Folders(is_alone=settings.is_closed_off)
+        self._server: SessionServer | RamServer | None = None
+        self._folders: Folders | None = None
         self._events: deque[Event] = deque()
         self._is_handling = False
         self._timer: asyncio.TimerHandle | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._ended = loop.create_future()
 
-    def _make_server(self) -> SessionServer | RamServer:
-        settings = self._settings
-        if not settings.is_ram:
-            return SessionServer(self.session, self.take, token=settings.token)
-        from executor.ram.server import RamServer  # noqa: PLC0415 - few need it, and all would wait for it
-
-        return RamServer(self.session, self.take, origins=settings.origins)
-
     async def start(self) -> int:
-        """Listens and starts both processes ahead; returns the port.
+        """Starts both processes ahead and listens; returns the port.
 
         Raises:
             OSError: the port is in use.
         """
-        port = await self._server.start(self._settings.host, self._settings.port)
-        if self._settings.listener is not None and isinstance(self._server, SessionServer):
-            await self._server.start_at(self._settings.listener)
         self._do_all(self.session.prestart())
+        await asyncio.sleep(0)  # both start now, and take longest: the rest is loaded meanwhile
+        self._folders = self._make_folders()
+        port = await self._listen()
         self._set_timer()
         return port
+
+    async def _listen(self) -> int:
+        settings = self._settings
+        if settings.is_ram:
+            from executor.ram.server import RamServer  # noqa: PLC0415 - after the start of the processes
+
+            self._server = ram = RamServer(self.session, self.take, origins=settings.origins)
+            return await ram.start(settings.host, settings.port)
+        from executor.manager.server import SessionServer  # noqa: PLC0415 - dito
+
+        self._server = server = SessionServer(self.session, self.take, token=settings.token)
+        port = await server.start(settings.host, settings.port)
+        if settings.listener is not None:
+            await server.start_at(settings.listener)
+        return port
+
+    def _make_folders(self) -> Folders:
+        from executor.manager.folders import Folders  # noqa: PLC0415 - dito
+
+        return Folders(is_alone=self._settings.is_closed_off)
 
     async def wait(self) -> str:
         """Returns why the session is to end."""
@@ -188,11 +197,13 @@ class Manager:
         """Ends all connections and processes."""
         if self._timer is not None:
             self._timer.cancel()
-        await self._server.close()
+        if self._server is not None:
+            await self._server.close()
         await self._supervisor.close()
         if self._tasks:
             await asyncio.wait(self._tasks)
-        self._folders.remove()
+        if self._folders is not None:
+            self._folders.remove()
         await asyncio.to_thread(remove_abandoned_segments)
 
     def take(self, event: Event) -> None:
@@ -212,7 +223,7 @@ class Manager:
     def _do_all(self, effects: list[Any]) -> None:
         for effect in effects:
             match effect:
-                case Send():
+                case Send() if self._server is not None:
                     self._server.send(effect)
                 case Spawn() | Tell() | Interrupt() | Retire() | Kill():
                     self._supervisor.apply(effect)
@@ -232,10 +243,12 @@ class Manager:
             self._timer = asyncio.get_running_loop().call_at(deadline_s, self.take, TimePassed())
 
     async def _unpack(self, effect: Unpack) -> None:
+        assert self._folders is not None  # noqa: S101 - apps come from clients, and these after `start`
         self.take(await asyncio.to_thread(self._folders.unpack, effect))
 
     def _on_frame(self, message: dict[str, Any]) -> None:
-        self._server.send_frame(message)
+        if self._server is not None:
+            self._server.send_frame(message)
 
 
 async def serve(settings: ManagerSettings, ready_fd: int | None = None) -> str:

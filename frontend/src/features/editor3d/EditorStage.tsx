@@ -12,6 +12,9 @@ import { PointerTool, type Carrier, type Drawing } from './PointerTool';
 import { isReadOnly, showIn, type Editor } from './session';
 import type { ThingScene } from './ThingScene';
 
+/** Closer lines would be a haze. */
+const FINEST_LINES_M = 0.05;
+
 /** What an editor gives its stage: what is shown, and what gestures do to it. */
 export interface Staged {
   readonly scene: ThingScene<{ readonly key: string }>;
@@ -101,7 +104,7 @@ export function EditorStage(props: EditorStageProps) {
       ground={ground}
       textures={textures}
       hasGrid
-      fineGrid={grid}
+      fineGrid={grid === 0 ? 0 : Math.max(grid, FINEST_LINES_M)}
       reach={reach}
     >
       <primitive object={scene.group} />

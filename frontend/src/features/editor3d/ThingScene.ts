@@ -68,7 +68,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
       this.group.add(node);
     }
     this.group.updateMatrixWorld(true);
-    this.bounds.setFromObject(this.group);
+    this.bounds.copy(this.boundsOf(things.map(({ key }) => key)));
     this.mark(this.selected);
   }
 
@@ -90,12 +90,13 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return null;
   }
 
-  /** The box round some things. */
+  /** The box round some things, without their marks. */
   boundsOf(keys: readonly string[]): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const key of keys) {
-      const node = this.nodeOf(key);
-      if (node) bounds.expandByObject(node);
+      for (const child of this.nodeOf(key)?.children ?? []) {
+        if (!child.userData['isMark']) bounds.expandByObject(child);
+      }
     }
     return bounds;
   }

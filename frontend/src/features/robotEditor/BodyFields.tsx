@@ -56,7 +56,7 @@ export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
         <details key={index} className={classes['piece']} open={bodies.length === 1}>
           <summary>
             <span className={classes['dot']} style={{ background: hex(solidOf(body).color) }} />
-            {t(`shape.${solidOf(body).shape}`)} · {t(useOf(body))}
+            {t(`shape.${solidOf(body).shape}`)} · {t(roleOf(body))}
           </summary>
           <BodyForm editor={editor} name={name} index={index} body={body} isSized={isSized} />
         </details>
@@ -78,7 +78,7 @@ export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
   );
 }
 
-const useOf = ({ visual, collision }: Body): string =>
+const roleOf = ({ visual, collision }: Body): string =>
   visual && collision ? 'use.both' : visual ? 'use.seen' : 'use.touched';
 
 interface BodyFormProps extends Omit<BodyFieldsProps, 'robot'> {

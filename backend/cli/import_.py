@@ -47,6 +47,10 @@ def import_(
         )
         return
     cli.tell(project.diagnostics)
-    print(f"{output}: {len(project.trees)} trees, {len(project.actions)} actions")
+    print(f"{output}: {_counted(len(project.trees), 'tree')}, {_counted(len(project.actions), 'action')}")
     if stubs:
         print(f"To be written: {', '.join(f'actions/{name}.py' for name in stubs)}")
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"

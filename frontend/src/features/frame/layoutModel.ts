@@ -33,6 +33,27 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['history', 'explorer'],
 ];
 
+/** Panels that can have a window of their own, with those of their kind: they look at the run. */
+const LOOKING: readonly (readonly PanelId[])[] = [
+  ['viewer3d', 'video', 'camera'],
+  ['console', 'timeline', 'topics'],
+  ['blackboard'],
+];
+const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
+
+/** Panels beside which another feels at home, the likest first. */
+export const companionsOf = (id: PanelId): readonly PanelId[] => [
+  ...(LOOKING.find((kind) => kind.includes(id)) ?? []).filter((other) => other !== id),
+  ...NEIGHBOURS,
+];
+
+/** What the docking library is told of a panel that may have a window. */
+const windowed = (id: PanelId): Partial<IJsonTabNode> =>
+  LOOKING.some((kind) => kind.includes(id))
+    ? // A drawing surface is made anew where it goes: it does not travel between documents.
+      { enablePopout: true, enablePopoutIcon: true, enableWindowReMount: id === 'viewer3d' }
+    : {};
+
 export type FrameWidth = 'wide' | 'narrow';
 
 /** The tab set of trees and code; it stays when it is empty. */
@@ -48,6 +69,7 @@ const panel = (id: PanelId): IJsonTabNode => ({
   name: `panel.${id}`,
   component: id,
   enableClose: false,
+  ...windowed(id),
 });
 
 const tabset = (id: string, weight: number, panels: PanelId[], selected = 0): IJsonTabSetNode => ({
@@ -178,7 +200,7 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
   if (kept) {
     try {
       const model = Model.fromJson(JSON.parse(kept) as IJsonModel);
-      if (model.getNodeById(EDITORS)) return withNewPanels(model);
+      if (model.getNodeById(EDITORS)) return withWindows(withNewPanels(model));
     } catch {
       // A layout that cannot be read is replaced by the default one.
     }
@@ -192,6 +214,14 @@ function withNewPanels(model: Model): Model {
     const beside = model.getNodeById(neighbour)?.getParent();
     if (!beside || model.getNodeById(id)) continue;
     model.doAction(Actions.addTab(panel(id), beside.getId(), DockLocation.CENTER, -1, false));
+  }
+  return model;
+}
+
+/** A layout that was kept before panels could have windows. */
+function withWindows(model: Model): Model {
+  for (const id of LOOKING.flat()) {
+    if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, windowed(id)));
   }
   return model;
 }

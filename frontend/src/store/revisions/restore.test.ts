@@ -1,6 +1,7 @@
 import { beforeEach, expect, it, vi } from 'vitest';
 import { api } from '@/api/client';
 import { revisions } from '@/api/revisions';
+import type { ProjectDetail } from '@/api/types';
 import { useProjectStore } from '@/store/project';
 import { treePath } from '@/store/project/state';
 import { catchUp } from '@/store/saving/live';

@@ -1,0 +1,74 @@
+import { notifications } from '@mantine/notifications';
+import { Actions, Model, TabNode, TabSetNode } from 'flexlayout-react';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+import '@/i18n';
+import { loadLayout } from './layoutModel';
+import { popOut, Popouts } from './popouts';
+import { useTabs } from './tabs';
+
+let model: Model;
+let popouts: Popouts;
+
+const tab = (id: string): TabNode => {
+  const node = model.getNodeById(id);
+  if (!(node instanceof TabNode)) throw new Error(`${id} is no tab`);
+  return node;
+};
+const isInWindow = (id: string) => tab(id).getLayoutId() !== Model.MAIN_LAYOUT_ID;
+const neighboursOf = (id: string) =>
+  tab(id)
+    .getParent()
+    ?.getChildren()
+    .map((each) => each.getId());
+/** What the docking library does when a window has opened, and when it closes. */
+const opened = (id: string) => {
+  const page = document.implementation.createHTMLDocument();
+  popouts.onOpen({ getLayoutId: () => tab(id).getLayoutId() }, window, page);
+};
+const closed = (id: string) => popouts.onAction(Actions.closePopout(tab(id).getLayoutId()));
+
+beforeEach(() => {
+  localStorage.clear();
+  model = loadLayout('wide', true);
+  popouts = new Popouts(model);
+  useTabs.setState({ model, width: 'wide' });
+});
+
+describe('panels in windows of their own', () => {
+  it('go out, and come back to their places when the window closes', () => {
+    const before = neighboursOf('video');
+    popOut('video');
+    expect(isInWindow('video')).toBe(true);
+    opened('video');
+    expect(closed('video')).toBeUndefined();
+    expect(isInWindow('video')).toBe(false);
+    expect(neighboursOf('video')).toEqual(before);
+  });
+
+  it('come back beside their like when their place is gone', () => {
+    for (const id of ['inspector', 'blackboard'] as const) {
+      if (id === 'inspector') model.doAction(Actions.deleteTab(id));
+      else popOut(id);
+    }
+    opened('blackboard');
+    closed('blackboard');
+    expect(isInWindow('blackboard')).toBe(false);
+    expect(tab('blackboard').getParent()).toBeInstanceOf(TabSetNode);
+  });
+
+  it('stay in the layout that is kept', () => {
+    popOut('console');
+    model = Model.fromJson(model.toJson());
+    expect(isInWindow('console')).toBe(true);
+  });
+
+  it('come back with a word when the browser opens no window', () => {
+    const told = vi.spyOn(notifications, 'show').mockReturnValue('');
+    popOut('viewer3d');
+    closed('viewer3d');
+    expect(isInWindow('viewer3d')).toBe(false);
+    expect(told).toHaveBeenCalledWith(
+      expect.objectContaining({ title: 'The browser did not open a window for 3D.' }),
+    );
+  });
+});

@@ -12,12 +12,15 @@ from django.utils import timezone
 from hypothesis import HealthCheck
 from hypothesis import strategies as st
 
+from backend.accounts.actions import create_account
 from backend.config import guard
 from backend.config.schema_view import document
 from backend.projects import queries
 from backend.projects.access import Need
+from backend.projects.actions import create_project
 from backend.sessions import actions
 from backend.sessions.models import Session
+from tests.backend.accounts.conftest import PUBLIC, Person, team  # noqa: F401 - the fixture of that name
 from tests.budget import count
 
 SCHEMA = schemathesis.openapi.from_dict(document())
@@ -37,8 +40,8 @@ CHECKS = [
 
 
 @pytest.fixture
-def known_project(project, monkeypatch):
-    """A project that requests can meet; the transaction of the test outlives its requests."""
+def one_transaction(monkeypatch):
+    """The transaction of the test outlives its requests, and no robot is started."""
 
     def start(project_id, *, acting_user):
         found = queries.project(project_id, user=acting_user, need=Need.RUN)
@@ -47,17 +50,35 @@ def known_project(project, monkeypatch):
     monkeypatch.setattr(actions, "start_session", start)
     for moment in (signals.request_started, signals.request_finished):
         moment.disconnect(close_old_connections)
-    yield project["id"]
+    yield
     for moment in (signals.request_started, signals.request_finished):
         moment.connect(close_old_connections)
 
 
 @pytest.mark.parametrize(("path", "method"), OPERATIONS, ids=[f"{m} {p}" for p, m in OPERATIONS])
-def test_operation(path, method, known_project):
+def test_operation(path, method, project, one_transaction):
+    ask_anything(path, method, project["id"], HEADERS, count("backend_schemathesis"))
+
+
+@pytest.mark.usefixtures("team", "one_transaction")
+def test_every_operation_on_a_server_with_accounts(settings_of, monkeypatch):
+    settings_of(expensive_calls_per_minute=10**6)  # besides those of `team`
+    monkeypatch.setattr(SCHEMA, "app", WSGIHandler())
+    teacher = create_account("tea", email="tea@example.org", password="", is_teacher=True)
+    browser = Person(teacher).quick().client
+    cookies = "; ".join(f"{name}={morsel.value}" for name, morsel in browser.cookies.items())
+    headers = {"Host": PUBLIC, "Cookie": cookies}
+    for number, (path, method) in enumerate(OPERATIONS):
+        project = create_project({}, acting_user=teacher, name=f"Project {number}")
+        ask_anything(path, method, str(project.id), headers, count("backend_schemathesis_team"))
+
+
+def ask_anything(path, method, known_project, headers, times):
+    """Sends generated requests of one operation, and looks at the answers."""
     operation = SCHEMA[path][method]
 
     @hypothesis.settings(
-        max_examples=count("backend_schemathesis"),
+        max_examples=times,
         deadline=None,
         derandomize=True,
         database=None,
@@ -69,6 +90,6 @@ def test_operation(path, method, known_project):
             case.path_parameters["project_id"] = known_project
             if "number" in case.path_parameters:
                 case.path_parameters["number"] = 1
-        case.call_and_validate(headers=HEADERS, checks=CHECKS)
+        case.call_and_validate(headers=headers, checks=CHECKS)
 
     fuzz()

@@ -19,3 +19,12 @@ def test_every_text_exists_in_every_language():
 
 def test_values_are_put_in():
     assert text("join_group", who="Tina", group="A & B") == "Tina invites you to “A & B”."
+
+
+def test_the_page_of_the_api_asks_for_an_account_first(stranger, person):
+    answer = stranger.page("/api/v1/docs")
+    assert (answer.status_code, answer.headers["Location"]) == (
+        302,
+        "/accounts/login/?next=%2Fapi%2Fv1%2Fdocs",
+    )
+    assert person("ada").page("/api/v1/docs").status_code == 200

@@ -36,9 +36,9 @@ MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
 QUEUED_MESSAGES: Final = 2
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
-# A container with many processes takes seconds to end after its sockets.
+# A container with many processes takes seconds to end after its sockets, on a busy host many.
 LOST_POLL_S: Final = 0.1
-LOST_POLLS: Final = 60
+LOST_POLLS: Final = 150
 
 GOING_AWAY: Final = 1001
 NO_SUCH_SESSION: Final = 4404

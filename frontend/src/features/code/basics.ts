@@ -37,7 +37,8 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     search({ top: true }),
     lintGutter(),
     editorTheme,
-    EditorView.contentAttributes.of({ 'aria-label': label }),
+    // What is edited takes the focus anyhow; that it is said lets what scrolls be known as reachable by keyboard.
+    EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
     keymap.of([
       ...keys,
       ...fontSizeKeys,

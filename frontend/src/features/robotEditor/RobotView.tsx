@@ -81,7 +81,7 @@ function RobotStage({ editor, robot, isDark }: RobotViewProps & { readonly isDar
       lights={SUN}
       ground={GROUND}
       reach={[0.1, 12]}
-      extent={[0.4, 6]}
+      extent={[0.55, 6]}
     />
   );
 }

@@ -55,7 +55,7 @@ export function Surroundings(props: SurroundingsProps) {
           line={look.gridLine}
           side={Math.min(20, fineGrid * 200)}
           step={fineGrid}
-          opacity={fineGrid < 0.5 ? 0.14 : 0.3}
+          opacity={fineGrid < 0.5 ? 0.22 : 0.3}
         />
       ) : null}
       {props.children}
@@ -107,7 +107,7 @@ export function look(
 ): void {
   const center = bounds.isEmpty() ? new THREE.Vector3() : bounds.getCenter(new THREE.Vector3());
   const size = Math.min(Math.max(bounds.getSize(new THREE.Vector3()).length(), least), most);
-  if (kind !== 'selection') center.z = Math.min(0.2, size * 0.1);
+  if (kind !== 'selection') center.z = Math.min(0.2, center.z);
   const before = camera.position.clone().sub(controls?.target ?? new THREE.Vector3());
   const offset =
     kind === 'top'

@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
     from tests.e2e.studio import Studio
 
 AXE = Path(__file__).parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
@@ -16,10 +18,15 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
     if studio.page.locator("html").get_attribute("data-mantine-color-scheme") != scheme:
         studio.at("theme-toggle").click()
         studio.page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]")
+    expect_no_findings(studio.page, scheme)
+
+
+def expect_no_findings(page: Page, name: str) -> None:
+    """Lets axe-core look at a page as it is."""
     # Colours that are still fading in are no colours of the page.
-    studio.page.add_style_tag(content="*, ::before, ::after { transition: none !important }")
-    studio.page.evaluate(AXE.read_text(encoding="utf-8"))
-    found = studio.page.evaluate(
+    page.add_style_tag(content="*, ::before, ::after { transition: none !important }")
+    page.evaluate(AXE.read_text(encoding="utf-8"))
+    found = page.evaluate(
         "async () => (await axe.run("
         # What lies behind a dialogue cannot be reached while that is open.
         "document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
@@ -28,4 +35,4 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
         ".map(each => `${each.id}: `"
         " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"
     )
-    assert not found, f"axe-core, {scheme}:\n" + "\n".join(found)
+    assert not found, f"axe-core, {name}:\n" + "\n".join(found)

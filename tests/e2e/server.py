@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -50,13 +51,16 @@ def command(*arguments: str) -> list[str]:
 
 
 @contextmanager
-def serving(folder: Path, *arguments: str) -> Iterator[Server]:
+def serving(folder: Path, *arguments: str, **environment: str) -> Iterator[Server]:
     """Starts `bt-studio serve` on a free port with its data in `folder`; ends it and all below it."""
     ready = folder / "ready.json"
     log = (folder / "serve.log").open("wb")
     serve = command("serve", "--no-browser", "--port", "0", "--data-dir", str(folder / "data"))
     process = subprocess.Popen(
-        [*serve, "--ready-file", str(ready), *arguments], stdout=log, stderr=subprocess.STDOUT
+        [*serve, "--ready-file", str(ready), *arguments],
+        env=os.environ | environment,
+        stdout=log,
+        stderr=subprocess.STDOUT,
     )
 
     def answered() -> bool:

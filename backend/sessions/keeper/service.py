@@ -23,6 +23,8 @@ LOOK_EVERY_S: Final = 0.25
 LOG_LINES: Final = 20
 STOP_TIMEOUT_S: Final = 10.0
 KEPT_AFTER_END_S: Final = 3600.0
+KEPT_REASONS: Final = 200
+"""Of so many sessions it is known why they were ended, after their containers have gone."""
 
 
 class Keeper:
@@ -72,7 +74,9 @@ class Keeper:
         """Whether an executor runs, and how it ended."""
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
-            return {"running": False, "status": None, "reason": "There is no executor of this session."}
+            # Whoever asks while somebody else clears up is told the same.
+            reason = self._reasons.get(session_id, "There is no executor of this session.")
+            return {"running": False, "status": None, "reason": reason}
         state = found["State"]
         if state["Running"]:
             return {"running": True, "status": None, "reason": ""}
@@ -95,6 +99,9 @@ class Keeper:
 
     def stop(self, session_id: str, timeout_s: float) -> None:
         """Ends an executor and removes its container; ending twice is no error."""
+        ended = self.look(session_id)
+        if not ended["running"] and ended["status"] is not None and ended["reason"]:
+            self._remember(session_id, ended["reason"])
         self._docker.stop(self._plan.container_name(session_id), timeout_s)
         self._clear(session_id)
 
@@ -102,7 +109,11 @@ class Keeper:
         with contextlib.suppress(KeeperError):
             self._docker.remove(self._plan.container_name(session_id))
         self._gate.remove(session_id)
-        self._reasons.pop(session_id, None)
+
+    def _remember(self, session_id: str, reason: str) -> None:
+        self._reasons[session_id] = reason
+        while len(self._reasons) > KEPT_REASONS:
+            self._reasons.pop(next(iter(self._reasons)))
 
     def end_crowded(self) -> None:
         """Kills what has had as many processes as it may at this look and the last.
@@ -119,8 +130,8 @@ class Keeper:
                 crowded.add(session_id)
                 if session_id in self._crowded:
                     log.warning("session %s has too many processes and is ended", session_id)
-                    self._reasons[session_id] = (
-                        f"It had {self._plan.limits.pids:g} processes, all it may have."
+                    self._remember(
+                        session_id, f"It had {self._plan.limits.pids:g} processes, all it may have."
                     )
                     self._docker.kill(name)
             except KeeperError as error:

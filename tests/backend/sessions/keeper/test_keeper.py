@@ -182,6 +182,10 @@ def test_a_storm_of_processes_is_ended_from_outside(host_of):
     host.keeper.end_crowded()
     assert host.launcher.poll(started.state) == 137
     assert "256 processes" in host.launcher.explain(started.state)
+    # Whoever asks when somebody else has cleared up is told the same.
+    host.launcher.stop(started.state, timeout_s=1)
+    assert host.docker.containers == {}
+    assert "256 processes" in host.launcher.explain(started.state)
 
 
 def test_a_container_may_do_little():

@@ -79,9 +79,6 @@ export function editorFor(path: string, kind: Kind): Editor {
   return editor;
 }
 
-/** The editor of a file, if it was opened in one. */
-export const openEditor = (path: string): Editor | undefined => known.get(keyOf(path));
-
 function textsAt(path: string, kind: Kind): readonly string[] {
   const { currentText } = useProjectStore.getState();
   const first = currentText(path) ?? '';

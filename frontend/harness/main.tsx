@@ -22,7 +22,8 @@ setNavigator({
   openTree: (id) => {
     location.search = `?tree=${id}`;
   },
-  openFile: () => undefined, aimAt: () => undefined,
+  openFile: () => undefined,
+  aimAt: () => undefined,
 });
 Object.assign(window, { project: useProjectStore, live: useLiveStore });
 

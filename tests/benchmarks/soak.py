@@ -82,7 +82,9 @@ class Soak:
         used = 0
         for process in family:
             with contextlib.suppress(psutil.Error):
-                used += process.memory_full_info().pss
+                # Its own alone: what of a library it shares depends on who else runs on the machine.
+                memory = process.memory_info()
+                used += memory.rss - memory.shared
         return Sample(
             cycle,
             self.manager.memory_info().rss / 2**20,

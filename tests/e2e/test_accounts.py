@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     AriaRole = Any  # playwright's own list of names
 
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
+
 PASSWORD = "Correct-horse-9"
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from tests.e2e.observer import Observer
     from tests.e2e.studio import Studio
 
-pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(400)]
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 WATCHED_S = 60.0
 

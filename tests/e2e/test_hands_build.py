@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
-pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(400)]
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "laser_bump_and_go" / "actions"
 ACTIONS = ("CheckObstacle", "Turn", "Forward")

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 BTCPP = b"""<root BTCPP_format="4" main_tree_to_execute="Patrol">
   <BehaviorTree ID="Patrol"><Sequence><AlwaysSuccess/><Sleep msec="10"/></Sequence></BehaviorTree>

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
-pytestmark = [pytest.mark.e2e, pytest.mark.timeout(300)]
+pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
 def line(studio: Studio, text: str) -> Locator:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
-pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(200)]
+pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 FORWARD = "actions/Forward.py"
 

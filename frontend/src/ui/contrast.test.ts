@@ -50,6 +50,7 @@ describe.each(themes)('the %s theme', (_name, token) => {
     ...families.map((family) => ['on-family', family] as [string, string]),
     ['accent', 'surface'],
     ['accent', 'accent-soft'],
+    ['accent', 'accent-soft-hover'],
     ['on-accent', 'accent'],
   ];
   it.each(pairs)('reads %s on %s at WCAG AA', (text, ground) => {

@@ -58,6 +58,7 @@ export const theme = createTheme({
     ActionIcon: { defaultProps: { variant: 'subtle', color: 'gray' } },
     Button: { defaultProps: { size: 'sm' } },
     Menu: { defaultProps: { shadow: 'md', withinPortal: true } },
+    Loader: { defaultProps: { role: 'status' } },
   },
 });
 
@@ -75,6 +76,7 @@ export const cssVariablesResolver: CSSVariablesResolver = () => {
     '--mantine-color-default-color': 'var(--bts-text)',
     '--mantine-color-default-border': 'var(--bts-border)',
     '--mantine-color-indigo-light': 'var(--bts-accent-soft)',
+    '--mantine-color-indigo-light-hover': 'var(--bts-accent-soft-hover)',
     '--mantine-color-indigo-light-color': 'var(--bts-accent)',
     '--mantine-color-gray-light-color': 'var(--bts-muted)',
   };

@@ -19,6 +19,7 @@ MAX_FILES = 5_000
 MAX_FILE_BYTES = 64 * 1024 * 1024
 MAX_TOTAL_BYTES = 256 * 1024 * 1024
 SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules", ".git"}
+# zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
 _CHUNK = 1024 * 1024
 

@@ -54,7 +54,7 @@ def unpack(data: bytes) -> dict[str, bytes]:
         zipfile.BadZipFile,
         zlib.error,
         EOFError,
-        NotImplementedError,
+        NotImplementedError,  # zipfile, of a compression that it does not know
         RuntimeError,
         UnicodeError,
     ) as error:

@@ -43,6 +43,7 @@ def unpack(archive_base64: str, folder: Path) -> None:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             _unpack_all(archive, folder)
+    # zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
         raise ArchiveError(f"it is not a readable zip: {error}") from error
     except (OSError, ValueError) as error:

@@ -161,6 +161,7 @@ def _settings_of(archive: str) -> dict[str, Any]:
                 return {}
             with files.open("project.json") as file:
                 found = json.loads(file.read(SMALL_FILE_BYTES))
+    # zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
     except (binascii.Error, ValueError, zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError):
         return {}
     return found if isinstance(found, dict) else {}

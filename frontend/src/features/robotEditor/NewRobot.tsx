@@ -1,7 +1,8 @@
-import { Loader, Modal } from '@mantine/core';
+import { Loader } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
+import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
 import { titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
@@ -13,15 +14,9 @@ export function NewRobot() {
   const { t } = useTranslation('robotEditor');
   const base = useNewRobot((state) => state.base);
   return (
-    <Modal
-      opened={base !== null}
-      onClose={closeNewRobot}
-      title={t('new.title')}
-      size={760}
-      closeButtonProps={{ 'aria-label': t('editor3d:copy.cancel') }}
-    >
-      {base !== null ? <Form first={base} /> : null}
-    </Modal>
+    <CopyDialog title={t('new.title')} isOpen={base !== null} onClose={closeNewRobot}>
+      <Form first={base ?? ''} />
+    </CopyDialog>
   );
 }
 

@@ -1,7 +1,8 @@
-import { Loader, Modal } from '@mantine/core';
+import { Loader } from '@mantine/core';
 import { useQuery } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
+import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
@@ -12,15 +13,9 @@ export function NewUniverse() {
   const { t } = useTranslation('worldEditor');
   const base = useNewUniverse((state) => state.base);
   return (
-    <Modal
-      opened={base !== null}
-      onClose={closeNewUniverse}
-      title={t('new.title')}
-      size={760}
-      closeButtonProps={{ 'aria-label': t('editor3d:copy.cancel') }}
-    >
-      {base !== null ? <Form first={base} /> : null}
-    </Modal>
+    <CopyDialog title={t('new.title')} isOpen={base !== null} onClose={closeNewUniverse}>
+      <Form first={base ?? ''} />
+    </CopyDialog>
   );
 }
 

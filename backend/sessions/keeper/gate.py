@@ -64,6 +64,8 @@ class Gate:
         with contextlib.suppress(OSError):
             self._server.shutdown(socket.SHUT_RDWR)
         self._server.close()
+        for session_id in list(self._expected):
+            self.forget(session_id)
 
     def path(self, session_id: str) -> Path:
         """Where a session listens."""
@@ -71,6 +73,7 @@ class Gate:
 
     def expect(self, session_id: str, token: str) -> threading.Event:
         """Makes the socket of a session; the event is set when its executor has taken it."""
+        self.forget(session_id)  # one that is started anew asks for another
         expected = _Expected(token, listen_at(self.path(session_id)))
         with self._lock:
             self._expected[session_id] = expected

@@ -152,27 +152,29 @@ def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
     Raises:
         RobotError: it does not exist or is wrong.
     """
-    folders = [_FOLDER / robot_id]
+    folders = {robot_id: _FOLDER / robot_id}
     if assets is not None:
-        folders.insert(0, assets / "robots" / robot_id)
-    for folder in folders:
+        own = f"robots/{robot_id}"
+        folders = {own: assets / own, **folders}
+    for shown, folder in folders.items():
         if (folder / "robot.yaml").is_file():
-            return _read(robot_id, folder)
+            return _read(robot_id, folder, shown)
     near = difflib.get_close_matches(robot_id, robot_ids(), n=1)
     hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(robot_ids())}"
     raise RobotError([Problem(f"there is no robot {robot_id!r}", code="BTR001", hint=hint)], robot_id)
 
 
-def _read(robot_id: str, folder: Path) -> RobotConfig:
+def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
+    """Reads a robot; errors name the folder as it is `shown` to people: as a path of the project."""
     file = folder / "robot.yaml"
     try:
         located = read_yaml(file.read_text(encoding="utf-8"), file.name)
         document = validate(located, RobotDocument, file.name)
     except DocumentError as error:
-        raise RobotError(error.problems, f"{robot_id}/{file.name}") from error
+        raise RobotError(error.problems, f"{shown}/{file.name}") from error
     urdf_path = folder / document.urdf
-    urdf, meshes = _read_urdf(robot_id, urdf_path)
-    _check_names(robot_id, located, document, urdf)
+    urdf, meshes = _read_urdf(urdf_path, f"{shown}/{document.urdf}")
+    _check_names(f"{shown}/{file.name}", located, document, urdf)
     return RobotConfig(
         id=robot_id,
         name=document.name,
@@ -192,14 +194,14 @@ def _read(robot_id: str, folder: Path) -> RobotConfig:
     )
 
 
-def _read_urdf(robot_id: str, path: Path) -> tuple[Urdf, dict[str, Mesh]]:
+def _read_urdf(path: Path, shown: str) -> tuple[Urdf, dict[str, Mesh]]:
     try:
-        return read_links(path, f"{robot_id}/{path.name}")
+        return read_links(path, shown)
     except DocumentError as error:
         raise RobotError(error.problems, error.file) from error
 
 
-def _check_names(robot_id: str, located: Located, document: RobotDocument, urdf: Urdf) -> None:
+def _check_names(shown: str, located: Located, document: RobotDocument, urdf: Urdf) -> None:
     """Refuses names of links and joints that the URDF does not have."""
     drive = document.drive
     links: list[tuple[tuple[str | int, ...], str]] = [
@@ -226,7 +228,7 @@ def _check_names(robot_id: str, located: Located, document: RobotDocument, urdf:
             text = f"the joint {driven.joint!r} {why}: no motor can hold it somewhere"
             problems.append(Problem(text, *located.place(("joints", i, "joint")), "BTR003"))
     if problems:
-        raise RobotError(problems, f"{robot_id}/robot.yaml")
+        raise RobotError(problems, shown)
 
 
 def _missing(

@@ -116,13 +116,13 @@ def test_what_is_wrong_in_xacro_is_said_with_its_line(project: Path) -> None:
     file = project / "robots" / "cart" / "cart.urdf.xacro"
     change(file, '<xacro:wheel side="left" y="0.15"/>', '<xacro:whel side="left" y="0.15"/>')
     assert complaint(project).startswith(
-        "cart/cart.urdf.xacro:21:1: BTR002 xacro: unknown macro name: xacro:whel"
+        "robots/cart/cart.urdf.xacro:21:1: BTR002 xacro: unknown macro name: xacro:whel"
     )
     change(file, "<xacro:whel", "<xacro:wheel")
     change(file, "${radius}", "${radius / 0}")
-    assert "cart/cart.urdf.xacro:10:1: BTR002 xacro: float division by zero" in complaint(project)
+    assert "robots/cart/cart.urdf.xacro:10:1: BTR002 xacro: float division by zero" in complaint(project)
     file.write_text("<robot>\n<link\n")
-    assert complaint(project).startswith("cart/cart.urdf.xacro:2:1: BTR002")
+    assert complaint(project).startswith("robots/cart/cart.urdf.xacro:2:1: BTR002")
     file.unlink()
     assert "cannot be read: No such file" in complaint(project)
 
@@ -153,7 +153,7 @@ def test_a_sensor_at_no_link_is_refused_with_its_line(project: Path) -> None:
     change(project / "robots" / "cart" / "robot.yaml", "link: mast, rays", "link: mst, rays")
     assert (
         complaint(project)
-        == "cart/robot.yaml:10:25: BTR003 the URDF has no link 'mst' (did you mean 'mast'?)"
+        == "robots/cart/robot.yaml:10:25: BTR003 the URDF has no link 'mst' (did you mean 'mast'?)"
     )
     change(project / "robots" / "cart" / "robot.yaml", "link: mst, rays: 180", "link: mast, rays: 0")
-    assert "cart/robot.yaml:10:" in complaint(project)
+    assert "robots/cart/robot.yaml:10:" in complaint(project)

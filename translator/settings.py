@@ -13,6 +13,8 @@ from translator.text import clean, is_clean
 PROJECT_FILE = "project.json"
 FORMAT = "bt-studio/project"
 MAX_NAME = 200
+NO_UNIVERSE = "none"
+"""What `universe` says where the program runs against an outside ROS graph, without a world of ours."""
 
 
 class Maintainer(BaseModel):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from translator import Severity, check, from_xml
+from translator import Severity, check, from_xml, load
 from translator.diagnostic import rules
 
 LEAF = {"type": "AlwaysSuccess"}
@@ -162,6 +162,14 @@ def test_missing_main_tree(make_project):
     found = find(make_project({"n1": LEAF}, main_tree="MainTre"), "BT0100")
     assert found.place.file == "project.json"
     assert "MainTree" in found.hint
+
+
+def test_a_universe_cannot_be_called_as_what_means_none():
+    project = load({"trees/MainTree.json": b"{}", "universes/none.yaml": b"", "universes/nones.yaml": b""})
+    (found,) = [item for item in check(project) if item.code == "BT0031"]
+    assert found.is_error
+    assert (found.place.file, found.place.line) == ("universes/none.yaml", 1)
+    assert "universes/none.yaml" in found.hint
 
 
 def test_empty_trees(make_project):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from translator.catalog import NodeModel, did_you_mean
 from translator.diagnostic import Place, diagnostic
-from translator.settings import PROJECT_FILE
+from translator.settings import NO_UNIVERSE, PROJECT_FILE
 from translator.text import bad_character, is_valid_id
 from translator.xml.attributes import is_free
 
@@ -19,6 +19,7 @@ MAX_DEPTH = 250  # BehaviorTree.CPP refuses more than 256 levels of XML, root an
 
 def check_structure(context: Context) -> None:
     """Reports what keeps a tree from being built at all."""
+    _check_universes(context)
     _check_main(context)
     for tree in context.project.trees.values():
         _check_tree(context, tree)
@@ -29,6 +30,12 @@ def check_structure(context: Context) -> None:
                 if node.name in names:
                     context.report("BT0108", tree, node, name=node.name, other=names[node.name].id)
                 names.setdefault(node.name, node)
+
+
+def _check_universes(context: Context) -> None:
+    """Refuses a universe that could not be chosen: its name is that of *no world*."""
+    if (file := f"universes/{NO_UNIVERSE}.yaml") in context.project.files:
+        context.found.append(diagnostic("BT0031", Place(file, line=1), name=NO_UNIVERSE, file=file))
 
 
 def _check_main(context: Context) -> None:

@@ -55,6 +55,8 @@ export function Banner() {
 
 function GoButton({ link }: { readonly link: NonNullable<BannerContent['link']> }) {
   const { t } = useTranslation('run');
+  const isThere = useProjectStore(({ files }) => !('file' in link) || link.file in files);
+  if (!isThere) return null;
   const go = () => {
     if ('file' in link) return openFile(link.file, link.line);
     openTree(link.tree);

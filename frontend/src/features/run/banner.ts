@@ -86,8 +86,17 @@ function failureBanner(failure: LaunchFailure): BannerContent {
     values: { count: String(errors.length) },
     text: first ? first.message : failure.message,
     hint: (first ? first.hint : failure.hint) ?? '',
-    link: first?.file && first.line ? { file: first.file, line: first.line } : linkToNode(first),
+    link:
+      first?.file && first.line
+        ? { file: first.file, line: first.line }
+        : (linkToNode(first) ?? linkToText(failure.message)),
   };
+}
+
+/** The place that a refusal of the simulator begins with: `robots/mine/robot.yaml:10:25: …`. */
+function linkToText(message: string): BannerContent['link'] {
+  const [, file = '', line = ''] = /^([\w./-]+\.\w+):(\d+):(?:\d+:)? /.exec(message) ?? [];
+  return file === '' ? null : { file, line: Number(line) };
 }
 
 function linkToNode(item: { tree?: string | null; node?: string | null } | undefined): BannerContent['link'] {

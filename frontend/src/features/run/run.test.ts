@@ -78,6 +78,13 @@ describe('bannerFor', () => {
     const banner = bannerFor({ ...calm, failure });
     expect(banner).toMatchObject({ text: 'No such action.', link: { tree: 'MainTree', node: 'n4' } });
   });
+
+  it('leads to the line of a robot that the simulator refuses', () => {
+    const message = "robots/mine/robot.yaml:10:25: the URDF has no link 'mst'";
+    const failure = { stage: 'launching' as const, code: 'BTR003', message, hint: '', diagnostics: [] };
+    expect(bannerFor({ ...calm, failure })?.link).toEqual({ file: 'robots/mine/robot.yaml', line: 10 });
+    expect(bannerFor({ ...calm, failure: { ...failure, message: 'at 10:25: no' } })?.link).toBeNull();
+  });
 });
 
 describe('fractionOf', () => {

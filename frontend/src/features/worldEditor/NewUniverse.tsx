@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { CopyDialog } from '@/features/editor3d/CopyDialog';
 import { CopyForm } from '@/features/editor3d/CopyForm';
+import { OUTSIDE, titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewUniverse, useNewUniverse } from './newUniverse';
@@ -31,15 +32,17 @@ async function create(base: string, name: string, isUsed: boolean): Promise<void
 
 function Form({ first }: { readonly first: string }) {
   const { t } = useTranslation('worldEditor');
+  const { t: title } = useTranslation('worlds');
   const files = useProjectStore((state) => state.files);
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
-  const taken = new Set(
-    Object.keys(files).map((path) => /^universes\/([^/]+)\.yaml$/.exec(path)?.[1]?.toLowerCase() ?? ''),
-  );
+  const names = Object.keys(files).map((path) => /^universes\/([^/]+)\.yaml$/.exec(path)?.[1] ?? '');
+  // A universe of that name could not be chosen: it means no world at all.
+  const taken = new Set([...names.map((name) => name.toLowerCase()), OUTSIDE]);
+  const shipped = (universes.data ?? []).filter(({ id }) => id !== OUTSIDE);
   if (universes.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;
   return (
     <CopyForm
-      items={universes.data ?? []}
+      items={shipped.map((info) => titled(title, 'universe', info))}
       first={first}
       taken={taken}
       words={{ hint: t('new.hint'), taken: t('new.taken'), use: t('new.use') }}

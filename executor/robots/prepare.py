@@ -1,4 +1,4 @@
-"""Makes of a robot's URDF the one that the physics loads: meshes converted, no link without mass."""
+"""Makes of a URDF the one that the physics loads: meshes converted, fixed links one, all with a mass."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Final
 
 from lxml import etree
 
+from executor.robots.rigid import merge_fixed_links
 from executor.world.mesh import MeshError, write_obj
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from executor.messages import Mesh
 
@@ -42,8 +43,14 @@ def mesh_path(name: str, folder: Path) -> Path:
 
 
 @contextmanager
-def physical_urdf(text: str, meshes: dict[str, Mesh]) -> Iterator[Path]:
-    """Gives a file that the physics loads, as long as it is needed."""
+def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = ()) -> Iterator[Path]:
+    """Gives a file that the physics loads, as long as it is needed.
+
+    Args:
+        text: the URDF, valid.
+        meshes: by the names that it gives them.
+        apart: links that must not be merged with what they are fixed to.
+    """
     root = etree.fromstring(text.encode(), etree.XMLParser(resolve_entities=False, no_network=True))
     with tempfile.TemporaryDirectory(prefix="bt-studio-urdf-") as name:
         folder = Path(name)
@@ -51,6 +58,7 @@ def physical_urdf(text: str, meshes: dict[str, Mesh]) -> Iterator[Path]:
         for number, (mesh_name, mesh) in enumerate(meshes.items()):
             files[mesh_name] = folder / f"mesh_{number}.obj"
             write_obj(mesh, files[mesh_name])
+        merge_fixed_links(root, apart)
         for link in root.findall("link"):
             for visual in link.findall("visual"):  # we draw these ourselves
                 link.remove(visual)

@@ -7,8 +7,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeVar
 
+import numpy as np
 from lxml import etree
 
+from executor.robots.inertia import Inertial
 from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy
 
 if TYPE_CHECKING:
@@ -174,13 +176,31 @@ def _numbers(element: etree._Element, key: str, default: str = "", *, count: int
     return values
 
 
-def _origin(element: etree._Element) -> Pose:
+def read_origin(element: etree._Element) -> Pose:
+    """Returns the pose that an element's `<origin>` gives it; none is the identity."""
     origin = element.find("origin")
     if origin is None:
         return IDENTITY
     xyz = _numbers(origin, "xyz", "0 0 0", count=3)
     rpy = _numbers(origin, "rpy", "0 0 0", count=3)
     return from_xyz_rpy((*xyz, *rpy))
+
+
+def read_inertial(link: etree._Element) -> Inertial | None:
+    """Returns the inertia of a link; None if it has none of its own."""
+    element = link.find("inertial")
+    if element is None:
+        return None
+    mass, inertia = element.find("mass"), element.find("inertia")
+    if mass is None or inertia is None:
+        raise _WrongError("<inertial> needs a <mass> and an <inertia>", element)
+    xx, xy, xz, yy, yz, zz = (
+        _numbers(inertia, key, "0", count=1)[0] for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    )
+    [kilograms] = _numbers(mass, "value", count=1)
+    if kilograms < 0 or min(xx, yy, zz) < 0:
+        raise _WrongError("a mass and moments of inertia cannot be less than 0", element)
+    return Inertial(kilograms, read_origin(element), np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
 
 
 def _color(material: etree._Element) -> Rgba:
@@ -190,6 +210,9 @@ def _color(material: etree._Element) -> Rgba:
 
 
 def _link(element: etree._Element, colors: dict[str, Rgba]) -> Link:
+    read_inertial(element)
+    for collision in element.findall("collision"):
+        read_origin(collision)
     return Link(element.get("name", ""), tuple(_visual(v, colors) for v in element.findall("visual")))
 
 
@@ -205,7 +228,7 @@ def _visual(element: etree._Element, colors: dict[str, Rgba]) -> Visual:
     shape = geometry[0]
     kind = str(shape.tag)
     size, file = _size(kind, shape)
-    return Visual(kind, size, _origin(element), color, file)
+    return Visual(kind, size, read_origin(element), color, file)
 
 
 def _size(kind: str, shape: etree._Element) -> tuple[tuple[float, ...], str]:
@@ -235,7 +258,7 @@ def _joint(element: etree._Element) -> Joint:
         kind,
         parent.get("link", ""),
         child.get("link", ""),
-        _origin(element),
+        read_origin(element),
         (axis[0], axis[1], axis[2]),
         None if limits is None else (limits[0], limits[1]),
     )

@@ -68,7 +68,8 @@ class BulletRobot:
         self._bullet = bullet
         self._clock_s = 0.0
         start = from_xyz_rpy(place.pose)
-        with physical_urdf(config.urdf.text, config.meshes) as path:
+        apart = {*config.wheels, *config.friction, *config.skid}
+        with physical_urdf(config.urdf.text, config.meshes, apart) as path:
             self.uid: int = bullet.loadURDF(
                 str(path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
             )

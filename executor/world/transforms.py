@@ -17,6 +17,8 @@ Quaternion = tuple[float, float, float, float]
 Pose = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Final[Pose] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+_STRAIGHT_UP: Final = 1 - 1e-12
+"""Sine of a pitch at which roll and yaw cannot be told apart any more."""
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
@@ -97,9 +99,16 @@ def rotation(q: Sequence[float]) -> NDArray[np.float64]:
 def to_xyz_rpy(pose: Pose) -> tuple[float, float, float, float, float, float]:
     """Returns [x, y, z, roll, pitch, yaw] of a pose."""
     qx, qy, qz, qw = pose[3:]
+    sine = 2 * (qw * qy - qz * qx)
+    if abs(sine) > _STRAIGHT_UP:  # roll and yaw turn about one axis then: all of it is called yaw
+        return (
+            *pose[:3],
+            0.0,
+            math.copysign(math.pi / 2, sine),
+            wrap(-2 * math.copysign(1, sine) * math.atan2(qx, qw)),
+        )
     roll = math.atan2(2 * (qw * qx + qy * qz), 1 - 2 * (qx * qx + qy * qy))
-    pitch = math.asin(max(-1.0, min(1.0, 2 * (qw * qy - qz * qx))))
-    return (*pose[:3], roll, pitch, yaw_of(pose[3:]))
+    return (*pose[:3], roll, math.asin(sine), yaw_of(pose[3:]))
 
 
 def yaw_of(q: Sequence[float]) -> float:

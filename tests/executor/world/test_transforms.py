@@ -12,6 +12,7 @@ from executor.world.transforms import (
     inverse,
     quaternion_about,
     rotate,
+    to_xyz_rpy,
     wrap,
     yaw_of,
 )
@@ -43,6 +44,16 @@ def test_roll_pitch_yaw_are_about_fixed_axes() -> None:
 def test_yaw_is_read_back(yaw: float) -> None:
     assert yaw_of(from_xyz_rpy((0, 0, 0, 0, 0, yaw))[3:]) == pytest.approx(yaw)
     assert wrap(yaw + 4 * math.pi) == pytest.approx(yaw)
+
+
+@given(numbers, st.one_of(numbers, st.sampled_from([math.pi / 2, -math.pi / 2])), numbers)
+def test_roll_pitch_yaw_are_read_back_also_when_it_points_straight_up(
+    roll: float, pitch: float, yaw: float
+) -> None:
+    pose = from_xyz_rpy((1, 2, 3, roll, pitch, yaw))
+    again = from_xyz_rpy(to_xyz_rpy(pose))
+    for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)):
+        assert rotate(again[3:], axis) == pytest.approx(rotate(pose[3:], axis), abs=1e-5)
 
 
 def test_identity() -> None:

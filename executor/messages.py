@@ -383,6 +383,8 @@ class Sim(Struct):
     distance_m: float
     pose: tuple[float, float, float]
     """True pose of the first robot: x and y in m, yaw in rad, world frame."""
+    camera_share: float = 1.0
+    """Of their rates at which cameras draw: less than 1 on a machine too slow for real time."""
 
 
 class TopicInfo(Struct):

@@ -1,12 +1,12 @@
-"""A topic that is fed at a rate: measured when it is due, and only if somebody receives it."""
+"""Topics that are fed at a rate: measured when they are due, and only if somebody receives them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from executor.world.sensors import Sensors
 
@@ -15,12 +15,12 @@ class Due:
     """Tells when something of a given rate is to be done again, counted from the simulated time 0."""
 
     def __init__(self, rate_hz: float) -> None:
-        self._rate_hz = rate_hz
+        self.rate_hz = rate_hz
         self._done = -1
 
     def __call__(self, time_s: float) -> bool:
         """Tells whether it is due, and counts it as done."""
-        turn = int(time_s * self._rate_hz + 1e-6)
+        turn = int(time_s * self.rate_hz + 1e-6)
         if turn == self._done:
             return False
         self._done = turn
@@ -31,18 +31,18 @@ class Due:
         self._done = -1
 
 
-@dataclass
+@dataclass(frozen=True)
 class Feed:
-    """One measurement and the publishers that it goes to; `make` measures."""
+    """One measurement and the publishers that it goes to; `make` measures.
+
+    `is_picture` if it must be drawn; `of_camera` also if it goes with a picture.
+    """
 
     publishers: list[Any]
     make: Callable[[Sensors, float], Any]
     rate_hz: float
     is_picture: bool = False
-    due: Due = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.due = Due(self.rate_hz)
+    of_camera: bool = False
 
     @property
     def has_receiver(self) -> bool:
@@ -50,11 +50,37 @@ class Feed:
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
     def publish(self, sensors: Sensors, now_s: float) -> None:
-        """Sends what is due now to those who listen."""
-        if not self.due(now_s):
-            return
+        """Measures and sends to those who listen."""
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
         if receivers:
             message = self.make(sensors, now_s)
             for publisher in receivers:
                 publisher.publish(message)
+
+
+class Feeds:
+    """Feeds by their rates: most have the rate of another, and looks are more often than any is due."""
+
+    def __init__(self, feeds: Sequence[Feed]) -> None:
+        groups: dict[tuple[float, bool], list[Feed]] = {}
+        for feed in feeds:
+            groups.setdefault((feed.rate_hz, feed.of_camera), []).append(feed)
+        self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
+
+    def publish(self, sensors: Sensors, now_s: float) -> None:
+        """Sends what is due now."""
+        for is_due, feeds in self._groups:
+            if is_due(now_s):
+                for feed in feeds:
+                    feed.publish(sensors, now_s)
+
+    def slow_cameras(self, share: float) -> None:
+        """Has cameras feed at a share of their rates."""
+        for due, feeds in self._groups:
+            if feeds[0].of_camera:
+                due.rate_hz = feeds[0].rate_hz * share
+
+    def restart(self) -> None:
+        """Begins anew: simulated time is 0 again."""
+        for due, _ in self._groups:
+            due.restart()

@@ -14,7 +14,7 @@ from rosgraph_msgs.msg import Clock
 
 from executor.ros import messages
 from executor.ros.environment import has_tf
-from executor.ros.feed import Due, Feed
+from executor.ros.feed import Due, Feed, Feeds
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics, take
 
 if TYPE_CHECKING:
@@ -56,9 +56,11 @@ class WorldNode:
             RobotTopics(self.node, self._finder(i), i, renamed.get(robot.id, {}))
             for i, robot in enumerate(world.robots)
         ]
-        self._feeds = [feed for robot in self._robots for feed in robot.feeds]
+        feeds = [feed for robot in self._robots for feed in robot.feeds]
         if has_tf():
-            self._feeds.append(self._make_tf())
+            feeds.append(self._make_tf())
+        self._feeds = Feeds(feeds)
+        self._pictures = [feed for feed in feeds if feed.is_picture]
         self.refused_commands = 0
 
     def poll(self) -> None:
@@ -70,8 +72,7 @@ class WorldNode:
         now_s = self._world.time_s
         if self._clock_due(now_s):
             self.publish_clock()
-        for feed in self._feeds:
-            feed.publish(sensors, now_s)
+        self._feeds.publish(sensors, now_s)
 
     def publish_clock(self) -> None:
         """Sends the simulated time, also while it stands still."""
@@ -80,12 +81,15 @@ class WorldNode:
     def restart(self) -> None:
         """Forgets what was done when: simulated time begins anew."""
         self._clock_due.restart()
-        for feed in self._feeds:
-            feed.due.restart()
+        self._feeds.restart()
+
+    def slow_cameras(self, share: float) -> None:
+        """Has cameras publish at a share of their rates, 0 to 1."""
+        self._feeds.slow_cameras(share)
 
     def wants_pictures(self) -> bool:
         """Tells whether anybody receives a camera's pictures."""
-        return any(feed.has_receiver for feed in self._feeds if feed.is_picture)
+        return any(feed.has_receiver for feed in self._pictures)
 
     def close(self) -> None:
         """Leaves the graph."""

@@ -122,9 +122,12 @@ class RobotTopics:
         rate_hz: float,
         make: Callable[[Sensors, float], Any],
         *,
-        picture: bool = False,
+        is_picture: bool = False,
+        of_camera: bool = False,
     ) -> None:
-        self.feeds.append(Feed(publishers, make, rate_hz, is_picture=picture))
+        self.feeds.append(
+            Feed(publishers, make, rate_hz, is_picture=is_picture, of_camera=is_picture or of_camera)
+        )
 
     def _add_motion(self) -> None:
         noise, frames = self._config.drive.slip_noise, self._frames
@@ -157,7 +160,7 @@ class RobotTopics:
             lambda sensors, now_s: messages.image(
                 camera, sensors.picture(self._robot(), camera), now_s, frames
             ),
-            picture=True,
+            is_picture=True,
         )
         if camera.depth_topic is not None:
             self._feed(
@@ -166,13 +169,14 @@ class RobotTopics:
                 lambda sensors, now_s: messages.depth_image(
                     camera, sensors.depth(self._robot(), camera), now_s, frames
                 ),
-                picture=True,
+                is_picture=True,
             )
             infos += [camera.depth_info_topic] if camera.depth_info_topic else []
         self._feed(
             [self._publisher(CameraInfo, name, qos) for name in dict.fromkeys(infos)],
             camera.rate_hz,
             lambda _, now_s: messages.camera_info(camera, now_s, frames),
+            of_camera=True,
         )
 
     def _add_imu(self, imu: config.Imu) -> None:

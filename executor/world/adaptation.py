@@ -1,14 +1,22 @@
-"""How large, how good and how often pictures are for a client that is too slow for all of them. Pure.
+"""How much is tried where there may not be enough for all of it. Pure.
 
-The manager says for each client which share of its pictures had to be thrown away because newer ones came
-before they could be sent. Each step down costs about half the bytes; a step up is tried when nothing was
-lost for a while, and more rarely each time that it proved too much.
+Two things give way so. Pictures for a client that is too slow for them get smaller, worse and fewer: the
+manager says for each client which share of its pictures had to be thrown away because newer ones came before
+they could be sent, and each step down costs about half the bytes. And cameras yield to time: on a machine
+that cannot draw them at their rates in real time they draw less often, and robots go on as they should.
+
+A step up is tried when nothing was lost for a while, and more rarely each time that it proved too much.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+T = TypeVar("T")
 
 TOO_MUCH: Final = 0.2
 FIRST_PATIENCE: Final = 6
@@ -35,26 +43,38 @@ LEVELS: Final = (
 )
 
 
-class Adaptation:
-    """The level of one client."""
+CAMERA_SHARES: Final = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)
+"""Of a camera's rate."""
+TOO_SLOW: Final = 0.03
 
-    def __init__(self) -> None:
+
+class Adaptation(Generic[T]):
+    """Which of several levels, the best first, is in use.
+
+    Args:
+        levels: what there is to choose from.
+        too_much: the share lost from which on it is too much.
+    """
+
+    def __init__(self, levels: Sequence[T], too_much: float = TOO_MUCH) -> None:
+        self._levels = levels
+        self._too_much = too_much
         self._at = 0
         self._quiet = 0
         self._patience = FIRST_PATIENCE
         self._has_just_risen = False
 
     @property
-    def level(self) -> Level:
-        """How to draw for the client now."""
-        return LEVELS[self._at]
+    def level(self) -> T:
+        """The one in use."""
+        return self._levels[self._at]
 
     def note(self, lost: float) -> None:
-        """Takes the share of pictures that was lost in the last report's time, 0 to 1."""
-        if lost > TOO_MUCH:
+        """Takes the share that was lost since the last report, 0 to 1."""
+        if lost > self._too_much:
             if self._has_just_risen:
                 self._patience = min(self._patience * 2, LONGEST_PATIENCE)
-            self._at = min(self._at + 1, len(LEVELS) - 1)
+            self._at = min(self._at + 1, len(self._levels) - 1)
             self._quiet, self._has_just_risen = 0, False
             return
         self._quiet += 1
@@ -66,3 +86,22 @@ class Adaptation:
             self._has_just_risen = True
         else:
             self._patience, self._has_just_risen = FIRST_PATIENCE, False
+
+
+class CameraRates:
+    """The share of their rates at which cameras draw, by how well the world keeps up with real time."""
+
+    def __init__(self) -> None:
+        self._adaptation = Adaptation(CAMERA_SHARES, TOO_SLOW)
+        self._late = 0.0
+
+    @property
+    def share(self) -> float:
+        """Of their rates, 0 to 1."""
+        return self._adaptation.level
+
+    def note(self, real_time_factor: float, speed: float) -> None:
+        """Takes how the last second went. Who wants more than real time gets every picture, late or not."""
+        late = max(0.0, 1 - real_time_factor / speed) if 0 < speed <= 1 else 0.0
+        self._adaptation.note(min(late, self._late))  # one slow second is a start, or a hiccup
+        self._late = late

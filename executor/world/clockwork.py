@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.world.adaptation import CameraRates
 from executor.world.pacing import Pacer
 from executor.world.streams import Streams
 
@@ -21,6 +22,9 @@ PERIOD_STEPS: Final = 4  # steps between looks at the world's topics: 60 Hz
 IDLE_CLOCK_S: Final = 0.05
 DRIVEN_S: Final = 0.6  # a paused world goes on this long after a command by hand: time to come to rest
 REPORT_S: Final = 1.0
+SLOW_CAMERAS: Final = (
+    "This machine is too slow to draw the cameras at their rates in real time; they draw less often now."
+)
 
 
 @dataclass
@@ -44,6 +48,7 @@ class Clockwork:
         self._steps = 0
         self._clock_s = 0.0
         self._report: _Report | None = None
+        self._camera_rates = CameraRates()
         self._last_s: float | None = None
         self._is_driven = False
         self._driven_until_s = -1.0
@@ -143,7 +148,7 @@ class Clockwork:
     def _tell_collisions(self) -> None:
         for robot, collision in self._world.take_collisions():
             text = f"{robot} bumped into {collision.body}"
-            self._send({"type": "log", "level": "warning", "text": text, "time": collision.time_s})
+            self._log("warning", text, collision.time_s)
 
     def _report_due(self, now_s: float) -> None:
         report = self._report
@@ -156,6 +161,8 @@ class Clockwork:
             return
         simulated = self._world.time_s - report.simulated_s
         factor = simulated / report.running_s if report.running_s > 0 else 0.0
+        if report.running_s > REPORT_S / 2:
+            self._slow_cameras(factor)
         self._report = _Report(now_s, self._world.time_s)
         robot = self._world.robots[0] if self._world.robots else None
         self._send(
@@ -165,6 +172,7 @@ class Clockwork:
                 "real_time_factor": factor,
                 "speed": self._pacer.speed,
                 "paused": self.is_paused,
+                "camera_share": self.streams.camera_share,
                 "tick_ms": 0.0,
                 "tick_budget_ms": 0.0,
                 "collisions": robot.collisions if robot else 0,
@@ -172,3 +180,22 @@ class Clockwork:
                 "pose": robot.pose if robot else (0.0, 0.0, 0.0),
             }
         )
+
+    def _slow_cameras(self, real_time_factor: float) -> None:
+        """Pictures yield to time where the machine is too slow for both."""
+        old = self._camera_rates.share
+        in_use = self._node.wants_pictures() or self.streams.has_camera
+        self._camera_rates.note(real_time_factor if in_use else self._pacer.speed, self._pacer.speed)
+        share = self._camera_rates.share
+        if share == old:
+            return
+        self._node.slow_cameras(share)
+        self.streams.camera_share = share
+        if old == 1.0:
+            self._log("warning", SLOW_CAMERAS)
+        elif share == 1.0:
+            self._log("info", "The cameras are at their full rates again.")
+
+    def _log(self, level: str, text: str, time_s: float | None = None) -> None:
+        at = self._world.time_s if time_s is None else time_s
+        self._send({"type": "log", "level": level, "text": text, "time": at})

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from executor.world.transforms import wrap
 
@@ -14,8 +13,7 @@ if TYPE_CHECKING:
     from executor.robots.config import Drive
 
 
-@dataclass(frozen=True)
-class Odometry:
+class Odometry(NamedTuple):
     """Where the wheels say that the robot is: pose in the odom frame, m and rad, and twist in its own."""
 
     x: float = 0.0
@@ -25,8 +23,7 @@ class Odometry:
     angular: float = 0.0
 
 
-@dataclass(frozen=True)
-class DriveState:
+class DriveState(NamedTuple):
     """All that the drive remembers, so that a world can be saved."""
 
     wanted: tuple[float, float] = (0.0, 0.0)
@@ -51,7 +48,7 @@ class DifferentialDrive:
             return False
         limit = self._config
         wanted = (_clamp(linear, limit.max_linear), _clamp(angular, limit.max_angular))
-        self.state = replace(self.state, wanted=wanted, commanded_s=now_s)
+        self.state = self.state._replace(wanted=wanted, commanded_s=now_s)
         return True
 
     def wheel_rates(self, now_s: float, dt_s: float) -> tuple[float, float]:
@@ -61,7 +58,7 @@ class DifferentialDrive:
         linear, angular = (0.0, 0.0) if timed_out else state.wanted
         linear = _approach(state.linear, linear, limit.linear_acceleration * dt_s)
         angular = _approach(state.angular, angular, limit.angular_acceleration * dt_s)
-        self.state = replace(state, linear=linear, angular=angular)
+        self.state = state._replace(linear=linear, angular=angular)
         half_track = limit.track * limit.turn_factor / 2
         return (
             (linear - angular * half_track) / limit.wheel_radius,
@@ -72,7 +69,7 @@ class DifferentialDrive:
         """Takes the wheels' angles in rad, `dt_s` after the last ones, and returns the new odometry."""
         last, old, limit = self.state.wheel_angles, self.state.odometry, self._config
         if last is None or dt_s <= 0:
-            self.state = replace(self.state, wheel_angles=(left, right))
+            self.state = self.state._replace(wheel_angles=(left, right))
             return old
         ways = (left - last[0]) * limit.wheel_radius, (right - last[1]) * limit.wheel_radius
         moved, turned = self._motion(*ways)
@@ -87,7 +84,7 @@ class DifferentialDrive:
             wrap(old.yaw + turned),
             *rates,
         )
-        self.state = replace(self.state, wheel_angles=(left, right), odometry=odometry)
+        self.state = self.state._replace(wheel_angles=(left, right), odometry=odometry)
         return odometry
 
     def _motion(self, left: float, right: float) -> tuple[float, float]:

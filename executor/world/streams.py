@@ -69,8 +69,15 @@ class Streams:
         self._send = send
         self._clock = clock
         self._rests_until_s = -math.inf
+        self.camera_share = 1.0
+        """Of their rates at which cameras draw now."""
         self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
-        self._adaptations: dict[str | None, Adaptation] = {}
+        self._adaptations: dict[str | None, Adaptation[Level]] = {}
+
+    @property
+    def has_camera(self) -> bool:
+        """Tells whether a client watches a camera."""
+        return any(stream == "camera" for _, stream in self._subscriptions)
 
     def __len__(self) -> int:
         return len(self._subscriptions)
@@ -104,7 +111,7 @@ class Streams:
     def pace(self, client: str | None, lost: float) -> None:
         """Takes the share of its pictures that a client was too slow for, about twice a second."""
         if any(one.client == client for one in self._subscriptions.values()):
-            self._adaptations.setdefault(client, Adaptation()).note(lost)
+            self._adaptations.setdefault(client, Adaptation(LEVELS)).note(lost)
 
     def scene_changed(self) -> None:
         """Everybody who follows poses needs the scene anew."""
@@ -150,9 +157,14 @@ class Streams:
         if subscription.stream == "view":
             return self._sensors.version
         rates = [
-            sensor.rate_hz
+            sensor.rate_hz * share
             for robot in self._world.robots[:1]
-            for sensor in (robot.config.lidars if subscription.stream == "scan" else robot.config.cameras)[:1]
+            for sensors, share in (
+                (robot.config.lidars, 1.0)
+                if subscription.stream == "scan"
+                else (robot.config.cameras, self.camera_share),
+            )
+            for sensor in sensors[:1]
         ]
         return int(self._world.time_s * rates[0] + 1e-6) if rates else None
 

@@ -399,6 +399,7 @@ export interface Sim {
   collisions: number;
   distance_m: number;
   pose: [number, number, number];
+  camera_share: number;
 }
 
 /**

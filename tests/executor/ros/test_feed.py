@@ -1,6 +1,6 @@
 from typing import Any
 
-from executor.ros.feed import Feed
+from executor.ros.feed import Feed, Feeds
 
 
 class Publisher:
@@ -26,12 +26,48 @@ def test_it_measures_when_due_and_only_for_who_listens() -> None:
         return now_s
 
     feed = Feed([heard, unheard], make, rate_hz=10.0)
+    feeds = Feeds([feed, Feed([Publisher(1)], lambda _s, _t: None, rate_hz=30.0)])
     for i in range(61):
-        feed.publish(None, i / 60)  # type: ignore[arg-type]
+        feeds.publish(None, i / 60)  # type: ignore[arg-type]
     assert len(heard.sent) == len(measured) == 11
     assert unheard.sent == []
-    feed.due.restart()
+    feeds.restart()
+    feeds.publish(None, 0.0)  # type: ignore[arg-type]
+    assert len(measured) == 12
+    feeds.restart()
     heard.listeners = 0
     assert not feed.has_receiver
-    feed.publish(None, 0.0)  # type: ignore[arg-type]
-    assert len(measured) == 11
+    feeds.publish(None, 0.0)  # type: ignore[arg-type]
+    assert len(measured) == 12
+
+
+def test_each_rate_is_kept() -> None:
+    publishers = {rate: Publisher(1) for rate in (1.0, 15.0, 60.0)}
+    feeds = Feeds([Feed([publisher], lambda _, t: t, rate) for rate, publisher in publishers.items()])
+    for i in range(120):
+        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+    assert {rate: len(publisher.sent) for rate, publisher in publishers.items()} == {
+        1.0: 2,
+        15.0: 30,
+        60.0: 120,
+    }
+
+
+def test_cameras_are_slowed_and_nothing_else() -> None:
+    picture, info, scan = Publisher(1), Publisher(1), Publisher(1)
+    feeds = Feeds(
+        [
+            Feed([picture], lambda _, t: t, 15.0, is_picture=True, of_camera=True),
+            Feed([info], lambda _, t: t, 15.0, of_camera=True),
+            Feed([scan], lambda _, t: t, 15.0),
+        ]
+    )
+    feeds.slow_cameras(0.2)
+    for i in range(60):
+        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+    assert picture.sent == info.sent
+    assert (len(picture.sent), len(scan.sent)) == (3, 15)
+    feeds.slow_cameras(1.0)
+    for i in range(60, 120):
+        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+    assert (len(picture.sent), len(scan.sent)) == (18, 30)

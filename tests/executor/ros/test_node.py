@@ -20,7 +20,9 @@ from executor.render import make_renderer
 from executor.ros.environment import has_tf
 from executor.ros.node import Due, WorldNode, take
 from executor.universes import load_builtin
+from executor.world.adaptation import FIRST_PATIENCE
 from executor.world.bullet import BulletWorld
+from executor.world.clockwork import SLOW_CAMERAS, Clockwork
 from executor.world.sensors import Sensors
 
 
@@ -102,6 +104,32 @@ def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
     rig.run(0.5)
     assert rig.drawn == 0
     assert not rig.node.wants_pictures()
+
+
+def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None:
+    said: list[dict[str, Any]] = []
+    clockwork = Clockwork(rig.world, rig.sensors, rig.node, said.append)
+    clockwork.resume()
+    rig.listen(CameraInfo, "/camera/camera_info")
+    rig.listen(Image, "/camera/image_raw")
+    now_s = 100.0
+
+    def pass_time(seconds: float, period_s: float) -> None:
+        nonlocal now_s
+        for _ in range(round(seconds / period_s)):
+            now_s += period_s
+            clockwork.run_due(now_s)
+            for ear in rig.ears.values():
+                while take(ear) is not None:
+                    pass
+
+    pass_time(2.25, 0.25)  # of each quarter of a second only a tenth is made up for
+    assert [message["text"] for message in said if message["type"] == "log"] == [SLOW_CAMERAS]
+    assert said[-1]["camera_share"] < 1
+    pass_time(FIRST_PATIENCE + 2, 0.05)
+    levels = [message["level"] for message in said if message["type"] == "log"]
+    assert levels == ["warning", "info"]
+    assert said[-1]["camera_share"] == 1.0
 
 
 def test_the_lens_is_right(rig: Rig) -> None:

@@ -1,16 +1,24 @@
 """A client too slow for its pictures gets smaller ones, and better ones again as soon as it can."""
 
-from executor.world.adaptation import FIRST_PATIENCE, LEVELS, LONGEST_PATIENCE, Adaptation
+from executor.world.adaptation import (
+    CAMERA_SHARES,
+    FIRST_PATIENCE,
+    LEVELS,
+    LONGEST_PATIENCE,
+    Adaptation,
+    CameraRates,
+    Level,
+)
 
 
-def after(adaptation: Adaptation, *losses: float) -> int:
+def after(adaptation: Adaptation[Level], *losses: float) -> int:
     for lost in losses:
         adaptation.note(lost)
     return LEVELS.index(adaptation.level)
 
 
 def test_it_goes_down_at_once_and_up_with_patience() -> None:
-    adaptation = Adaptation()
+    adaptation = Adaptation(LEVELS)
     assert after(adaptation) == 0
     assert after(adaptation, 0.9, 0.5) == 2
     assert after(adaptation, *[0.0] * (FIRST_PATIENCE - 1)) == 2
@@ -19,15 +27,15 @@ def test_it_goes_down_at_once_and_up_with_patience() -> None:
 
 
 def test_a_single_frame_lost_changes_nothing() -> None:
-    assert after(Adaptation(), 0.1, 0.1, 0.2) == 0
+    assert after(Adaptation(LEVELS), 0.1, 0.1, 0.2) == 0
 
 
 def test_the_last_level_is_the_last() -> None:
-    assert after(Adaptation(), *[1.0] * 20) == len(LEVELS) - 1
+    assert after(Adaptation(LEVELS), *[1.0] * 20) == len(LEVELS) - 1
 
 
 def test_it_does_not_swing_where_the_better_level_is_too_much() -> None:
-    adaptation = Adaptation()
+    adaptation = Adaptation(LEVELS)
     after(adaptation, 1.0)
     waits = []
     for _ in range(7):
@@ -45,3 +53,29 @@ def test_each_level_is_less_than_the_one_before() -> None:
     costs = [level.width**2 * level.rate * level.quality for level in LEVELS]
     assert costs == sorted(costs, reverse=True)
     assert len(set(costs)) == len(costs)
+
+
+def shares(rates: CameraRates, *factors: float, speed: float = 1.0) -> float:
+    for factor in factors:
+        rates.note(factor, speed)
+    return rates.share
+
+
+def test_cameras_yield_to_time_and_come_back() -> None:
+    rates = CameraRates()
+    assert shares(rates, 0.6) == 1.0, "one slow second is a hiccup"
+    assert shares(rates, 0.99, 0.6, 0.99) == 1.0
+    assert shares(rates, 0.6, 0.6) == CAMERA_SHARES[1]
+    assert shares(rates, *[0.5] * 20) == CAMERA_SHARES[-1]
+    assert shares(rates, *[1.0] * FIRST_PATIENCE) == CAMERA_SHARES[-2]
+    assert shares(rates, *[1.0] * FIRST_PATIENCE * len(CAMERA_SHARES)) == 1.0
+
+
+def test_who_runs_faster_than_real_time_gets_every_picture() -> None:
+    assert shares(CameraRates(), *[3.0] * 20, speed=10.0) == 1.0
+    assert shares(CameraRates(), *[3.0] * 20, speed=0.0) == 1.0
+
+
+def test_slow_motion_is_judged_by_its_own_speed() -> None:
+    assert shares(CameraRates(), *[0.5] * 20, speed=0.5) == 1.0
+    assert shares(CameraRates(), *[0.3] * 3, speed=0.5) < 1.0

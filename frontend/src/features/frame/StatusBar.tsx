@@ -121,6 +121,9 @@ function SimStatus() {
             isBad={isOverBudget}
           />
           <Stat label={t('status.rtf')} value={`×${sim.real_time_factor.toFixed(2)}`} isBad={isSlow} />
+          {sim.camera_share < 1 ? (
+            <Stat label={t('status.cameras')} value={`${(sim.camera_share * 100).toFixed(0)} %`} isBad />
+          ) : null}
           <Stat label={t('status.simTime')} value={`${simTime.toFixed(1)} s`} />
         </>
       ) : null}

@@ -24,3 +24,6 @@ window.ResizeObserver ??= class {
 Element.prototype.scrollIntoView ??= () => undefined;
 
 afterEach(cleanup);
+
+// jsdom draws no pictures, and would say so each time it is asked to.
+HTMLCanvasElement.prototype.getContext = () => null;

@@ -47,8 +47,10 @@ export function emptyDiagram(id: string): Diagram {
   };
 }
 
+const NO_CHILDREN: readonly NodeId[] = [];
+
 export function childrenOf(diagram: Diagram, id: NodeId): readonly NodeId[] {
-  return diagram.nodes[id]?.children ?? [];
+  return diagram.nodes[id]?.children ?? NO_CHILDREN;
 }
 
 /** Every node's parent; roots and drafts are absent. */
@@ -77,9 +79,11 @@ export function subtreeOf(diagram: Diagram, id: NodeId): NodeId[] {
   const found: NodeId[] = [];
   const open = [id];
   for (let next = open.pop(); next !== undefined; next = open.pop()) {
-    if (!diagram.nodes[next]) continue;
+    const node = diagram.nodes[next];
+    if (!node) continue;
     found.push(next);
-    open.push(...[...childrenOf(diagram, next)].reverse());
+    const children = node.children ?? NO_CHILDREN;
+    for (let i = children.length - 1; i >= 0; i -= 1) open.push(children[i] ?? '');
   }
   return found;
 }

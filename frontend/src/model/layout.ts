@@ -1,6 +1,6 @@
-import { flextree } from 'd3-flextree';
 import { childrenOf, topsOf, type Diagram, type NodeId, type Orientation } from './diagram';
 import { measureNode, type Size } from './measure';
+import { tidyTree, type Spot } from './tidy';
 import { specOf, type Vocabulary } from './vocabulary';
 
 export interface Box {
@@ -39,24 +39,26 @@ function arrange(
   sizeOf: (id: NodeId) => Size,
 ): Map<NodeId, Mutable> {
   const vertical = orientation === 'vertical';
-  const layout = flextree<NodeId>({
-    children: (id) => visibleChildren(diagram, id),
-    nodeSize: (node) => {
-      const { width, height } = sizeOf(node.data);
-      return vertical ? [width, height + GAP.levels] : [height, width + GAP.levels];
-    },
-    spacing: () => GAP.siblings,
-  });
+  const spots: Spot<NodeId>[] = [];
+  const open: [id: NodeId, parent: number][] = [[top, -1]];
+  for (let next = open.pop(); next; next = open.pop()) {
+    const [id, parent] = next;
+    const { width, height } = sizeOf(id);
+    const [breadth, depth] = vertical ? [width, height] : [height, width];
+    const at = spots.push({ id, parent, breadth, depth: depth + GAP.levels, middle: 0, start: 0 }) - 1;
+    const children = visibleChildren(diagram, id);
+    for (let i = children.length - 1; i >= 0; i -= 1) open.push([children[i] ?? '', at]);
+  }
+  tidyTree(spots, GAP.siblings);
   const placed = new Map<NodeId, Mutable>();
-  layout(layout.hierarchy(top)).each((node) => {
-    const { width, height } = sizeOf(node.data);
-    const box = vertical
-      ? { x: node.x - width / 2, y: node.y, width, height }
-      : { x: node.y, y: node.x - height / 2, width, height };
-    placed.set(node.data, box);
-  });
-  const origin = placed.get(top);
-  shift(placed.values(), -(origin?.x ?? 0), -(origin?.y ?? 0));
+  const corner = (spots[0]?.breadth ?? 0) / 2;
+  for (const { id, middle, start, breadth } of spots) {
+    const along = Math.round(middle - breadth / 2 + corner);
+    const across = Math.round(start);
+    const { width, height } = sizeOf(id);
+    // Written out: objects that are spread together are slow to read.
+    placed.set(id, { x: vertical ? along : across, y: vertical ? across : along, width, height });
+  }
   return placed;
 }
 

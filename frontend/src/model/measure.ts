@@ -68,7 +68,18 @@ function valueWidth(line: PortLine): number {
   return Math.min(16, text.length) * 7;
 }
 
+const known = new WeakMap<DiagramNode, { readonly spec: NodeSpec | undefined; readonly size: Size }>();
+
+/** Measures once what never changes: a node, as its type is known. */
 export function measureNode(node: DiagramNode, spec: NodeSpec | undefined): Size {
+  const last = known.get(node);
+  if (last && last.spec === spec) return last.size;
+  const size = measured(node, spec);
+  known.set(node, { spec, size });
+  return size;
+}
+
+function measured(node: DiagramNode, spec: NodeSpec | undefined): Size {
   const lines = portLines(node, spec);
   const name = emWidth(displayName(node)) * 14;
   const type = emWidth(node.type) * 11.5;

@@ -41,16 +41,32 @@ function checkTree(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
     const node = diagram.nodes[id];
     if (!node) return [];
     const spec = specOf(vocabulary, node);
-    const scripts = checkScripts(id, node, spec);
-    if (!spec) {
-      return [{ kind: 'unknown-type', severity: 'error', node: id, values: { type: node.type } }, ...scripts];
-    }
-    const special =
-      spec.family === 'subtree'
-        ? checkCalls(id, node)
-        : [...checkPorts(id, node, spec), ...checkEntries(id, node, spec)];
-    return [...checkChildren(id, node, spec), ...checkWaiting(diagram, node), ...special, ...scripts];
+    const own = checkNode(id, node, spec);
+    if (!spec) return own;
+    if (spec.family === 'subtree') return [...checkCalls(id, node), ...own];
+    return [...own, ...checkWaiting(diagram, node), ...checkEntries(id, node, spec)];
   });
+}
+
+interface Checked {
+  readonly id: NodeId;
+  readonly spec: NodeSpec | undefined;
+  readonly problems: readonly Problem[];
+}
+
+const checked = new WeakMap<DiagramNode, Checked>();
+
+/** What a node and its type alone say; of a node that did not change it is known. */
+function checkNode(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): readonly Problem[] {
+  const known = checked.get(node);
+  if (known && known.id === id && known.spec === spec) return known.problems;
+  const scripts = checkScripts(id, node, spec);
+  const rest: Problem[] = spec
+    ? [...checkChildren(id, node, spec), ...(spec.family === 'subtree' ? [] : checkPorts(id, node, spec))]
+    : [{ kind: 'unknown-type', severity: 'error', node: id, values: { type: node.type } }];
+  const problems = [...rest, ...scripts];
+  checked.set(node, { id, spec, problems });
+  return problems;
 }
 
 /** Ports and scripts are looked at when a tree is built, which the engine does only where it is called. */

@@ -1,3 +1,4 @@
+import { freeze, isDraft } from 'immer';
 import {
   preorder,
   type Diagram,
@@ -117,12 +118,14 @@ export function parseDiagram(source: unknown): Diagram {
   );
   const root = typeof value['root'] === 'string' ? value['root'] : null;
   const layout: Orientation = value['layout'] === 'horizontal' ? 'horizontal' : 'vertical';
-  return {
+  const diagram: Diagram = {
     ...(value as unknown as Diagram),
     id: String(value['id'] ?? ''),
     layout,
     ...repair(root, ids(value['drafts'] ?? [], 'drafts'), nodes),
   };
+  // Edits pass over what is frozen.
+  return freeze(diagram, true);
 }
 
 const NODE_KEYS = [
@@ -159,12 +162,24 @@ function inline(value: unknown): string {
   return JSON.stringify(value);
 }
 
+const written = new WeakMap<DiagramNode, string>();
+
+/** A node as it is saved: written once, since a node never changes. */
+function nodeText(node: DiagramNode): string {
+  const known = written.get(node);
+  if (known !== undefined) return known;
+  const text = inline(orderedNode(node));
+  // Of what is only being made, the next line may change it.
+  if (!isDraft(node)) written.set(node, text);
+  return text;
+}
+
 /** Writes a diagram: nodes in execution order, one a line, so that diffs of revisions are readable. */
 export function serializeDiagram(diagram: Diagram): string {
   const { format, version, id, root, nodes, drafts, layout, ...rest } = diagram;
   const lines = preorder(diagram).map((node) => {
     const content = nodes[node];
-    return `    ${JSON.stringify(node)}: ${inline(content ? orderedNode(content) : {})}`;
+    return `    ${JSON.stringify(node)}: ${content ? nodeText(content) : '{}'}`;
   });
   const extra = Object.entries(rest).map(([key, value]) => `,\n  ${JSON.stringify(key)}: ${inline(value)}`);
   return `{

@@ -1,7 +1,4 @@
 import {
-  Background,
-  BackgroundVariant,
-  MiniMap,
   ReactFlow,
   SelectionMode,
   useReactFlow,
@@ -19,11 +16,13 @@ import { Breadcrumbs } from './Breadcrumbs';
 import { CanvasToolbar } from './CanvasToolbar';
 import { clipboardHandlers } from './clipboardHandlers';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
+import { Dots } from './Dots';
 import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
 import { enterInside, onCanvasKey, openBlock } from './keyboard';
+import { Overview } from './Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd } from './quickAdd/open';
 import { SlotMark } from './SlotMark';
@@ -40,8 +39,6 @@ const nodeTypes = { block: Block };
 const edgeTypes = { tree: TreeEdge };
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
-const minimapColor = (node: BlockNode): string =>
-  node.data.node.color ?? `var(--bts-${node.data.spec?.family ?? 'unknown'})`;
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
@@ -190,26 +187,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         elevateNodesOnSelect={false}
         attributionPosition="bottom-center"
       >
-        <Background
-          variant={BackgroundVariant.Dots}
-          gap={24}
-          size={1.6}
-          color="var(--bts-canvas-dot)"
-          bgColor="var(--bts-canvas)"
-        />
-        {isMinimapShown(minimap, nodes.length) && (
-          <MiniMap<BlockNode>
-            pannable
-            zoomable
-            className={classes['minimap'] ?? ''}
-            ariaLabel={t('minimap')}
-            nodeColor={minimapColor}
-            nodeBorderRadius={8}
-            maskColor="color-mix(in srgb, var(--bts-canvas) 70%, transparent)"
-          />
-        )}
+        <Dots />
         <SlotMark />
       </ReactFlow>
+      {isMinimapShown(minimap, nodes.length) && <Overview nodes={resting} edges={edges} />}
       {nodes.length === 0 && <EmptyTree treeId={treeId} />}
       <Breadcrumbs treeId={treeId} />
       <CanvasToolbar treeId={treeId} />

@@ -56,8 +56,25 @@ function handlesOf({ width, height }: Box, isHorizontal: boolean): NodeHandle[] 
     : [end('target', Position.Top, width / 2, 0), end('source', Position.Bottom, width / 2, height)];
 }
 
-function sameData(a: BlockData, b: BlockData): boolean {
-  return (Object.keys(a) as (keyof BlockData)[]).every((key) => a[key] === b[key]);
+const FACTS = [
+  'tree',
+  'node',
+  'spec',
+  'problem',
+  'isDraft',
+  'isHorizontal',
+  'canGrow',
+  'folded',
+  'look',
+  'inside',
+] as const satisfies readonly (keyof BlockData)[];
+
+const sameData = (a: BlockData, b: BlockData): boolean => FACTS.every((key) => a[key] === b[key]);
+
+/** The list as it was, where nothing in it has changed. */
+function kept<T>(before: readonly T[], now: T[]): T[] {
+  const isSame = before.length === now.length && now.every((each, index) => each === before[index]);
+  return isSame ? (before as T[]) : now;
 }
 
 const isSame = (a: Inside, b: Inside): boolean => a.tree === b.tree && a.node === b.node;
@@ -69,11 +86,13 @@ function lookOf(id: NodeId, node: DiagramNode, { shown, vocabulary }: FlowInput)
 
 /**
  * Projects a tree to React Flow's nodes. Nodes that did not change stay the same objects, so that
- * React renders the changed ones alone.
+ * React renders the changed ones alone; so do the lists, which React Flow else looks through.
  */
 export class FlowProjection {
   private nodes = new Map<NodeId, BlockNode>();
   private edges = new Map<NodeId, TreeEdge>();
+  private nodeList: BlockNode[] = [];
+  private edgeList: TreeEdge[] = [];
 
   project(input: FlowInput): { nodes: BlockNode[]; edges: TreeEdge[] } {
     const { diagram, layout } = input;
@@ -90,7 +109,9 @@ export class FlowProjection {
     }
     this.nodes = nodes;
     this.edges = edges;
-    return { nodes: [...nodes.values()], edges: [...edges.values()] };
+    this.nodeList = kept(this.nodeList, [...nodes.values()]);
+    this.edgeList = kept(this.edgeList, [...edges.values()]);
+    return { nodes: this.nodeList, edges: this.edgeList };
   }
 
   private nodeFor(id: NodeId, node: DiagramNode, box: Box, isDraft: boolean, input: FlowInput): BlockNode {

@@ -1,5 +1,5 @@
-import { enablePatches, produceWithPatches, type Draft, type Patch } from 'immer';
-import type { Diagram, DiagramNode, NodeId } from '../diagram';
+import { current, enablePatches, isDraft, produceWithPatches, type Draft, type Patch } from 'immer';
+import { parentOf, type Diagram, type DiagramNode, type NodeId } from '../diagram';
 import type { Placement } from '../rules';
 
 enablePatches();
@@ -28,11 +28,13 @@ export function nodeOf(draft: Draft<Diagram>, id: NodeId): Draft<DiagramNode> {
   return node;
 }
 
+/** The diagram as it is by now, to be looked through: to look through a draft makes a draft of every node. */
+export function asPlain(draft: Draft<Diagram>): Diagram {
+  return isDraft(draft) ? current(draft) : draft;
+}
+
 export function findParent(draft: Draft<Diagram>, id: NodeId): NodeId | null {
-  for (const [parent, node] of Object.entries(draft.nodes)) {
-    if (node.children?.includes(id)) return parent;
-  }
-  return null;
+  return parentOf(asPlain(draft), id);
 }
 
 /** Where a node hangs now. */

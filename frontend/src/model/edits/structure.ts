@@ -1,7 +1,7 @@
 import type { Draft } from 'immer';
 import { subtreeOf, topmost, type Diagram, type DiagramNode, type NodeId } from '../diagram';
 import type { Kind, Placement } from '../rules';
-import { attach, detach, nodeOf, placementOf, type Recipe } from './core';
+import { asPlain, attach, detach, nodeOf, placementOf, type Recipe } from './core';
 
 /** Adds a new node. */
 export function addNode(id: NodeId, node: DiagramNode, place: Placement): Recipe {
@@ -42,8 +42,9 @@ export function reorder(id: NodeId, by: number): Recipe {
 /** Removes nodes with all below them. */
 export function removeSubtrees(ids: readonly NodeId[]): Recipe {
   return (draft) => {
-    for (const id of topmost(draft, ids)) {
-      const gone = subtreeOf(draft, id);
+    const before = asPlain(draft);
+    for (const id of topmost(before, ids)) {
+      const gone = subtreeOf(before, id);
       detach(draft, id);
       for (const each of gone) delete draft.nodes[each];
     }
@@ -68,7 +69,7 @@ export function unwrap(id: NodeId): Recipe {
 /** Puts a new node above the given siblings, in their order, at the place of the first. */
 export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
   return (draft) => {
-    const inside = topmost(draft, ids);
+    const inside = topmost(asPlain(draft), ids);
     const [first] = inside;
     if (first === undefined) return;
     const place = placementOf(draft, first);

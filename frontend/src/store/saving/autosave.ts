@@ -6,9 +6,12 @@ import { clearDraft, writeDraft } from './drafts';
 import { useSavingStore, type SaveState } from './store';
 
 const SAVE_AFTER_MS = 600;
+/** Long enough that the picture of an edit comes first, and typing fast is kept once. */
+const KEEP_AFTER_MS = 80;
 const RETRY_AFTER_MS = 4000;
 
 let timer: ReturnType<typeof setTimeout> | undefined;
+let keeping: ReturnType<typeof setTimeout> | undefined;
 let inFlight: Promise<void> | null = null;
 let stopWatching: (() => void) | null = null;
 
@@ -23,16 +26,17 @@ export function startAutosave(): void {
     counter = project.changeCounter;
     onEdited();
   });
-  window.addEventListener('beforeunload', keepDraft);
+  window.addEventListener('beforeunload', keepDraftNow);
   document.addEventListener('visibilitychange', saveWhenHidden);
   window.addEventListener('online', saveSoon);
 }
 
 export function stopAutosave(): void {
   clearTimeout(timer);
+  keepDraftNow();
   stopWatching?.();
   stopWatching = null;
-  window.removeEventListener('beforeunload', keepDraft);
+  window.removeEventListener('beforeunload', keepDraftNow);
   document.removeEventListener('visibilitychange', saveWhenHidden);
   window.removeEventListener('online', saveSoon);
   setState({ kind: 'saved' });
@@ -64,7 +68,7 @@ export async function asSave(write: () => Promise<void>): Promise<void> {
 function onEdited(): void {
   const { state } = useSavingStore.getState();
   if (state.kind !== 'conflict') setState(inFlight ? { kind: 'saving' } : { kind: 'dirty' });
-  keepDraft();
+  keeping ??= setTimeout(keepDraft, KEEP_AFTER_MS);
   saveSoon();
 }
 
@@ -79,10 +83,19 @@ function saveSoon(delay: number | Event = SAVE_AFTER_MS): void {
 }
 
 function saveWhenHidden(): void {
-  if (document.hidden && useSavingStore.getState().state.kind === 'dirty') saveSoon(0);
+  if (!document.hidden) return;
+  keepDraftNow();
+  if (useSavingStore.getState().state.kind === 'dirty') saveSoon(0);
+}
+
+/** Keeps at once what an edit has left to be kept in a moment. */
+function keepDraftNow(): void {
+  if (keeping !== undefined) keepDraft();
 }
 
 function keepDraft(): void {
+  clearTimeout(keeping);
+  keeping = undefined;
   const { projectId, pendingChanges } = useProjectStore.getState();
   if (projectId) writeDraft(projectId, pendingChanges());
 }

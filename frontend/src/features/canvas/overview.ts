@@ -1,0 +1,66 @@
+import type { Box } from '@/model/layout';
+
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+/** How a tree is drawn small: what to multiply by, and where its left top corner comes to lie. */
+export interface Shrinking {
+  readonly sx: number;
+  readonly sy: number;
+  readonly left: number;
+  readonly top: number;
+}
+
+const MARGIN = 6;
+/** Below these a block is no more than a hair: then a tree is stretched as far as there is room. */
+const LEGIBLE = { sx: 0.03, sy: 0.09 } as const;
+
+/**
+ * Makes a tree fit a small picture. Trees that are far wider than high would be a line in it: the
+ * short side is stretched until blocks can be seen.
+ */
+export function shrink(bounds: Box, picture: Size): Shrinking {
+  const width = picture.width - 2 * MARGIN;
+  const height = picture.height - 2 * MARGIN;
+  const [fitX, fitY] = [width / Math.max(1, bounds.width), height / Math.max(1, bounds.height)];
+  const even = Math.min(fitX, fitY, 0.2);
+  const sx = Math.min(fitX, Math.max(even, LEGIBLE.sx));
+  const sy = Math.min(fitY, Math.max(even, LEGIBLE.sy));
+  return {
+    sx,
+    sy,
+    left: MARGIN + (width - bounds.width * sx) / 2 - bounds.x * sx,
+    top: MARGIN + (height - bounds.height * sy) / 2 - bounds.y * sy,
+  };
+}
+
+/** The box around all of them. */
+export function boundsOf(boxes: Iterable<Box>): Box {
+  let [left, top, right, bottom] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const { x, y, width, height } of boxes) {
+    left = Math.min(left, x);
+    top = Math.min(top, y);
+    right = Math.max(right, x + width);
+    bottom = Math.max(bottom, y + height);
+  }
+  return left === Infinity
+    ? { x: 0, y: 0, width: 0, height: 0 }
+    : { x: left, y: top, width: right - left, height: bottom - top };
+}
+
+/** A view of the tree must be large enough to be grabbed. */
+const LEAST = 6;
+
+/** Where a view of the tree is in the picture, as far as it is in it. */
+export function frameOf(view: Box, { sx, sy, left, top }: Shrinking, picture: Size): Box {
+  const span = (from: number, to: number, end: number): [number, number] => {
+    const middle = Math.max(LEAST / 2, Math.min(end - LEAST / 2, (from + to) / 2));
+    const start = Math.max(0, Math.min(from, middle - LEAST / 2));
+    return [start, Math.min(end, Math.max(to, middle + LEAST / 2)) - start];
+  };
+  const [x, width] = span(left + view.x * sx, left + (view.x + view.width) * sx, picture.width);
+  const [y, height] = span(top + view.y * sy, top + (view.y + view.height) * sy, picture.height);
+  return { x, y, width, height };
+}

@@ -1,9 +1,10 @@
 import { useComputedColorScheme } from '@mantine/core';
 import { Canvas } from '@react-three/fiber';
+import { IconCube3dSphere } from '@tabler/icons-react';
 import { useRef, type DragEvent, type KeyboardEvent, type ReactNode } from 'react';
 import type * as THREE from 'three';
 import '@/features/viewer/three';
-import { isSoftwareWebGl } from '@/features/viewer/webgl';
+import { hasWebGl, isSoftwareWebGl } from '@/features/viewer/webgl';
 import type { Point } from '@/model/document/values';
 import { useVisible } from '@/ui/useVisible';
 import { pointAt } from './aiming';
@@ -12,6 +13,8 @@ import { DRAGGED } from './PlaceButton';
 
 interface EditorCanvasProps {
   readonly label: string;
+  /** What stands in place of the view where there is no 3D. */
+  readonly noWebGl: string;
   readonly testId: string;
   readonly count: number;
   readonly near: number;
@@ -63,18 +66,26 @@ export function EditorCanvas(props: EditorCanvasProps) {
       }}
       onDrop={drop}
     >
-      <Canvas
-        frameloop={isVisible ? 'demand' : 'never'}
-        shadows={isSimple ? false : 'soft'}
-        dpr={isSimple ? 0.8 : [1, 2]}
-        gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
-        camera={{ fov: 45, near: props.near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}
-        onCreated={(state) => {
-          camera.current = state.camera;
-        }}
-      >
-        {props.stage(isDark)}
-      </Canvas>
+      {hasWebGl() ? null : (
+        <p className={classes['noView']} role="note">
+          <IconCube3dSphere size={28} aria-hidden="true" />
+          {props.noWebGl}
+        </p>
+      )}
+      {hasWebGl() ? (
+        <Canvas
+          frameloop={isVisible ? 'demand' : 'never'}
+          shadows={isSimple ? false : 'soft'}
+          dpr={isSimple ? 0.8 : [1, 2]}
+          gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
+          camera={{ fov: 45, near: props.near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}
+          onCreated={(state) => {
+            camera.current = state.camera;
+          }}
+        >
+          {props.stage(isDark)}
+        </Canvas>
+      ) : null}
       {props.children}
     </div>
   );

@@ -1,9 +1,8 @@
-import { Alert, Button, SegmentedControl, Text } from '@mantine/core';
-import { IconAlertTriangle, IconCube3dSphere } from '@tabler/icons-react';
+import { Button, SegmentedControl, Text } from '@mantine/core';
+import { IconAlertTriangle } from '@tabler/icons-react';
 import { lazy, Suspense, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
-import { hasWebGl } from '@/features/viewer/webgl';
 import type { DocumentProblem } from '@/model/document/yaml';
 import classes from './editor3d.module.css';
 import { ProblemList } from './ProblemList';
@@ -14,7 +13,6 @@ const CodeTab = lazy(async () => ({ default: (await import('@/features/code/Code
 
 /** How a kind of document is spoken of. */
 interface Words {
-  readonly noWebGl: string;
   readonly unreadable: string;
   readonly problems: string;
 }
@@ -58,14 +56,9 @@ export function EditorFrame({ editor, testId, paths, problems, words, toolbar, c
       </div>
     </div>
   );
-  if (paths.length === 0 || !hasWebGl()) {
+  if (paths.length === 0) {
     return (
       <div className={classes['tab']} data-testid={`${testId}-text`}>
-        {paths.length === 0 ? null : (
-          <Alert icon={<IconCube3dSphere size={18} />} color="gray" radius={0} py="xs">
-            {words.noWebGl}
-          </Alert>
-        )}
         {list}
         {text}
       </div>

@@ -1,5 +1,6 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { notifications } from '@mantine/notifications';
+import { hasWebGl } from '@/features/viewer/webgl';
 import { t } from '@/i18n';
 import { record, redo, seal, startHistory, undo, type TextHistory } from '@/model/document/history';
 import type { Point } from '@/model/document/values';
@@ -70,7 +71,7 @@ export function editorFor(path: string, kind: Kind): Editor {
       tool: 'select',
       grid: kind.grid,
       viewpoint: { kind: 'default' },
-      isTextShown: false,
+      isTextShown: !hasWebGl(),
       shownText: 0,
     }));
     editor = { path, kind, store, view: null };

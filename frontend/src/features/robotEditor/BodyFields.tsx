@@ -1,5 +1,5 @@
 import { ActionIcon, Button, Group, Select, Tooltip } from '@mantine/core';
-import { IconPlus, IconTrash } from '@tabler/icons-react';
+import { IconPlus, IconTrash, IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { ColorField, FieldGroup, NumberField } from '@/features/editor3d/fields';
@@ -8,10 +8,14 @@ import { isReadOnly, select } from '@/features/editor3d/session';
 import { rgba } from '@/features/editor3d/ThingScene';
 import { addBody, removeBody } from '@/model/robot/bodies';
 import { setBody, setMass } from '@/model/robot/edits';
+import { contactOf, setContact } from '@/model/robot/joints';
 import { bodiesOf, solidOf, type Body } from '@/model/robot/solids';
 import type { Robot } from '@/model/robot/types';
 import { URDF_SIZES, type UrdfShape } from '@/model/robot/urdf';
+import { useProjectStore } from '@/store/project';
 import { edit, type RobotEditor } from './editor';
+import { meshesOf } from './meshes';
+import { useBringMesh } from './useBringMesh';
 
 interface BodyFieldsProps {
   readonly editor: RobotEditor;
@@ -23,6 +27,8 @@ interface BodyFieldsProps {
 }
 
 const SHAPES: readonly UrdfShape[] = ['box', 'cylinder', 'sphere'];
+
+const CONTACTS = ['friction', 'skid'] as const;
 
 const hex = (color: readonly number[]): string =>
   `#${color
@@ -37,9 +43,14 @@ const hex = (color: readonly number[]): string =>
 /** What a link weighs, and its shapes: seen, touched, or both. */
 export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
   const { t } = useTranslation('robotEditor');
+  const files = useProjectStore((state) => state.files);
+  const { ask, input } = useBringMesh(editor, 'body-mesh-file', (mesh) =>
+    edit(editor, 'body', (now) => addBody(now, name, mesh)),
+  );
   const link = robot.urdf.links.get(name);
   if (!link) return null;
   const bodies = bodiesOf(link);
+  const meshes = meshesOf(editor, Object.keys(files));
   return (
     <>
       <FieldGroup title={t('body')} columns={2}>
@@ -51,6 +62,19 @@ export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
           max={1000}
           onCommit={(mass) => edit(editor, 'mass', (now) => setMass(now, name, mass))}
         />
+        {CONTACTS.map((contact) =>
+          link.collisions.length === 0 || (contact === 'skid' && isSized) ? null : (
+            <NumberField
+              key={contact}
+              label={t(contact)}
+              testId={`part-${contact}`}
+              value={contactOf(robot, contact, name)}
+              min={0}
+              max={contact === 'skid' ? 1 : 10}
+              onCommit={(value) => edit(editor, contact, (now) => setContact(now, contact, name, value))}
+            />
+          ),
+        )}
       </FieldGroup>
       {bodies.map((body, index) => (
         <details key={index} className={classes['piece']} open={bodies.length === 1}>
@@ -58,7 +82,7 @@ export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
             <span className={classes['dot']} style={{ background: hex(solidOf(body).color) }} />
             {t(`shape.${solidOf(body).shape}`)} · {t(roleOf(body))}
           </summary>
-          <BodyForm editor={editor} name={name} index={index} body={body} isSized={isSized} />
+          <BodyForm editor={editor} name={name} index={index} body={body} isSized={isSized} meshes={meshes} />
         </details>
       ))}
       {isSized && !isReadOnly() ? (
@@ -72,6 +96,16 @@ export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
           >
             {t('addShape')}
           </Button>
+          <Button
+            size="compact-xs"
+            variant="default"
+            leftSection={<IconUpload size={13} />}
+            data-testid="bring-body-mesh"
+            onClick={ask}
+          >
+            {t('addMesh')}
+          </Button>
+          {input}
         </Group>
       ) : null}
     </>
@@ -84,11 +118,14 @@ const roleOf = ({ visual, collision }: Body): string =>
 interface BodyFormProps extends Omit<BodyFieldsProps, 'robot'> {
   readonly index: number;
   readonly body: Body;
+  /** Meshes that can be chosen, as the URDF names them. */
+  readonly meshes: readonly string[];
 }
 
-function BodyForm({ editor, name, index, body, isSized }: BodyFormProps) {
+function BodyForm({ editor, name, index, body, isSized, meshes }: BodyFormProps) {
   const { t } = useTranslation('robotEditor');
-  const { shape, size, pose, color } = solidOf(body);
+  const { shape, size, pose, color, file } = solidOf(body);
+  const shapes: UrdfShape[] = [...SHAPES, ...(meshes.length > 0 ? ['mesh' as const] : []), shape];
   const change = (wish: Parameters<typeof setBody>[3], mergeKey?: string) =>
     edit(editor, 'body', (now) => setBody(now, name, index, wish), mergeKey);
   return (
@@ -99,11 +136,26 @@ function BodyForm({ editor, name, index, body, isSized }: BodyFormProps) {
           label={t('form')}
           value={shape}
           data-testid={`shape-${index}`}
-          disabled={isReadOnly() || shape === 'mesh'}
+          disabled={isReadOnly()}
           allowDeselect={false}
-          data={[...new Set([...SHAPES, shape])].map((value) => ({ value, label: t(`shape.${value}`) }))}
+          data={[...new Set(shapes)].map((value) => ({ value, label: t(`shape.${value}`) }))}
           onChange={(value) => {
-            if (value && value !== shape) change({ shape: value as UrdfShape });
+            if (!value || value === shape) return;
+            change({ shape: value as UrdfShape, ...(value === 'mesh' ? { file: meshes[0] ?? '' } : {}) });
+          }}
+        />
+      ) : null}
+      {isSized && shape === 'mesh' ? (
+        <Select
+          size="xs"
+          label={t('worldEditor:file')}
+          value={file}
+          data-testid={`shape-${index}-file`}
+          disabled={isReadOnly()}
+          allowDeselect={false}
+          data={[...new Set([file, ...meshes])]}
+          onChange={(value) => {
+            if (value && value !== file) change({ file: value });
           }}
         />
       ) : null}

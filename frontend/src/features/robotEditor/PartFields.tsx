@@ -4,9 +4,12 @@ import { TextField } from '@/features/editor3d/fields';
 import { PoseFields } from '@/features/editor3d/PoseFields';
 import { jointOf, place, setSensor } from '@/model/robot/edits';
 import type { Part, Robot } from '@/model/robot/types';
+import { rename } from '@/model/robot/names';
 import { BodyFields } from './BodyFields';
 import { WheelFields } from './DriveFields';
 import { edit, type RobotEditor } from './editor';
+import { JointFields } from './JointFields';
+import { nameWords, sensorWords } from './naming';
 import { ValueFields } from './ValueFields';
 
 interface PartFieldsProps {
@@ -19,11 +22,7 @@ interface PartFieldsProps {
 export function PartFields({ editor, robot, part }: PartFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const { key, kind, sensor, link, name } = part;
-  const problem = (wish: string) => {
-    if (!/^[A-Za-z][A-Za-z0-9_]{0,79}$/.test(wish)) return t('editor3d:problem.name');
-    const isTaken = robot.sensors.some((other) => other.name === wish && other.index !== sensor?.index);
-    return isTaken ? t('editor3d:problem.sameId', { id: wish }) : null;
-  };
+  const joint = jointOf(robot, part);
   return (
     <div className={classes['form']} data-testid="part-fields" data-part={key}>
       {sensor ? (
@@ -31,15 +30,19 @@ export function PartFields({ editor, robot, part }: PartFieldsProps) {
           label={`${t('name')} · ${t(`part.${kind}`)}`}
           value={name}
           testId="part-name"
-          problem={problem}
+          problem={sensorWords(robot, sensor, t)}
           onCommit={(wish) => edit(editor, 'name', (now) => setSensor(now, key, 'name', wish))}
         />
       ) : (
-        <p className={classes['note']}>
-          {t(`part.${kind}`)} · <code>{name}</code>
-        </p>
+        <TextField
+          label={`${t('name')} · ${t(`part.${kind}`)}`}
+          value={name}
+          testId="part-name"
+          problem={nameWords(robot, 'link', name, t)}
+          onCommit={(wish) => edit(editor, 'name', (now) => rename(now, 'link', name, wish))}
+        />
       )}
-      {jointOf(robot, part) ? (
+      {joint ? (
         <PoseFields
           pose={part.pose}
           step={editor.store.getState().grid || 0.001}
@@ -57,6 +60,7 @@ export function PartFields({ editor, robot, part }: PartFieldsProps) {
       {link !== null && part.shows === link ? (
         <BodyFields editor={editor} robot={robot} name={link} isSized={kind !== 'wheel'} />
       ) : null}
+      {joint ? <JointFields key={joint.name} editor={editor} robot={robot} joint={joint} /> : null}
     </div>
   );
 }

@@ -1,3 +1,4 @@
+import { Menu } from '@mantine/core';
 import {
   IconArrowsRight,
   IconBattery3,
@@ -7,13 +8,18 @@ import {
   IconCylinder,
   IconRadar,
   IconSphere,
+  IconPuzzle,
   IconStereoGlasses,
+  IconUpload,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { PaletteBar, PlaceButton } from '@/features/editor3d/PlaceButton';
+import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
 import { ADDABLE, type Addable } from '@/model/robot/parts';
-import { placePart } from './commands';
+import { useProjectStore } from '@/store/project';
+import { placeMesh, placePart } from './commands';
 import type { RobotEditor } from './editor';
+import { meshesOf } from './meshes';
+import { useBringMesh } from './useBringMesh';
 
 const ICONS: Readonly<Record<Addable, typeof IconCube>> = {
   lidar: IconRadar,
@@ -42,6 +48,32 @@ export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
           onPlace={() => placePart(editor, kind)}
         />
       ))}
+      <MeshMenu editor={editor} />
     </PaletteBar>
+  );
+}
+
+/** Pieces of body that look like a mesh: one of the robot's, or one that is brought now. */
+function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
+  const { t } = useTranslation('robotEditor');
+  const paths = useProjectStore((state) => state.files);
+  const meshes = meshesOf(editor, Object.keys(paths));
+  const { ask, input } = useBringMesh(editor, 'part-mesh-file', (mesh) => placeMesh(editor, mesh));
+  return (
+    <>
+      <PlaceMenu icon={IconPuzzle} label={t('kind.mesh')} testId="add-mesh" position="right-end">
+        <Menu.Label>{t(meshes.length > 0 ? 'meshesHere' : 'noMeshes')}</Menu.Label>
+        {meshes.map((file) => (
+          <Menu.Item key={file} onClick={() => placeMesh(editor, { file, scale: 1 })}>
+            {file}
+          </Menu.Item>
+        ))}
+        <Menu.Divider />
+        <Menu.Item leftSection={<IconUpload size={16} />} onClick={ask}>
+          {t('worldEditor:bringMesh')}
+        </Menu.Item>
+      </PlaceMenu>
+      {input}
+    </>
   );
 }

@@ -15,10 +15,13 @@ import { useStore } from 'zustand';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { onPanelKey } from '@/features/editor3d/keys';
 import { ThingList } from '@/features/editor3d/ThingList';
+import { setSensor } from '@/model/robot/edits';
+import { rename } from '@/model/robot/names';
 import { partOf, type PartKind, type Robot } from '@/model/robot/types';
 import { duplicateSelected, removeSelected } from './commands';
 import { DriveFields } from './DriveFields';
-import type { RobotEditor } from './editor';
+import { edit, type RobotEditor } from './editor';
+import { nameWords, sensorWords } from './naming';
 import { PartFields } from './PartFields';
 
 interface RobotPanelProps {
@@ -54,6 +57,16 @@ export function RobotPanel({ editor, robot }: RobotPanelProps) {
         whole={{ label: t('whole'), icon: IconRobot }}
         onDuplicate={() => duplicateSelected(editor)}
         onDelete={() => removeSelected(editor)}
+        nameProblem={(key, wish) => {
+          const { sensor, name } = partOf(robot, key) ?? { sensor: null, name: '' };
+          return sensor ? sensorWords(robot, sensor, t)(wish) : nameWords(robot, 'link', name, t)(wish);
+        }}
+        onRename={(key, wish) =>
+          edit(editor, 'name', (now) => {
+            const { sensor, name } = partOf(now, key) ?? { sensor: null, name: '' };
+            return sensor ? setSensor(now, key, 'name', wish) : rename(now, 'link', name, wish);
+          })
+        }
       />
       <div className={classes['fields']}>
         {part ? <PartFields key={part.key} editor={editor} robot={robot} part={part} /> : null}

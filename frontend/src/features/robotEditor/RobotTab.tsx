@@ -32,7 +32,6 @@ export function RobotTab({ path }: { readonly path: string }) {
       paths={paths}
       problems={problems}
       words={{
-        noWebGl: t('noWebGl'),
         unreadable: t('unreadable'),
         problems: t('problems', { count: problems.length }),
       }}

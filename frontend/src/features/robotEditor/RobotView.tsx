@@ -13,6 +13,7 @@ import { partOf, type Robot } from '@/model/robot/types';
 import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
 import { readingOf, type RobotEditor } from './editor';
 import { carrierOf, handlesOf } from './gestures';
+import { urdfFolder } from './meshes';
 import { RobotPalette } from './RobotPalette';
 import { RobotScene } from './RobotScene';
 
@@ -41,6 +42,7 @@ export function RobotView({ editor, robot }: RobotViewProps) {
   return (
     <EditorCanvas
       label={t('view')}
+      noWebGl={t('noWebGl')}
       testId="robot-view"
       count={robot.parts.length}
       near={0.01}
@@ -65,7 +67,7 @@ const SUN = [{ direction: [0.3, 0.4, -0.8], intensity: 1 }];
 function RobotStage({ editor, robot, isDark }: RobotViewProps & { readonly isDark: boolean }) {
   const isSimple = isSoftwareWebGl();
   const redraw = useThrottledInvalidate();
-  const folder = editor.path.slice(0, editor.path.lastIndexOf('/') + 1);
+  const folder = urdfFolder(editor);
   const scene = useMemo(() => new RobotScene(isSimple, redraw, folder), [isSimple, redraw, folder]);
   const staged = useMemo(
     () => ({ scene, handles: handlesOf(editor, scene), carrier: carrierOf(editor, scene) }),

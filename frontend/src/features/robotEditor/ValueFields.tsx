@@ -1,22 +1,22 @@
 import { useTranslation } from 'react-i18next';
 import { FieldGroup, NumberField, TextField } from '@/features/editor3d/fields';
 import type { Json, JsonObject } from '@/model/document/values';
-import { fieldsOf, type Field } from '@/model/robot/rules';
-import type { SensorKind } from '@/model/robot/types';
+import { fieldsOf, type Field, type FieldsOf } from '@/model/robot/rules';
 
 interface ValueFieldsProps {
-  readonly kind: SensorKind | 'drive';
+  readonly kind: FieldsOf;
   readonly values: JsonObject;
   /** Fields that stand elsewhere. */
   readonly without?: readonly string[];
   readonly onChange: (field: string, value: Json | undefined) => void;
 }
 
+const TITLES: Readonly<Partial<Record<FieldsOf, string>>> = { drive: 'drive', motor: 'motor' };
 const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 const DEGREES = 180 / Math.PI;
 const ANGLES = new Set(['fov', 'max_angular', 'angular_acceleration']);
 
-/** Everything that the format lets one say of a sensor or of the drive: topics first, then the numbers. */
+/** Everything that the format lets one say of a sensor, the drive or a motor: topics first, then the numbers. */
 export function ValueFields({ kind, values, without = [], onChange }: ValueFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const fields = fieldsOf(kind).filter(({ name }) => !without.includes(name));
@@ -32,7 +32,7 @@ export function ValueFields({ kind, values, without = [], onChange }: ValueField
     return (
       <NumberField
         key={field.name}
-        label={t(`field.${field.name}`)}
+        label={t([`field.${kind}_${field.name}`, `field.${field.name}`])}
         testId={`value-${field.name}`}
         value={(typeof value === 'number' ? value : 0) * factor}
         min={field.low * factor}
@@ -54,7 +54,7 @@ export function ValueFields({ kind, values, without = [], onChange }: ValueField
           onCommit={(text) => onChange(field.name, text === '' ? undefined : text)}
         />
       ))}
-      <FieldGroup title={t(kind === 'drive' ? 'drive' : 'measures')} columns={2}>
+      <FieldGroup title={t(TITLES[kind] ?? 'measures')} columns={2}>
         {numbers.map(number)}
       </FieldGroup>
     </>

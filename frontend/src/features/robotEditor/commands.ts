@@ -1,7 +1,8 @@
 import { snapped } from '@/model/universe/geometry';
 import type { Point } from '@/model/document/values';
 import { move, turn } from '@/model/robot/edits';
-import { addPart, duplicateParts, type Addable } from '@/model/robot/parts';
+import { addMeshPart, addPart, duplicateParts, type Addable } from '@/model/robot/parts';
+import type { MeshFile } from '@/model/robot/bodies';
 import { removeParts } from '@/model/robot/removal';
 import { edit, type RobotEditor } from './editor';
 
@@ -12,6 +13,11 @@ export function placePart(editor: RobotEditor, kind: Addable, at?: Point): void 
   const { grid } = editor.store.getState();
   const point = at ? ([snapped(at[0], grid), snapped(at[1], grid)] as const) : undefined;
   edit(editor, 'add', (robot) => addPart(robot, kind, point));
+}
+
+/** Adds a piece of body that looks like a mesh. */
+export function placeMesh(editor: RobotEditor, mesh: MeshFile): void {
+  edit(editor, 'add', (robot) => addMeshPart(robot, mesh));
 }
 
 export function removeSelected(editor: RobotEditor): void {

@@ -17,12 +17,12 @@ import { useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { FILES } from '@/model/universe/types';
+import { bringMesh, MESH_KINDS } from '@/features/editor3d/upload';
 import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
 import { ownRobots } from '@/features/robotEditor/newRobot';
 import { useProjectStore } from '@/store/project';
 import { KINDS, placeThing, type Kind, type Placeable } from './commands';
 import type { UniverseEditor } from './editor';
-import { bringMesh, MESH_KINDS } from './upload';
 
 const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   wall: IconWall,
@@ -121,8 +121,8 @@ function FileMenu({ editor }: { readonly editor: UniverseEditor }) {
           const [file] = event.currentTarget.files ?? [];
           event.currentTarget.value = '';
           if (!file) return;
-          void bringMesh(file).then((path) => {
-            if (path) placeThing(editor, { kind: 'file', shape: 'mesh', file: path });
+          void bringMesh(file, 'assets').then((mesh) => {
+            if (mesh) placeThing(editor, { kind: 'file', shape: 'mesh', file: mesh.path });
           });
         }}
       />

@@ -27,7 +27,6 @@ export function UniverseTab({ path }: { readonly path: string }) {
       paths={text === null ? [] : [path]}
       problems={problems}
       words={{
-        noWebGl: t('noWebGl'),
         unreadable: t('unreadable'),
         problems: t('problems', { count: problems.length }),
       }}

@@ -25,6 +25,7 @@ export function UniverseView({ editor, universe }: UniverseViewProps) {
   return (
     <EditorCanvas
       label={t('view')}
+      noWebGl={t('noWebGl')}
       testId="universe-view"
       count={universe.things.length}
       near={0.05}

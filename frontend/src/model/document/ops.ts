@@ -4,6 +4,8 @@ import { isObject, type Json, type JsonObject, type Path } from './values';
 export type Op =
   | { readonly kind: 'set'; readonly path: Path; readonly value: Json }
   | { readonly kind: 'unset'; readonly path: Path }
+  /** Gives the last key of the path another name; its place in the mapping stays. */
+  | { readonly kind: 'rename'; readonly path: Path; readonly to: string }
   | { readonly kind: 'insert'; readonly path: Path; readonly index: number; readonly values: readonly Json[] }
   | { readonly kind: 'remove'; readonly path: Path; readonly indexes: readonly number[] };
 
@@ -22,6 +24,10 @@ function applied(value: Json | undefined, path: Path, op: Op): Json {
   if (rest.length === 0 && op.kind === 'unset') {
     const { [step]: _gone, ...others } = map;
     return others;
+  }
+  if (rest.length === 0 && op.kind === 'rename') {
+    const renamed = Object.entries(map).map(([key, part]) => [key === step ? op.to : key, part]);
+    return Object.fromEntries(renamed) as JsonObject;
   }
   return { ...map, [step]: applied(map[step], rest, op) };
 }

@@ -69,6 +69,7 @@ const overlaps = (a: Splice, b: Splice): boolean =>
 function splicesOf(text: string, document: Document, op: Op): Splice[] | null {
   if (op.kind === 'set') return setSplices(text, document, op.path, op.value);
   if (op.kind === 'unset') return unsetSplices(text, document, op.path);
+  if (op.kind === 'rename') return renameSplices(text, document, op.path, op.to);
   const list = nodeAt(document, op.path);
   if (!isSeq(list)) return null;
   if (op.kind === 'insert') return insertSplices(text, list, op.index, op.values);
@@ -158,6 +159,15 @@ function unsetSplices(text: string, document: Document, path: Path): Splice[] | 
   return before === null ? null : [cut(text, before, end)];
 }
 
+const pairAt = (map: YAMLMap, key: string | number | undefined) =>
+  (map.items as Pair<Node, Node | null>[]).find(({ key: own }) => isScalar(own) && own.value === key);
+
+function renameSplices(text: string, document: Document, path: Path, to: string): Splice[] | null {
+  const parent = nodeAt(document, path.slice(0, -1));
+  const [start, end] = (isMap(parent) && pairAt(parent, path.at(-1))?.key.range) || [0, 0];
+  return end > start ? [cut(text, start, end, keyText(to))] : null;
+}
+
 /** The lines from one place to another, if nothing else begins on the first of them. */
 function wholeLines(text: string, start: number, end: number): Splice[] | null {
   const from = lineStart(text, start);
@@ -236,7 +246,11 @@ function byDocument(text: string, ops: readonly Op[]): string | null {
     for (const op of ops) {
       if (op.kind === 'set') document.setIn(op.path, made(op.value));
       else if (op.kind === 'unset') document.deleteIn(op.path);
-      else {
+      else if (op.kind === 'rename') {
+        const map = nodeAt(document, op.path.slice(0, -1));
+        const pair = isMap(map) ? pairAt(map, op.path.at(-1)) : undefined;
+        if (pair) pair.key = made(op.to) as Node;
+      } else {
         const list = nodeAt(document, op.path);
         if (op.kind === 'insert' && !isSeq(list)) document.setIn(op.path, document.createNode(op.values));
         else if (isSeq(list) && op.kind === 'insert') list.items.splice(op.index, 0, ...op.values.map(made));

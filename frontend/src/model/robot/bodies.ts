@@ -6,18 +6,33 @@ import { bodiesOf, extentOf } from './solids';
 import type { Robot } from './types';
 import { geometryText, list } from './writing';
 
+/** A mesh file beside the URDF, and what one of its units is in m. */
+export interface MeshFile {
+  readonly file: string;
+  readonly scale: number;
+}
+
 /** Adds a shape to a link, seen and touched. */
-export function addBody(robot: Robot, name: string, shape: 'box' | 'cylinder' | 'sphere'): RobotEdit {
+export function addBody(
+  robot: Robot,
+  name: string,
+  shape: 'box' | 'cylinder' | 'sphere' | MeshFile,
+): RobotEdit {
   const link = robot.urdf.links.get(name);
   if (!link) return NOTHING;
   const { high } = extentOf(link);
-  const size = { box: [0.1, 0.1, 0.1], cylinder: [0.05, 0.1], sphere: [0.05] }[shape];
-  const origin = `<origin xyz="${list([0, 0, rounded(high[2] + 0.05)])}"/>`;
-  const geometry = `${origin}<geometry>${geometryText(shape, size)}</geometry>`;
+  const geometry =
+    typeof shape === 'string'
+      ? `<origin xyz="${list([0, 0, rounded(high[2] + 0.05)])}"/><geometry>${geometryText(shape, SIZES[shape])}</geometry>`
+      : `<geometry>${meshText(shape)}</geometry>`;
   const material = `<material name="${escaped(name)}_color_${bodiesOf(link).length}"><color rgba="${list([0.82, 0.84, 0.87, 1])}"/></material>`;
   const text = `<visual>${geometry}${material}</visual>\n<collision>${geometry}</collision>`;
   return { ops: [], urdf: splicedAll(robot.urdfText, [append(robot.urdfText, link.element, text)]) };
 }
+
+const SIZES = { box: [0.1, 0.1, 0.1], cylinder: [0.05, 0.1], sphere: [0.05] } as const;
+
+const meshText = ({ file, scale }: MeshFile): string => geometryText('mesh', [scale, scale, scale], file);
 
 /** Takes a shape of a link out; the last one that can be seen of the base stays. */
 export function removeBody(robot: Robot, name: string, index: number): RobotEdit {

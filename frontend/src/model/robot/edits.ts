@@ -222,13 +222,23 @@ interface BodyWish {
   readonly size?: readonly number[];
   readonly pose?: Pose;
   readonly color?: readonly number[];
+  /** The mesh, as the URDF names it. */
+  readonly file?: string;
 }
 
 /** What a shape of another kind is as large as. */
 function sizeAs(shape: UrdfShape, { visual, collision }: Body): number[] {
   const { shape: before, size } = solidOf({ visual, collision });
+  if (shape === 'mesh') return [1, 1, 1];
   const [a = 0.1, b = a, c = b] = size;
-  const box = before === 'box' ? [a, b, c] : before === 'sphere' ? [2 * a, 2 * a, 2 * a] : [2 * a, 2 * a, b];
+  const box =
+    before === 'box'
+      ? [a, b, c]
+      : before === 'sphere'
+        ? [2 * a, 2 * a, 2 * a]
+        : before === 'mesh'
+          ? [0.1, 0.1, 0.1]
+          : [2 * a, 2 * a, b];
   const [x = 0.1, y = 0.1, z = 0.1] = box.map(rounded);
   if (shape === 'box') return [x, y, z];
   return shape === 'sphere' ? [rounded(Math.max(x, y, z) / 2)] : [rounded(Math.max(x, y) / 2), z];
@@ -243,10 +253,12 @@ export function setBody(robot: Robot, name: string, index: number, wish: BodyWis
   const shape = wish.shape ?? now.shape;
   const size = wish.size ?? (shape === now.shape ? now.size : sizeAs(shape, body));
   if (size.length !== URDF_SIZES[shape].length || size.some((part) => !(Math.abs(part) > 0))) return NOTHING;
+  const file = wish.file ?? now.file;
+  if (shape === 'mesh' && file === '') return NOTHING;
   const pose = wish.pose ?? now.pose;
   const text = robot.urdfText;
   const splices = [body.visual, body.collision].flatMap((solid) =>
-    solid ? [...setGeometry(text, solid, shape, size), ...setOrigin(text, solid.element, pose)] : [],
+    solid ? [...setGeometry(text, solid, shape, size, file), ...setOrigin(text, solid.element, pose)] : [],
   );
   if (wish.color && body.visual)
     splices.push(...setColor(text, body.visual, wish.color, `${name}_color_${index}`));

@@ -3,6 +3,7 @@ import { splicedAll, type Splice } from '../document/splice';
 import { isObject, type Json, type JsonObject, type Pose, type Vector } from '../document/values';
 import { escaped } from '../document/xml';
 import { append } from '../document/xmlEdits';
+import type { MeshFile } from './bodies';
 import { NOTHING, rounded, type RobotEdit } from './edits';
 import { extentOf, inertiaOf } from './solids';
 import { partOf, type Part, type Robot } from './types';
@@ -25,6 +26,7 @@ export type Addable = (typeof ADDABLE)[number];
 
 interface Look {
   readonly shape: UrdfShape;
+  readonly file?: string;
   readonly size: readonly number[];
   readonly at?: Vector;
   readonly color: readonly number[];
@@ -169,15 +171,35 @@ function linkText(robot: Robot, link: string, joint: string, pose: Pose, look: L
 
 function* solidTexts(
   link: string,
-  { shape, size, at = [0, 0, 0], color, mass, isSolid }: Look,
+  { shape, size, at = [0, 0, 0], color, mass, isSolid, file }: Look,
 ): Generator<string> {
   const pose: Pose = [...at, 0, 0, 0];
   const origin = at.some((part) => part !== 0) ? `<origin xyz="${list(at)}"/>` : '';
-  const geometry = `${origin}<geometry>${geometryText(shape, size)}</geometry>`;
+  const geometry = `${origin}<geometry>${geometryText(shape, size, file)}</geometry>`;
   const material = `<material name="${escaped(link)}_color"><color rgba="${list(color)}"/></material>`;
-  yield `  ${inertialText(mass, inertiaOf({ shape, size, pose }, mass), at)}`;
+  // How large a mesh is says its file alone: what it weighs is spread as in the usual piece of body.
+  const solid = shape === 'mesh' ? { ...LOOKS.box, pose } : { shape, size, pose };
+  yield `  ${inertialText(mass, inertiaOf(solid, mass), at)}`;
   yield `  <visual>${geometry}${material}</visual>`;
   if (isSolid) yield `  <collision>${geometry}</collision>`;
+}
+
+/** Adds a piece of body that looks like a mesh; `at` is in the frame of the root link. */
+export function addMeshPart(
+  robot: Robot,
+  { file, scale }: MeshFile,
+  at?: readonly [number, number],
+): RobotEdit {
+  const stem = (file.split('/').at(-1) ?? '').replace(/\.\w+$/, '').replace(/\W/g, '_');
+  const wish = /^[A-Za-z]/.test(stem) ? stem.slice(0, 60) : `part_${stem}`.slice(0, 60);
+  const taken = namesIn(robot);
+  const link = free(wish, taken, '_link');
+  const [x, y, z, ...turn] = firstPlace(robot, 'box');
+  const pose: Pose = at ? [rounded(at[0]), rounded(at[1]), z, ...turn] : [x, y, z, ...turn];
+  const look: Look = { ...LOOKS.box, shape: 'mesh', size: [scale, scale, scale], file };
+  const text = linkText(robot, link, free(wish, taken, '_joint'), pose, look);
+  const urdf = splicedAll(robot.urdfText, [append(robot.urdfText, robot.urdf.element, text)]);
+  return { ops: [], urdf, select: [`link ${link}`] };
 }
 
 /** Where something new goes first: sensors on top of the base or in front of it, casters behind. */

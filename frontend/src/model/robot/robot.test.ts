@@ -17,7 +17,9 @@ import {
   type RobotEdit,
 } from './edits';
 import { addBody, removeBody } from './bodies';
-import { ADDABLE, addPart, duplicateParts } from './parts';
+import { JOINT_TYPES, setContact, setJoint, setMotor } from './joints';
+import { rename } from './names';
+import { ADDABLE, addMeshPart, addPart, duplicateParts } from './parts';
 import { canRemove, removeParts } from './removal';
 import { readRobot, urdfNameOf } from './read';
 import { fieldsOf } from './rules';
@@ -199,11 +201,14 @@ describe('edits', () => {
 });
 
 const gesture = fc.tuple(
-  fc.nat(10),
+  fc.nat(14),
   fc.nat(20),
   fc.integer({ min: -40, max: 40 }),
   fc.integer({ min: 1, max: 60 }),
 );
+
+const jointAt = ({ urdf }: Robot, pick: number): string =>
+  [...urdf.joints.keys()][pick % Math.max(urdf.joints.size, 1)] ?? '';
 
 function editOf(robot: Robot, [kind, pick, a, b]: readonly [number, number, number, number]): RobotEdit {
   const part = robot.parts[pick % robot.parts.length];
@@ -232,6 +237,24 @@ function editOf(robot: Robot, [kind, pick, a, b]: readonly [number, number, numb
       });
     case 9:
       return b % 2 ? addBody(robot, link ?? '', 'cylinder') : removeBody(robot, link ?? '', a % 2);
+    case 10:
+      return rename(robot, 'link', link ?? '', `part_${b}`);
+    case 11:
+      return rename(robot, 'joint', jointAt(robot, pick), `joint_${b}`);
+    case 12:
+      return setJoint(robot, jointAt(robot, pick), {
+        type: JOINT_TYPES[b % JOINT_TYPES.length] ?? 'fixed',
+        axis: [0, a, b],
+        limits: [-b, b],
+      });
+    case 13:
+      return a > 0
+        ? setMotor(robot, jointAt(robot, pick), b % 4 > 0)
+        : setContact(robot, b % 2 ? 'friction' : 'skid', link ?? '', b / 60);
+    case 14:
+      return b % 2
+        ? addMeshPart(robot, { file: `meshes/${b}.stl`, scale: 0.001 })
+        : setBody(robot, link ?? '', 0, { shape: 'mesh', file: 'meshes/a.obj' });
     default:
       return setMass(robot, link ?? '', b / 10);
   }

@@ -68,13 +68,17 @@ export interface Field {
   readonly isOptional: boolean;
 }
 
-const DEFINITIONS: Readonly<Record<SensorKind | 'drive', keyof typeof schema.$defs>> = {
+/** What the schema says something of: a sensor, the drive, or the motor of a joint. */
+export type FieldsOf = SensorKind | 'drive' | 'motor';
+
+const DEFINITIONS: Readonly<Record<FieldsOf, keyof typeof schema.$defs>> = {
   lidar: 'Lidar',
   camera: 'Camera',
   imu: 'Imu',
   bumper: 'Bumper',
   battery: 'Battery',
   drive: 'Drive',
+  motor: 'JointDrive',
 };
 
 interface Property {
@@ -91,8 +95,8 @@ interface Property {
 /** What there is no need to go below, where a value must only be more than a bound. */
 const LEAST = 0.001;
 
-/** The numbers and topics that can be said of a sensor or of the drive. */
-export function fieldsOf(kind: SensorKind | 'drive'): Field[] {
+/** The numbers and topics that can be said of a sensor, of the drive, or of a joint's motor. */
+export function fieldsOf(kind: FieldsOf): Field[] {
   const { properties } = schema.$defs[DEFINITIONS[kind]] as {
     properties: Readonly<Record<string, Property>>;
   };

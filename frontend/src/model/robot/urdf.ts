@@ -43,6 +43,8 @@ export interface Joint {
   /** In the frame of the parent. */
   readonly origin: Pose;
   readonly axis: Vector;
+  /** Between which it moves, rad or m; null where nothing is said of it. */
+  readonly limits: readonly [number, number] | null;
 }
 
 /** A robot's tree of links. */
@@ -209,7 +211,15 @@ function jointOf(element: XmlElement, name: string, findings: Findings): Joint {
     child: attribute(below, 'link') ?? '',
     origin: originOf(element, findings),
     axis: [x, y, z],
+    limits: limitsOf(child(element, 'limit'), findings),
   };
+}
+
+function limitsOf(limit: XmlElement | undefined, findings: Findings): Joint['limits'] {
+  if (!limit) return null;
+  const [lower = 0] = findings.numbers(limit, 'lower', [0]);
+  const [upper = 0] = findings.numbers(limit, 'upper', [0]);
+  return [lower, upper];
 }
 
 /** Where a link is in the frame of the root, with all joints at zero. */

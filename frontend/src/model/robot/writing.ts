@@ -40,10 +40,16 @@ export function geometryText(shape: UrdfShape, size: readonly number[], file = '
 }
 
 /** Gives a shape another form or size. */
-export function setGeometry(text: string, solid: Solid, shape: UrdfShape, size: readonly number[]): Splice[] {
+export function setGeometry(
+  text: string,
+  solid: Solid,
+  shape: UrdfShape,
+  size: readonly number[],
+  file = solid.file,
+): Splice[] {
   const geometry = child(solid.element, 'geometry')?.children[0];
   if (!geometry) return [];
-  if (shape !== solid.shape) return [replaced(text, geometry, geometryText(shape, size))];
+  if (shape !== solid.shape) return [replaced(text, geometry, geometryText(shape, size, file))];
   const values: Readonly<Record<UrdfShape, readonly (readonly [string, readonly number[]])[]>> = {
     box: [['size', size]],
     mesh: [['scale', size]],
@@ -57,13 +63,16 @@ export function setGeometry(text: string, solid: Solid, shape: UrdfShape, size: 
       ['length', size.slice(1)],
     ],
   };
-  return values[shape]
+  const named =
+    shape === 'mesh' && file !== solid.file ? [setAttribute(text, geometry, 'filename', file)] : [];
+  const sized = values[shape]
     .filter(([name, parts]) =>
       attribute(geometry, name) === undefined
         ? shape !== 'mesh' || parts.some((part) => part !== 1)
         : differs(attribute(geometry, name), parts),
     )
     .map(([name, parts]) => setAttribute(text, geometry, name, list(parts)));
+  return [...named, ...sized];
 }
 
 /** Paints a shape; a material that others share is left to them. */

@@ -1,25 +1,32 @@
 import { notifications } from '@mantine/notifications';
+import type * as THREE from 'three';
 import { api } from '@/api/client';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { saveNow } from '@/store/saving/autosave';
-import { readMesh } from '@/features/editor3d/meshes';
+import { readMesh } from './meshes';
 
 export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
 
 /** As large as the simulator reads them. */
 const LARGEST = 50_000_000;
 
-/** Puts a mesh into the project's assets, once it can be read; resolves to its path, or null. */
-export async function bringMesh(file: File): Promise<string | null> {
+/** A mesh that came into the project, and how long its longest side is in the file's own units. */
+interface Brought {
+  readonly path: string;
+  readonly extent: number;
+}
+
+/** Puts a mesh into a folder of the project, once it can be read; resolves to null where it cannot. */
+export async function bringMesh(file: File, folder: string): Promise<Brought | null> {
   const { projectId, files } = useProjectStore.getState();
   if (!projectId) return null;
   try {
     if (file.size > LARGEST) throw new Error(t('worldEditor:tooLarge', { mb: LARGEST / 1_000_000 }));
     const data = await file.arrayBuffer();
-    await readMesh(file.name, data);
-    const path = freePath(file.name, new Set(Object.keys(files)));
+    const extent = extentOf(await readMesh(file.name, data));
+    const path = freePath(folder, file.name, new Set(Object.keys(files)));
     await saveNow();
     await api.saveChanges(projectId, {
       message: `Add ${path}`,
@@ -27,7 +34,7 @@ export async function bringMesh(file: File): Promise<string | null> {
     });
     const detail = await api.getProject(projectId);
     useProjectStore.setState((state) => mergeRemote(state, detail).data);
-    return path;
+    return { path, extent };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
     notifications.show({ color: 'red', message: t('worldEditor:meshRefused', { name: file.name, reason }) });
@@ -35,11 +42,18 @@ export async function bringMesh(file: File): Promise<string | null> {
   }
 }
 
-function freePath(name: string, taken: ReadonlySet<string>): string {
+function extentOf(mesh: THREE.BufferGeometry): number {
+  mesh.computeBoundingBox();
+  const { min, max } = mesh.boundingBox ?? {};
+  mesh.dispose();
+  return min && max ? Math.max(max.x - min.x, max.y - min.y, max.z - min.z) : 0;
+}
+
+function freePath(folder: string, name: string, taken: ReadonlySet<string>): string {
   const clean = name.replace(/[^\w.-]/g, '_');
   const dot = clean.lastIndexOf('.');
   for (let count = 1; ; count += 1) {
-    const path = `assets/${clean.slice(0, dot)}${count > 1 ? `_${count}` : ''}${clean.slice(dot).toLowerCase()}`;
+    const path = `${folder}/${clean.slice(0, dot)}${count > 1 ? `_${count}` : ''}${clean.slice(dot).toLowerCase()}`;
     if (!taken.has(path)) return path;
   }
 }

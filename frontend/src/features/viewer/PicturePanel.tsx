@@ -2,7 +2,7 @@ import { Text } from '@mantine/core';
 import { useEffect, useState, type ReactNode, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
-import { drawPictures } from './pictures';
+import { drawPictures, type Shown } from './pictures';
 import classes from './viewer.module.css';
 
 interface PicturePanelProps {
@@ -16,7 +16,7 @@ interface PicturePanelProps {
 /** Pictures from the server, with their size and rate. */
 export function PicturePanel({ stream, canvas, label, emptyText, children }: PicturePanelProps) {
   const { t } = useTranslation('viewer');
-  const [shown, setShown] = useState<{ width: number; height: number; hz: number } | null>(null);
+  const [shown, setShown] = useState<Shown | null>(null);
   const hasWorld = useSessionStore(
     ({ executor }) => executor !== 'idle' && executor !== 'connected' && executor !== 'universe_ready',
   );
@@ -35,9 +35,10 @@ export function PicturePanel({ stream, canvas, label, emptyText, children }: Pic
           {emptyText}
         </Text>
       ) : (
-        <span className={classes['info']}>
-          {t('size', shown)}
+        <span className={classes['info']} data-testid={`${stream}-figures`}>
+          {t('size', { width: shown.width, height: shown.height })}
           {shown.hz > 0 ? ` · ${t('rate', { hz: shown.hz.toFixed(1) })}` : ''}
+          {shown.latencyMs === null ? '' : ` · ${t('latency', { ms: shown.latencyMs.toFixed(0) })}`}
         </span>
       )}
       {children}

@@ -1,11 +1,18 @@
 import type { Camera, View } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
+import { useSessionStore } from '@/store/session/store';
 
-interface Shown {
+export interface Shown {
   width: number;
   height: number;
   hz: number;
+  /** How old pictures are when they are drawn, in simulated ms; null until one second of them was seen. */
+  latencyMs: number | null;
 }
+
+/** How much later than `t` it is in the world, as far as any message tells, s. */
+const ageOf = (t: number): number =>
+  Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
 
 /** Draws the pictures of a stream on a canvas. While one is decoded, only the newest waits. */
 export function drawPictures(
@@ -19,7 +26,7 @@ export function drawPictures(
   let isStopped = false;
   let count = 0;
   let since = performance.now();
-  let hz = 0;
+  let age = 0;
 
   const drawNext = async () => {
     const frame = waiting;
@@ -44,15 +51,22 @@ export function drawPictures(
   };
 
   const measure = (frame: Camera | View) => {
-    count += 1;
+    const { width, height } = frame;
+    const isFirst = canvas.dataset['frames'] === undefined;
     canvas.dataset['frames'] = String(Number(canvas.dataset['frames'] ?? 0) + 1);
+    count += 1;
+    age += ageOf(frame.t);
     const now = performance.now();
-    if (now - since >= 1000 || canvas.dataset['frames'] === '1') {
-      hz = (count * 1000) / Math.max(now - since, 1);
-      onShown({ width: frame.width, height: frame.height, hz: canvas.dataset['frames'] === '1' ? 0 : hz });
-      count = 0;
-      since = now;
-    }
+    if (!isFirst && now - since < 1000) return;
+    const hz = (count * 1000) / Math.max(now - since, 1);
+    onShown(
+      isFirst
+        ? { width, height, hz: 0, latencyMs: null }
+        : { width, height, hz, latencyMs: (age / count) * 1000 },
+    );
+    count = 0;
+    age = 0;
+    since = now;
   };
 
   const stop = frames.listen(stream, (frame) => {

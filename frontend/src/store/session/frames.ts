@@ -32,6 +32,11 @@ class FrameBus {
     return (this.latest.get('scene') as Scene | undefined) ?? null;
   }
 
+  /** The latest simulated time that any stream spoke of, s. */
+  newest(): number {
+    return Math.max(0, ...[...this.latest.values()].map(({ t }) => t));
+  }
+
   clear(): void {
     this.latest.clear();
   }

@@ -1,13 +1,14 @@
 import { Button, Group, Modal, Text } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
-import { lazy, Suspense, useRef } from 'react';
+import { Suspense, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Conflict } from '@/api/types';
 import { resolveConflict } from '@/store/saving/conflicts';
 import { useSavingStore } from '@/store/saving/store';
+import { lazyPart } from '@/ui/parts';
 import classes from './code.module.css';
 
-const MergeView = lazy(async () => ({ default: (await import('./MergeView')).MergeView }));
+const MergeView = lazyPart(async () => (await import('./MergeView')).MergeView);
 
 /** Somebody else saved the same file: shows both versions, and lets the user choose or merge. */
 export function ConflictDialog() {

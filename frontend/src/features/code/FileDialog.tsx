@@ -1,11 +1,14 @@
+import { notifications } from '@mantine/notifications';
 import { Button, Group, Modal, Radio, Stack, TextInput } from '@mantine/core';
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
+import { documentName, kindOf } from '@/store/project/moving';
 import { openFile, openTree } from '@/store/project/navigation';
 import { treeIdOf } from '@/store/project/state';
 import { nameProblem, pathFor } from './names';
-import { closeFileDialog, useFileDialog, type FileDialog as Dialog, type NewFileKind } from './newFile';
+import { closeFileDialog, useFileDialog, type FileDialog as Dialog, type NamedKind } from './newFile';
+import { renameDocument } from './renaming';
 import { actionSource, type ActionTemplate } from './templates';
 
 /** Asks for a new file's name (and kind of action), or for another name of one that there is. */
@@ -20,12 +23,10 @@ export function FileDialog() {
   );
 }
 
-function kindOf(dialog: NonNullable<Dialog>): NewFileKind {
-  if (dialog.mode === 'new') return dialog.kind;
-  return treeIdOf(dialog.path) ? 'tree' : 'action';
-}
+const kindOfDialog = (dialog: NonNullable<Dialog>): NamedKind =>
+  dialog.mode === 'new' ? dialog.kind : kindOf(dialog.path);
 
-function create(kind: NewFileKind, name: string, template: ActionTemplate): void {
+function create(kind: NamedKind, name: string, template: ActionTemplate): void {
   const project = useProjectStore.getState();
   const path = pathFor(kind, name);
   if (kind === 'tree') {
@@ -43,15 +44,20 @@ function rename(path: string, name: string): void {
     project.renameTree(treeId, name);
     return openTree(name);
   }
-  const before = path.replace(/^actions\/|\.py$/g, '');
-  project.renameAction(before, name);
+  if (kindOf(path) !== 'action') {
+    renameDocument(path, name).catch((error: Error) =>
+      notifications.show({ color: 'red', message: error.message }),
+    );
+    return;
+  }
+  project.renameAction(documentName(path), name);
   openFile(pathFor('action', name));
 }
 
 function Form({ dialog }: { readonly dialog: NonNullable<Dialog> }) {
   const { t } = useTranslation('code');
-  const kind = kindOf(dialog);
-  const before = dialog.mode === 'rename' ? dialog.path.replace(/^(actions|trees)\/|\.(py|json)$/g, '') : '';
+  const kind = kindOfDialog(dialog);
+  const before = dialog.mode === 'rename' ? documentName(dialog.path) : '';
   const [name, setName] = useState(before);
   const [template, setTemplate] = useState<ActionTemplate>('action');
   const [isTouched, setTouched] = useState(false);

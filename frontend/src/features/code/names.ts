@@ -1,4 +1,5 @@
-import type { NewFileKind } from './newFile';
+import { OUTSIDE } from '@/features/universe/titles';
+import type { NamedKind } from './newFile';
 
 const PYTHON_KEYWORDS = new Set(
   'False None True and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not or pass raise return try while with yield'.split(
@@ -6,10 +7,12 @@ const PYTHON_KEYWORDS = new Set(
   ),
 );
 
-export type NameProblem = 'empty' | 'notIdentifier' | 'notPath' | 'taken' | 'builtin';
+export type NameProblem = 'empty' | 'notIdentifier' | 'notPath' | 'taken' | 'builtin' | 'notId' | 'meansNone';
 
-export function pathFor(kind: NewFileKind, name: string): string {
+export function pathFor(kind: NamedKind, name: string): string {
   if (kind === 'action') return `actions/${name}.py`;
+  if (kind === 'universe') return `universes/${name}.yaml`;
+  if (kind === 'robot') return `robots/${name}/robot.yaml`;
   return kind === 'tree' ? `trees/${name}.json` : name;
 }
 
@@ -20,12 +23,14 @@ interface Taken {
 }
 
 /** Why a file cannot be called so; null when it can. */
-export function nameProblem(kind: NewFileKind, name: string, { paths, types }: Taken): NameProblem | null {
+export function nameProblem(kind: NamedKind, name: string, { paths, types }: Taken): NameProblem | null {
   if (name.trim() === '') return 'empty';
   if (kind === 'action' && (!/^[A-Za-z_]\w*$/.test(name) || PYTHON_KEYWORDS.has(name)))
     return 'notIdentifier';
   if (kind === 'tree' && !/^[\w.-]+$/.test(name)) return 'notIdentifier';
   if (kind === 'file' && (!/^[\w][\w./-]*$/.test(name) || name.includes('..'))) return 'notPath';
+  if ((kind === 'universe' || kind === 'robot') && !/^[A-Za-z_][A-Za-z0-9_-]*$/.test(name)) return 'notId';
+  if (kind === 'universe' && name.toLowerCase() === OUTSIDE) return 'meansNone';
   const wanted = pathFor(kind, name).toLowerCase();
   for (const path of paths) if (path.toLowerCase() === wanted) return 'taken';
   return kind === 'action' && types.has(name) ? 'builtin' : null;

@@ -1,8 +1,8 @@
 import type * as THREE from 'three';
 import { api } from '@/api/client';
-import { urlOf } from '@/api/http';
 import type { Shape } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
+import { fileUrl } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
 
@@ -66,12 +66,6 @@ export class Assets {
     return entry;
   }
 }
-
-/** Where a file of the project is fetched. */
-export const fileUrl = (path: string): string => {
-  const { projectId } = useProjectStore.getState();
-  return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
-};
 
 /** The URDF of a robot of the project, if there is one that can be read as it stands. */
 function ownUrdf(id: string): string | undefined {

@@ -1,10 +1,8 @@
 import { notifications } from '@mantine/notifications';
 import type * as THREE from 'three';
-import { api } from '@/api/client';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
-import { mergeRemote } from '@/store/project/remote';
-import { saveNow } from '@/store/saving/autosave';
+import { putBinaries } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 
 export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
@@ -27,13 +25,7 @@ export async function bringMesh(file: File, folder: string): Promise<Brought | n
     const data = await file.arrayBuffer();
     const extent = extentOf(await readMesh(file.name, data));
     const path = freePath(folder, file.name, new Set(Object.keys(files)));
-    await saveNow();
-    await api.saveChanges(projectId, {
-      message: `Add ${path}`,
-      files: [{ path, base_revision: 0, content_base64: base64(new Uint8Array(data)) }],
-    });
-    const detail = await api.getProject(projectId);
-    useProjectStore.setState((state) => mergeRemote(state, detail).data);
+    await putBinaries([{ path, data }]);
     return { path, extent };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
@@ -56,11 +48,4 @@ function freePath(folder: string, name: string, taken: ReadonlySet<string>): str
     const path = `${folder}/${clean.slice(0, dot)}${count > 1 ? `_${count}` : ''}${clean.slice(dot).toLowerCase()}`;
     if (!taken.has(path)) return path;
   }
-}
-
-function base64(bytes: Uint8Array): string {
-  let text = '';
-  for (let at = 0; at < bytes.length; at += 0x8000)
-    text += String.fromCharCode(...bytes.subarray(at, at + 0x8000));
-  return btoa(text);
 }

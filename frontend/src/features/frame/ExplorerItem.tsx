@@ -14,13 +14,13 @@ import {
 import { useTranslation } from 'react-i18next';
 import { openRename } from '@/features/code/newFile';
 import { setScope } from '@/features/history/scope';
-import { undoNotification } from '@/features/projects/undoNotification';
 import { ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
-import { closeTab, openTab, showPanel, type DocumentTab } from './tabs';
+import { removeDocument } from './removing';
+import { openTab, showPanel, type DocumentTab } from './tabs';
 
 interface ExplorerItemProps {
   readonly path: string;
@@ -51,19 +51,6 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
         : ROBOT_FILE.test(path)
           ? IconRobot
           : IconFileText;
-
-  const remove = () => {
-    const project = useProjectStore.getState();
-    const text = project.currentText(path);
-    closeTab(tab);
-    project.deleteFile(path);
-    if (text === null) return;
-    undoNotification({
-      message: t('explorer.deleted', { name: nameOf(path) }),
-      undoLabel: t('undo'),
-      undo: () => useProjectStore.getState().addFile(path, text),
-    });
-  };
 
   const showHistory = () => {
     openTab(tab);
@@ -109,15 +96,18 @@ export function ExplorerItem({ path, isTree, isAction }: ExplorerItemProps) {
                 {t('explorer.makeMain')}
               </Menu.Item>
             ) : null}
-            {isTree || isAction ? (
-              <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
-                {t('explorer.rename')}
-              </Menu.Item>
-            ) : null}
+            <Menu.Item leftSection={<IconPencil size={16} />} onClick={() => openRename(path)}>
+              {t('explorer.rename')}
+            </Menu.Item>
             <Menu.Item disabled={isBinary} leftSection={<IconHistory size={16} />} onClick={showHistory}>
               {t('explorer.history')}
             </Menu.Item>
-            <Menu.Item color="red" disabled={isMain} leftSection={<IconTrash size={16} />} onClick={remove}>
+            <Menu.Item
+              color="red"
+              disabled={isMain}
+              leftSection={<IconTrash size={16} />}
+              onClick={() => void removeDocument(path)}
+            >
               {t('explorer.delete')}
             </Menu.Item>
           </Menu.Dropdown>

@@ -1,5 +1,5 @@
 import type * as THREE from 'three';
-import { fileUrl } from '@/features/editor3d/assets';
+import { fileUrl } from '@/store/saving/binary';
 import { loadTexture, type Pictures } from '@/features/viewer/TextureCache';
 import tiles from '@/generated/textures/tiles.json';
 

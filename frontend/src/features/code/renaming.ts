@@ -1,0 +1,26 @@
+import { useProjectStore } from '@/store/project';
+import { filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
+import { openFile } from '@/store/project/navigation';
+import { useWorldChoice } from '@/store/run/world';
+import { fetchBinaries, putBinaries } from '@/store/saving/binary';
+
+/** Gives a universe, a robot with all its files, or another file a new name. */
+export async function renameDocument(path: string, name: string): Promise<void> {
+  const project = useProjectStore.getState();
+  const to = pathNamed(path, name);
+  const moved = (file: string) =>
+    kindOf(path) === 'robot' ? file.replace(/^robots\/[^/]+/, `robots/${name}`) : to;
+  const files = filesOf(path);
+  const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
+  for (const file of files) {
+    const text = project.currentText(file);
+    if (text !== null) project.addFile(moved(file), text);
+  }
+  followDocument(path, name);
+  if (kindOf(path) === 'universe' || kindOf(path) === 'robot')
+    useWorldChoice.setState({ universe: null, robot: null });
+  // The new ones are saved before the old ones go.
+  await putBinaries(binaries.map(({ path: file, data }) => ({ path: moved(file), data })));
+  for (const file of files) project.deleteFile(file);
+  openFile(to);
+}

@@ -1,0 +1,54 @@
+import { notifications } from '@mantine/notifications';
+import { undoNotification } from '@/features/projects/undoNotification';
+import { t } from '@/i18n';
+import { useProjectStore } from '@/store/project';
+import { documentName, filesOf, followDocument } from '@/store/project/moving';
+import { treeIdOf } from '@/store/project/state';
+import { useWorldChoice } from '@/store/run/world';
+import { fetchBinaries, putBinaries } from '@/store/saving/binary';
+import { closeTab } from './tabs';
+
+/** Deletes a document, of a robot all its files; the note that says so brings everything back. */
+export async function removeDocument(path: string): Promise<void> {
+  const project = useProjectStore.getState();
+  const files = filesOf(path);
+  const name = documentName(path);
+  try {
+    // What the browser does not hold must be fetched first, or it could not come back.
+    const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
+    const texts = files.flatMap((file) => {
+      const text = project.currentText(file);
+      return text === null ? [] : [{ file, text }];
+    });
+    const treeId = treeIdOf(path);
+    if (treeId !== null) closeTab({ kind: 'tree', id: treeId });
+    for (const file of files) {
+      closeTab({ kind: 'file', path: file });
+      project.deleteFile(file);
+    }
+    const refollow = followDocument(path);
+    const { universe, robot } = useWorldChoice.getState();
+    if (universe === name || robot === name) useWorldChoice.setState({ universe: null, robot: null });
+    const others = files.length - 1;
+    undoNotification({
+      message: [
+        others > 0
+          ? t('frame:explorer.deletedWith', { name, count: others })
+          : t('frame:explorer.deleted', { name }),
+        ...(refollow ? [t('frame:explorer.noLongerUsed')] : []),
+      ].join(' '),
+      undoLabel: t('frame:undo'),
+      undo: () => {
+        for (const { file, text } of texts) useProjectStore.getState().addFile(file, text);
+        refollow?.();
+        putBinaries(binaries).catch(tell);
+      },
+    });
+  } catch (error) {
+    tell(error);
+  }
+}
+
+function tell(error: unknown): void {
+  notifications.show({ color: 'red', message: error instanceof Error ? error.message : String(error) });
+}

@@ -1,0 +1,57 @@
+import { useProjectStore } from '.';
+
+const UNIVERSE = /^universes\/([^/]+)\.yaml$/;
+const ROBOT = /^robots\/([^/]+)\/robot\.yaml$/;
+
+/** What a file of the explorer stands for. */
+export type DocumentKind = 'tree' | 'action' | 'universe' | 'robot' | 'file';
+
+export function kindOf(path: string): DocumentKind {
+  if (/^trees\/[^/]+\.json$/.test(path)) return 'tree';
+  if (/^actions\/[^/]+\.py$/.test(path)) return 'action';
+  if (UNIVERSE.test(path)) return 'universe';
+  return ROBOT.test(path) ? 'robot' : 'file';
+}
+
+/** How a document is called: of a robot it is its folder. */
+export const documentName = (path: string): string =>
+  (UNIVERSE.exec(path) ?? ROBOT.exec(path))?.[1] ??
+  path.replace(/^actions\/(.+)\.py$/, '$1').replace(/^trees\/(.+)\.json$/, '$1');
+
+/** The files that make a document: of a robot, all in its folder. */
+export function filesOf(path: string): string[] {
+  const { files } = useProjectStore.getState();
+  const folder = kindOf(path) === 'robot' ? path.slice(0, path.lastIndexOf('/') + 1) : null;
+  return folder === null ? [path] : Object.keys(files).filter((each) => each.startsWith(folder));
+}
+
+/** Where a document lies under another name. */
+export function pathNamed(path: string, name: string): string {
+  const kind = kindOf(path);
+  if (kind === 'universe') return `universes/${name}.yaml`;
+  return kind === 'robot' ? `robots/${name}/robot.yaml` : name;
+}
+
+/** The universe of a project that names none of its own. */
+const FIRST_UNIVERSE = 'empty';
+
+/**
+ * Has the project's settings follow a universe or a robot that goes, or that is called otherwise from now on.
+ * Without another name, the project runs in the empty universe, with the robot that the universe has.
+ *
+ * @returns how to take it back, or null where the project does not run with it.
+ */
+export function followDocument(path: string, name?: string): (() => void) | null {
+  const kind = kindOf(path);
+  const { settings, setSettings } = useProjectStore.getState();
+  const now = documentName(path);
+  if (kind === 'universe' && settings?.universe === now) {
+    setSettings({ universe: name ?? FIRST_UNIVERSE });
+    return () => setSettings({ universe: now });
+  }
+  if (kind === 'robot' && settings?.robot === now) {
+    setSettings({ robot: name });
+    return () => setSettings({ robot: now });
+  }
+  return null;
+}

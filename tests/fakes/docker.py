@@ -38,6 +38,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         self.children = {}
         self.requests = []
         self.processes = {}
+        self._lock = threading.Lock()
         self._gate = gate_folder / "gate.sock"
         super().__init__(str(path), _Handler)
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -48,14 +49,14 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         threading.Thread(target=self._run, args=(name, container), daemon=True).start()
 
     def end(self, name, status, *, out_of_memory=False, at=None):
-        if name in self.listeners:
-            self.listeners.pop(name).close()
         finished = datetime.fromtimestamp(at or time.time(), UTC).isoformat()
-        if name not in self.containers:
-            return  # removed in the meantime
-        self.containers[name]["State"] = {
-            "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
-        }  # fmt: skip
+        with self._lock:
+            if name in self.listeners:
+                self.listeners.pop(name).close()
+            if name in self.containers:  # else it was removed in the meantime
+                self.containers[name]["State"] = {
+                    "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
+                }  # fmt: skip
 
     def _run(self, name, container):
         kind, command = container["Image"], container["Cmd"]
@@ -75,7 +76,15 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
             child = self.children[name] = subprocess.Popen(program, env=environment, cwd=REPOSITORY)
             self.end(name, child.wait())
         elif kind == "good":
-            self.listeners[name] = fetch_listener(self._gate, session, token)
+            self._listen(name, container, fetch_listener(self._gate, session, token))
+
+    def _listen(self, name, container, listener):
+        """Keeps what an executor listens at, unless it was ended while it fetched that."""
+        with self._lock:
+            if self.containers.get(name) is container and container["State"]["Running"]:
+                self.listeners[name] = listener
+                return
+        listener.close()
 
     def close(self):
         for child in self.children.values():
@@ -137,6 +146,7 @@ class _Handler(BaseHTTPRequestHandler):
         if self.command == "DELETE":
             if name in docker.children:
                 docker.children[name].kill()
+            docker.end(name, 137)
             del docker.containers[name]
             return 204, b""
         if verb == "json":

@@ -6,7 +6,7 @@ PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; s
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
 SETUP_PYTHON := $(or $(PYTHON),$(shell command -v python3))
 BIN := .venv/bin
-PYTEST = $(BIN)/python -m pytest
+PYTEST_ARGS =
 # Hashes and no index address: a lock names no registry.
 LOCK := --quiet --upgrade --generate-hashes --no-header --no-annotate --python-version 3.11 --python-platform x86_64-manylinux_2_28
 
@@ -27,18 +27,18 @@ run: setup ## sets up what is missing, then serves the IDE on http://127.0.0.1:8
 test: setup-test lint test-frontend test-python ## sets up what is missing, then runs the whole test suite, browser tests included
 
 test-full: export BT_STUDIO_FULL = 1
-test-full: PYTEST += --timeout 0
+test-full: PYTEST_ARGS = --timeout 0
 test-full: setup-test lint test-frontend test-python ## the same with the large counts of tests/budget.toml (hours)
 
 test-docker: export BT_STUDIO_FULL = 1
 test-docker: setup-test ## builds the images and tries the server for a team in real containers (needs root)
-	@$(PYTEST) --timeout 0 tests/docker
+	@$(BIN)/python -m pytest --timeout 0 tests/docker
 
 test-frontend:
 	@cd frontend && npm run --silent test
 
 test-python:
-	@$(PYTEST) tests --durations 40 --durations-min 3
+	@$(BIN)/python -m tests.tools.lanes --durations 25 --durations-min 3 $(PYTEST_ARGS)
 
 lint: ## style, types and the direction of imports, in Python and TypeScript
 	@$(BIN)/ruff check . && $(BIN)/ruff format --check .

@@ -13,7 +13,7 @@ from executor.manager.manager import outside_domain_id
 from tests.executor.session.play import DATA, Play
 from tests.executor.session_client import ROOT, SessionClient, manager_process, run_data
 
-DOMAIN_ID = 83
+DOMAIN_ID = 225
 
 
 @contextlib.asynccontextmanager

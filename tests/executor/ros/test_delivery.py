@@ -13,7 +13,7 @@ from executor.ros.environment import ros_environment
 from executor.supervision.channel import Channel, socket_pair
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 32
+DOMAIN_ID = 222
 PICTURES = 45
 
 

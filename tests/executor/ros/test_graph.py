@@ -15,7 +15,7 @@ from executor.supervision.channel import Channel, socket_pair
 from tests.executor.ros.test_delivery import wait_for
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 33
+DOMAIN_ID = 223
 HEARD_S = 3.0  # of simulated time
 
 # topic: type, reliable, frame, rate; without the pictures, which test_delivery counts.

@@ -19,7 +19,7 @@ LONG_S = 20.0  # whoever is not woken fails by the test's time-out
 @pytest.fixture
 def node() -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=33)
+    rclpy.init(context=context, domain_id=224)
     made = Node("spun", context=context)
     yield made
     made.destroy_node()

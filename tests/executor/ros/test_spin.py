@@ -15,7 +15,7 @@ from executor.ros.spin import LOOK_EVERY, MOST_CALLS, DrainingExecutor
 @pytest.fixture
 def node() -> Iterator[Node]:
     context = Context()
-    rclpy.init(context=context, domain_id=32)
+    rclpy.init(context=context, domain_id=222)
     made = Node("spun", context=context)
     yield made
     made.destroy_node()

@@ -16,7 +16,7 @@ from executor.stream.pose_codec import POSE_BYTES, unpack
 from executor.supervision.channel import Channel, socket_pair
 
 ROOT = Path(__file__).parents[3]
-DOMAIN_ID = 33
+DOMAIN_ID = 223
 decode = msgspec.msgpack.Decoder(Scene | Poses).decode
 
 

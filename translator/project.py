@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from translator.action import ActionModel, inspect_action
+from translator.action import KEPT_BYTES, ActionModel, inspect_action
 from translator.catalog import NodeModel, PortModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, restore
@@ -85,7 +86,7 @@ def load(files: Mapping[str, bytes]) -> Project:
         raise TranslatorError([diagnostic("BT0008", Place(PROJECT_FILE))])
     settings = Settings()
     if PROJECT_FILE in files:
-        settings, problems = read_settings(files[PROJECT_FILE])
+        settings, problems = _read_settings(files[PROJECT_FILE])
         found.extend(problems)
     trees = _load_trees(files, found)
     if PROJECT_FILE not in files and settings.main_tree not in trees and len(trees) == 1:
@@ -102,6 +103,19 @@ def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, byte
     return Project(settings, placed, actions, dict(files), tuple(found))
 
 
+def _restore(raw: bytes, path: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
+    # As with actions: most projects are read again and again while one of their files changes.
+    return _restored(raw, path) if len(raw) <= KEPT_BYTES else restore(raw, file=path)
+
+
+def _read_settings(raw: bytes) -> tuple[Settings, tuple[Diagnostic, ...]]:
+    return _settings_read(raw) if len(raw) <= KEPT_BYTES else read_settings(raw)
+
+
+_restored = lru_cache(maxsize=256)(lambda raw, path: restore(raw, file=path))
+_settings_read = lru_cache(maxsize=256)(read_settings)
+
+
 def _is_diagram(path: str) -> bool:
     return path.startswith("trees/") and path.endswith(".json")
 
@@ -110,7 +124,7 @@ def _load_trees(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str
     read: list[Tree] = []
     for path in sorted(files):
         if _is_diagram(path):
-            tree, problems = restore(files[path], file=path)
+            tree, problems = _restore(files[path], path)
             found.extend(problems)
             read += [tree] if tree is not None else []
     trees: dict[str, Tree] = {}

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import contextvars
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -19,12 +18,13 @@ from django.core.handlers.base import BaseHandler
 from django.urls import set_script_prefix
 
 from backend.config.environment import environment
+from backend.config.threads import Threads
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
 
-THREADS: Final = {"local": 8, "team": 16}
-"""By mode; PostgreSQL's pool has as many connections."""
+THREADS: Final = {"local": 8, "team": 8}
+"""By mode; each has a connection to the database."""
 
 
 class Answer(NamedTuple):
@@ -41,7 +41,7 @@ class ThreadedHandler(ASGIHandler):
     def __init__(self) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
-        self._threads = ThreadPoolExecutor(THREADS[environment().mode], thread_name_prefix="http")
+        self._threads = Threads(THREADS[environment().mode], "http")
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
@@ -52,7 +52,7 @@ class ThreadedHandler(ASGIHandler):
         # What a request sets for itself (language, address) must not stay with the thread.
         context = contextvars.copy_context()
         work = partial(context.run, self._answer, scope, body)
-        answer = await asyncio.get_running_loop().run_in_executor(self._threads, work)
+        answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
         await send(
             {
                 "type": "http.response.start",

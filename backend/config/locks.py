@@ -14,7 +14,11 @@ def transaction_lock(name: str, *, shared: bool = False) -> None:
     """Waits until no other transaction holds the lock; shared holders do not exclude each other."""
     if connection.vendor != "postgresql":
         return
-    number = int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], signed=True)
     function = "pg_advisory_xact_lock_shared" if shared else "pg_advisory_xact_lock"
     with connection.cursor() as cursor:
-        cursor.execute(f"SELECT {function}(%s)", [number])
+        cursor.execute(f"SELECT {function}(%s)", [lock_number(name)])
+
+
+def lock_number(name: str) -> int:
+    """The number under which PostgreSQL knows the lock."""
+    return int.from_bytes(hashlib.sha256(name.encode()).digest()[:8], signed=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import fcntl
+import gc
 import json
 import os
 import secrets
@@ -182,8 +183,12 @@ def warm_up() -> None:
     from django.db import connection  # noqa: PLC0415
 
     import backend.config.urls  # noqa: F401, PLC0415
+    import translator  # noqa: F401, PLC0415
     from backend.projects.actions import collect_garbage  # noqa: PLC0415
 
+    # All that was imported stays: Python need not look through it again and again for what is in no use.
+    gc.collect()
+    gc.freeze()
     while True:
         collect_garbage()
         connection.close()

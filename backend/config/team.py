@@ -11,6 +11,8 @@ from pydantic import Field, SecretStr, field_validator, model_validator
 from pydantic_settings import BaseSettings
 
 MIN_SECRET_KEY = 32
+CONNECTION_S = 600
+"""How long a connection to PostgreSQL is kept; a server process does not give back what it once used."""
 DEFAULT_PORTS = {"smtp": 25, "smtp+starttls": 587, "smtps": 465}
 
 
@@ -198,10 +200,9 @@ def database(url: str, data_dir: Path) -> dict[str, Any]:
 
 
 def postgresql(url: str) -> dict[str, Any]:
-    """Django's settings of a PostgreSQL server; every request borrows a connection from one pool."""
+    """Django's settings of a PostgreSQL server; the threads that answer requests keep their connections."""
     parts = urlsplit(url)
     query = {name: values[-1] for name, values in parse_qs(parts.query).items()}
-    pool = {"min_size": 1, "max_size": int(query.pop("pool", "16")), "timeout": 10}
     host = unquote(parts.hostname or query.pop("host", ""))
     return {
         "ENGINE": "django.db.backends.postgresql",
@@ -210,9 +211,9 @@ def postgresql(url: str) -> dict[str, Any]:
         "PASSWORD": unquote(parts.password or ""),
         "HOST": host,
         "PORT": str(parts.port or ""),
+        "CONN_MAX_AGE": CONNECTION_S,
         # Most statements are of few kinds: PostgreSQL reads and plans each kind once.
         "OPTIONS": {
-            "pool": pool,
             "application_name": "bt-studio",
             "server_side_binding": True,
             "prepare_threshold": 3,

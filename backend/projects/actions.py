@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from datetime import datetime, timedelta
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from django.db import IntegrityError, transaction
-from django.db.models import Sum
 from django.utils import timezone
 
 from backend.accounts.audit import forget_old, note
@@ -24,6 +23,7 @@ from backend.projects.errors import (
 )
 from backend.projects.manifest import MANIFEST, Manifest, read, write
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, IdempotencyKey, Project
+from backend.projects.rows import BLOBS
 from backend.projects.signals import project_deleted, revision_made
 
 if TYPE_CHECKING:
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from uuid import UUID
 
     from backend.accounts.models import User
-
-BLOBS: Final = "blobs"
 
 
 @transaction.atomic
@@ -68,6 +66,7 @@ def create_project(
             {"format": "bt-studio/project", "version": 1} | dict(manifest.document) | {"name": final}
         )
     now = timezone.now()
+    transaction_lock(BLOBS, shared=True)
     project = Project(
         owner=acting_user, name=final, name_key=names.key(final), created_at=now, updated_at=now
     )
@@ -221,6 +220,7 @@ def _revive(project: Project, name: str, acting_user: User) -> None:
     raw = queries.current_files(project, [MANIFEST])[MANIFEST]
     document = dict(read(raw.data).document) | {"name": name}
     change = FileChange(MANIFEST, raw.revision, Content.of(write(document)))
+    transaction_lock(BLOBS, shared=True)
     _apply(
         project, [change], acting_user=acting_user, message="Restore under another name", now=timezone.now()
     )
@@ -272,47 +272,52 @@ def _checked(change: FileChange) -> FileChange:
 def _apply(
     project: Project, wanted: Sequence[FileChange], *, acting_user: User, message: str, now: datetime
 ) -> None:
+    """Applies changes to a project that is locked, and holds the lock on blobs."""
     current = queries.existing_files(project)
     result = plan(current, wanted)
     if result.conflicts:
         raise conflict_error(project, result.conflicts)
-    rows.forget_drafts(project, acting_user.pk, [change.path for change in wanted])
+    paths = [change.path for change in wanted]
     if result.is_empty:
+        rows.forget_drafts(project, acting_user.pk, paths)
         project.now = current
         return
     manifest = _manifest_after(result)
-    size = _size_after(project, current, result)
-    number = project.revision + 1
-    transaction_lock(BLOBS, shared=True)
+    project.size = _size_after(project, current, result)
+    project.revision, project.updated_at = project.revision + 1, now
     change = ChangeSet(
-        project=project, number=number, author=acting_user, message=message[:500], created_at=now
+        project=project, number=project.revision, author=acting_user, message=message[:500], created_at=now
     )
-    rows.add_change(change)
     contents = {w.sha256: w.content for w in result.written if w.content is not None}
     for content in contents.values():
         kept.put(content.sha256, content.data)
-    rows.add_blobs((sha256, c.size, c.data) for sha256, c in contents.items())
-    removed = [(path, None, "") for path in result.removed]
-    rows.add_revisions(change, removed + [(w.path, w.sha256, w.renamed_from) for w in result.written])
     if result.removed:
         CurrentFile.objects.filter(project=project, path__in=result.removed).delete()
-    rows.put_current(project, change, [(w.path, names.key(w.path), w.sha256) for w in result.written])
+    removed = [(path, None, "") for path in result.removed]
+    rows.write(
+        rows.Writing(
+            change=change,
+            blobs=[(sha256, c.size, c.data) for sha256, c in contents.items()],
+            revisions=removed + [(w.path, w.sha256, w.renamed_from) for w in result.written],
+            files=[(w.path, names.key(w.path), w.sha256) for w in result.written],
+            drafts=paths,
+        )
+    )
+    if manifest is not None:
+        _store_manifest(project, manifest)
     left = {path: existing for path, existing in current.items() if path not in result.removed}
-    project.now = left | {w.path: Existing(w.path, number, w.sha256, w.size) for w in result.written}
-    _advance(project, number, size, now, manifest)
+    project.now = left | {
+        w.path: Existing(w.path, project.revision, w.sha256, w.size) for w in result.written
+    }
+    kept.put_files(project, project.now)
     revision_made.send(Project, change=change)
 
 
-def _advance(project: Project, number: int, size: int, now: datetime, manifest: Manifest | None) -> None:
-    project.revision, project.size, project.updated_at = number, size, now
-    if manifest is None:
-        rows.advance(project)
-        return
+def _store_manifest(project: Project, manifest: Manifest) -> None:
     project.name, project.name_key = manifest.name, names.key(manifest.name)
     project.description = manifest.description
     project.main_tree, project.universe = manifest.main_tree, manifest.universe
-    fields = ["name", "name_key", "description", "main_tree", "universe"]
-    _save_name(project, update_fields=["revision", "size", "updated_at", *fields])
+    _save_name(project, update_fields=["name", "name_key", "description", "main_tree", "universe"])
 
 
 def _manifest_after(result: Plan) -> Manifest | None:
@@ -341,8 +346,7 @@ def _size_after(project: Project, current: Mapping[str, Existing], result: Plan)
             f"The files of a project take at most {limits.max_project_bytes:,} bytes.", field="files"
         )
     if total > project.size:
-        others = Project.objects.filter(owner=project.owner, deleted_at=None).exclude(id=project.id)
-        used = others.aggregate(total=Sum("size"))["total"] or 0
+        used = rows.taken_by_others(project)
         allowed = project.owner.max_bytes
         room = limits.max_user_bytes if allowed is None else allowed
         if used + total > room:

@@ -60,7 +60,8 @@ def detail(project: Project) -> dict[str, Any]:
     """An opened project."""
     files = queries.current_files(project)
     found = report({path: stored.data for path, stored in files.items()})
-    diagram = queries.root_diagrams([project]).get(project.id)
+    main = files.get(f"trees/{project.main_tree}.json")
+    diagram = queries.root_diagram(main.data) if main is not None else None
     return summary(project, diagram) | {
         "settings": dict(read(files[MANIFEST].data).document),
         "files": [file(stored) for stored in files.values()],

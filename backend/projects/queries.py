@@ -7,8 +7,8 @@ import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
-from django.db.models import F, Max, Q, QuerySet, Value
-from django.db.models.functions import Concat, Lower
+from django.db.models import F, Max, Q, QuerySet
+from django.db.models.functions import Lower
 
 from backend import __version__
 from backend.config.problems import NotFoundError
@@ -120,36 +120,37 @@ def projects(
     return rows.order_by(order.desc() if backwards else order.asc(), "id")
 
 
-def page(rows: QuerySet[Project], start: int, end: int) -> list[Project]:
-    """Some of them, each with the user's role."""
+def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], int]:
+    """Some of them, each with the user's role; and how many there are."""
     found = list(rows[start:end])
     for row in found:
         row.role = Role(row.rank)  # type: ignore[attr-defined]
-    return found
+    is_last = len(found) < end - start and (found or start == 0)
+    return found, start + len(found) if is_last else rows.count()
 
 
 def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
     """The main tree of each project, where it can be read."""
-    rows = CurrentFile.objects.filter(
-        project__in=[p.id for p in found],
-        path=Concat(Value("trees/"), F("project__main_tree"), Value(".json")),
-    ).values_list("project_id", "blob__data")
-    diagrams = {}
-    for project_id, data in rows:
-        try:
-            diagram = json.loads(bytes(data))
-        except (ValueError, RecursionError):
-            continue
-        if isinstance(diagram, dict):
-            diagrams[project_id] = diagram
-    return diagrams
+    blobs = rows.root_trees([project.id for project in found])
+    data = kept.contents(blobs.values())
+    diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
+    return {project_id: diagram for project_id, diagram in diagrams.items() if diagram is not None}
+
+
+def root_diagram(data: bytes) -> dict[str, Any] | None:
+    """A tree as JSON, where it can be read."""
+    try:
+        diagram = json.loads(data)
+    except (ValueError, RecursionError):
+        return None
+    return diagram if isinstance(diagram, dict) else None
 
 
 def existing_files(project: Project) -> dict[str, Existing]:
     """The current files without their bytes; those that the write left which `project` comes from."""
     if project.now is not None:
         return dict(project.now)
-    return rows.existing(project)
+    return kept.files(project) or rows.existing(project)
 
 
 def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:

@@ -44,9 +44,8 @@ class Projects(APIView):
         rows = queries.projects(
             user=user_of(request), search=asked["search"], sort=asked["sort"], shelf=asked["shelf"]
         )
-        total = rows.count()
         end = asked["offset"] + asked["limit"]
-        page = queries.page(rows, asked["offset"], end)
+        page, total = queries.page(rows, asked["offset"], end)
         diagrams = queries.root_diagrams(page)
         items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
         return Response({"items": items, "total": total, "next_offset": end if end < total else None})

@@ -52,4 +52,8 @@ def test_no_endpoint_asks_the_database_more_often_than_its_budget_says(api):
         found[name] = len(real)
     if os.environ.get("BT_STUDIO_RECORD") == "1":
         BUDGETS.write_text(json.dumps(found, indent=2) + "\n")
-    assert found == json.loads(BUDGETS.read_text())
+    budgets = json.loads(BUDGETS.read_text())
+    if connection.vendor == "postgresql":  # which is asked for several things at once
+        assert {name for name in found if found[name] > budgets[name]} == set()
+    else:
+        assert found == budgets

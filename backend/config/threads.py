@@ -1,0 +1,114 @@
+"""A few threads that stay; of those that are idle, the one that worked last works next.
+
+What it needs is then still at hand: its connection to the database, and at the other end a PostgreSQL process
+that knows the statements. Where threads take turns, as in `ThreadPoolExecutor`, each begins cold.
+"""
+
+from __future__ import annotations
+
+import atexit
+import threading
+from collections import deque
+from contextlib import suppress
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Callable
+
+    Job = Callable[[], Callable[[], None]]
+    """Works, and returns what tells that it is done."""
+    Inbox = SimpleQueue[Job | None]
+
+PATIENCE_S: Final = 5.0
+"""How long the end of the program waits for each thread that still works."""
+
+
+class Threads:
+    """Works for coroutines."""
+
+    def __init__(self, number: int, name: str) -> None:
+        self._number, self._name = number, name
+        self._lock = threading.Lock()
+        self._idle: list[Inbox] = []
+        self._waiting: deque[Job] = deque()
+        self._threads: dict[threading.Thread, Inbox] = {}
+        atexit.register(self.end)
+
+    def run(self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any]) -> asyncio.Future[Any]:
+        """Begins the work as soon as a thread is free; the future belongs to the loop."""
+        future = loop.create_future()
+
+        def job() -> Callable[[], None]:
+            try:
+                result, error = work(), None
+            except BaseException as raised:  # whoever waits gets it
+                result, error = None, raised
+            return lambda: _tell(loop, future, result, error)
+
+        self._hand_out(job)
+        return future
+
+    def end(self) -> None:
+        """Lets what is begun come to its end, and waits for it a while."""
+        with self._lock:
+            threads, self._threads = self._threads, {}
+            self._waiting.clear()
+        for inbox in threads.values():
+            inbox.put(None)
+        for thread in threads:
+            thread.join(PATIENCE_S)
+        atexit.unregister(self.end)
+
+    def _hand_out(self, job: Job) -> None:
+        with self._lock:
+            if self._idle:
+                inbox = self._idle.pop()
+            elif len(self._threads) < self._number:
+                inbox = self._begin_thread()
+            else:
+                self._waiting.append(job)
+                return
+        inbox.put(job)
+
+    def _begin_thread(self) -> Inbox:
+        inbox: Inbox = SimpleQueue()
+        name = f"{self._name}_{len(self._threads)}"
+        thread = threading.Thread(target=self._work, args=(inbox,), name=name, daemon=True)
+        self._threads[thread] = inbox
+        thread.start()
+        return inbox
+
+    def _work(self, inbox: Inbox) -> None:
+        while (job := inbox.get()) is not None:
+            following: Job | None = job
+            while following is not None:
+                tell = following()
+                following = self._next(inbox)  # first, so that whoever is told finds this thread idle
+                tell()
+
+    def _next(self, inbox: Inbox) -> Job | None:
+        """What waits for a thread; without it, this one is idle."""
+        with self._lock:
+            if self._waiting:
+                return self._waiting.popleft()
+            self._idle.append(inbox)
+            return None
+
+
+def _tell(
+    loop: asyncio.AbstractEventLoop, future: asyncio.Future[Any], result: Any, error: BaseException | None
+) -> None:
+    # A loop that has ended has nobody who waits.
+    with suppress(RuntimeError):
+        loop.call_soon_threadsafe(_settle, future, result, error)
+
+
+def _settle(future: asyncio.Future[Any], result: Any, error: BaseException | None) -> None:
+    if future.cancelled():
+        return
+    if error is None:
+        future.set_result(result)
+    else:
+        future.set_exception(error)

@@ -1,0 +1,90 @@
+"""A session that was read before is known again at once, and never for longer than it is good."""
+
+from __future__ import annotations
+
+from datetime import timedelta
+
+import pytest
+from django.conf import settings
+from django.contrib.sessions.models import Session
+from django.core.cache import cache
+from django.utils import timezone
+
+from backend.accounts import identity
+from backend.accounts.models import User
+
+
+@pytest.fixture(autouse=True)
+def _nobody_known():
+    identity._known.clear()
+
+
+def known(person):
+    """Someone whose session was read before; and a function that reads it."""
+    ada = person("ada")
+    cookies = {name: morsel.value for name, morsel in ada.client.cookies.items()}
+
+    def who():
+        return identity.identify(cookies)
+
+    assert who() == ada.user
+    return ada, who
+
+
+def test_it_takes_one_query(person, django_assert_num_queries):
+    ada, who = known(person)
+    with django_assert_num_queries(1):
+        found = who()
+    assert found == ada.user
+    assert {field.attname: getattr(found, field.attname) for field in User._meta.concrete_fields} == {
+        field.attname: getattr(User.objects.get(), field.attname) for field in User._meta.concrete_fields
+    }
+
+
+def signs_out(ada):
+    ada.form("/accounts/logout/")
+
+
+def is_deactivated(ada):
+    User.objects.filter(pk=ada.user.pk).update(is_active=False)
+
+
+def has_another_password(ada):
+    ada.user.set_password("Another-horse-7")
+    ada.user.save()
+
+
+def is_gone(ada):
+    ada.user.delete()
+
+
+def stayed_away_too_long(ada):
+    Session.objects.update(expire_date=timezone.now() - timedelta(seconds=1))
+    cache.clear()
+
+
+@pytest.mark.parametrize(
+    "what", [signs_out, is_deactivated, has_another_password, is_gone, stayed_away_too_long]
+)
+def test_whoever_may_no_longer_is_out_at_once(person, what):
+    ada, who = known(person)
+    what(ada)
+    assert who() is None
+
+
+def test_a_change_of_what_the_session_holds_is_seen(person):
+    owner = person("olga")
+    one = owner.post("projects", {"name": "Robot"}, expect=201)["id"]
+    link = owner.post(f"projects/{one}/shares/links", {}, expect=201)["links"][0]
+    ada, who = known(person)
+    ada.get(f"projects/{one}", expect=404)
+    ada.page(link["url"].partition(settings.ENVIRONMENT.public_host or "bt.example.org")[2])
+    assert len(who().links) == 1
+    assert ada.get(f"projects/{one}")["role"] == "viewer"
+
+
+def test_only_so_many_are_remembered(person, monkeypatch):
+    monkeypatch.setattr(identity, "_MAX_KNOWN", 2)
+    for name in ("ada", "bob", "cleo"):
+        person(name).get("me")
+    assert len(identity._known) == 2

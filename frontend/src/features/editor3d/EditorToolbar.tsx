@@ -16,6 +16,7 @@ import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
 import { useActionTable } from '@/actions/registry';
+import { useRunStore } from '@/store/run/store';
 import classes from './editor3d.module.css';
 import { travel, type Editor, type Mode } from './session';
 
@@ -46,7 +47,8 @@ export function EditorToolbar(props: EditorToolbarProps) {
   const { editor, label, modes, grids, textLabel, textTestId, undoTestId, onRun, children } = props;
   const { t } = useTranslation('editor3d');
   const { mode, tool, grid, history, isTextShown } = useStore(editor.store);
-  const canRun = useActionTable(({ actions }) => actions['run.run'] !== undefined);
+  const isHindered = useRunStore((state) => state.hindrance !== null);
+  const canRun = useActionTable(({ actions }) => actions['run.run'] !== undefined) && !isHindered;
   const { setState } = editor.store;
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={label}>

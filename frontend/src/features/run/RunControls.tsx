@@ -8,6 +8,7 @@ import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
+import { useHindrance } from './useHindrance';
 import { SpeedSelect, TickRateSelect } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
@@ -21,14 +22,20 @@ export function RunControls() {
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
   const hasApplication = isRunning || isPaused;
-  const isViewer = useSessionStore((state) => state.introspection?.role === 'viewer');
+  const hindrance = useHindrance();
+  const isHindered = hindrance !== null;
   const hasChanged = useHasChanged();
   const help = hasApplication ? (hasChanged ? 'changedHelp' : 'runAgainHelp') : 'runHelp';
   const runLabel = t(hasApplication ? 'runAgain' : 'action.run');
 
   return (
     <Group gap={4} wrap="nowrap">
-      <Tooltip label={`${t(help)} (${shortcutLabel('F5')})`}>
+      <Tooltip
+        label={hindrance ? t(`hindrance.${hindrance}`) : `${t(help)} (${shortcutLabel('F5')})`}
+        multiline={isHindered}
+        maw={300}
+        events={{ hover: true, focus: isHindered, touch: isHindered }}
+      >
         <Button
           className={classes['runButton']}
           size="xs"
@@ -37,7 +44,9 @@ export function RunControls() {
           leftSection={<IconPlayerPlayFilled size={15} />}
           variant={hasApplication && !hasChanged ? 'light' : 'filled'}
           loading={stage !== null}
-          disabled={isViewer}
+          // It stays in the order of the keyboard, and can be asked why it does nothing.
+          data-disabled={isHindered}
+          aria-disabled={isHindered}
           data-testid="run"
           onClick={() => perform('run.run')}
         >
@@ -45,14 +54,14 @@ export function RunControls() {
         </Button>
       </Tooltip>
       {isPaused ? (
-        <ActionButton action="run.resume" testId="resume" isDisabled={isViewer} />
+        <ActionButton action="run.resume" testId="resume" isDisabled={isHindered} />
       ) : (
-        <ActionButton action="run.pause" testId="pause" isDisabled={!isRunning || isViewer} />
+        <ActionButton action="run.pause" testId="pause" isDisabled={!isRunning || isHindered} />
       )}
-      <ActionButton action="run.step" testId="step" isDisabled={!hasApplication || isViewer} />
-      <RunMenu isDisabled={isViewer} />
-      <ActionButton action="run.stop" testId="stop" isDisabled={!hasApplication || isViewer} />
-      <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isViewer} />
+      <ActionButton action="run.step" testId="step" isDisabled={!hasApplication || isHindered} />
+      <RunMenu isDisabled={isHindered} />
+      <ActionButton action="run.stop" testId="stop" isDisabled={!hasApplication || isHindered} />
+      <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isHindered} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>
         <TickRateSelect />

@@ -38,7 +38,7 @@ const rows: UserAction[] = [
     icon: IconPlayerPlayFilled,
     shortcut: 'F5',
     inTextFields: true,
-    enabled: () => useRunStore.getState().stage === null,
+    enabled: () => useRunStore.getState().stage === null && useRunStore.getState().hindrance === null,
     run: () => void runProject(),
   },
   {

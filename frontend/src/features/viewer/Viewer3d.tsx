@@ -6,6 +6,7 @@ import { useTranslation } from 'react-i18next';
 import { perform } from '@/actions/registry';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
+import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { CameraInset } from './CameraInset';
 import { Notes } from './Notes';
@@ -84,16 +85,17 @@ function useScene(): Scene | null {
 }
 
 function NoWorld() {
-  const { t } = useTranslation('viewer');
+  const { t } = useTranslation(['viewer', 'run']);
   const isLaunching = useSessionStore((state) => state.isLaunching);
   const executor = useSessionStore((state) => state.executor);
+  const hindrance = useRunStore((state) => state.hindrance);
   const isWaiting = isLaunching || (executor !== 'idle' && executor !== 'connected');
   return (
     <div className={classes['empty']}>
       <Text size="sm" c="dimmed">
-        {t(isWaiting ? 'waiting' : 'press')}
+        {t(isWaiting ? 'waiting' : hindrance ? `run:hindrance.${hindrance}` : 'press')}
       </Text>
-      {isWaiting ? null : (
+      {isWaiting || hindrance ? null : (
         <Button
           size="xs"
           mt="sm"

@@ -13,11 +13,20 @@ export interface LaunchFailure {
   diagnostics: Diagnostic[];
 }
 
+/** Why someone may not run a project: they came by a read-only link, or look on at another's session. */
+export type Hindrance = 'guest' | 'onlooker';
+
 interface RunData {
   stage: LaunchStage | null;
   failure: LaunchFailure | null;
   /** The project's edits that the running application has. */
   ranAt: number;
+  hindrance: Hindrance | null;
 }
 
-export const useRunStore = create<RunData>(() => ({ stage: null, failure: null, ranAt: 0 }));
+export const useRunStore = create<RunData>(() => ({
+  stage: null,
+  failure: null,
+  ranAt: 0,
+  hindrance: null,
+}));

@@ -67,12 +67,13 @@ interface TextFieldProps {
   readonly label: string;
   readonly value: string;
   readonly testId?: string;
+  readonly placeholder?: string;
   /** Why the text cannot be taken; null where it can. */
   readonly problem?: (value: string) => string | null;
   readonly onCommit: (value: string) => void;
 }
 
-export function TextField({ label, value, testId, problem, onCommit }: TextFieldProps) {
+export function TextField({ label, value, testId, placeholder, problem, onCommit }: TextFieldProps) {
   const [draft, setDraft] = useState<{ of: string; text: string }>({ of: value, text: value });
   const text = draft.of === value ? draft.text : value;
   const refused = text === value ? null : (problem?.(text) ?? null);
@@ -87,6 +88,7 @@ export function TextField({ label, value, testId, problem, onCommit }: TextField
       value={text}
       error={refused}
       disabled={isReadOnly()}
+      {...(placeholder ? { placeholder } : {})}
       {...(testId ? { 'data-testid': testId } : {})}
       onChange={(event) => setDraft({ of: value, text: event.currentTarget.value })}
       onBlur={commit}

@@ -1,8 +1,21 @@
 import * as THREE from 'three';
+import { t } from '@/i18n';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
 
-/** Reads a mesh file into one geometry in the file's own units and axes, as the simulator does. */
+/**
+ * Reads a mesh file into one geometry in the file's own units and axes, as the simulator does.
+ *
+ * @throws Error in the user's words where it is none that can be used.
+ */
 export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
+  const mesh = await parsed(path, data);
+  const corners = mesh.getAttribute('position').array;
+  if (corners.length === 0) throw new Error(t('editor3d:mesh.empty'));
+  if (!corners.every(Number.isFinite)) throw new Error(t('editor3d:mesh.corners'));
+  return mesh;
+}
+
+async function parsed(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
   const kind = /\.(\w+)$/.exec(path.toLowerCase())?.[1];
   const text = () => new TextDecoder().decode(data);
   switch (kind) {
@@ -21,7 +34,7 @@ export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.B
     case 'dae': {
       const { ColladaLoader } = await import('three/examples/jsm/loaders/ColladaLoader.js');
       const scene = new ColladaLoader().parse(text(), '')?.scene;
-      if (!scene) throw new Error('no scene');
+      if (!scene) throw new Error(t('editor3d:mesh.empty'));
       // The file's own axes and units: the simulator reads neither.
       scene.rotation.set(0, 0, 0);
       scene.scale.set(1, 1, 1);
@@ -32,7 +45,7 @@ export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.B
       return merged((await new GLTFLoader().parseAsync(data, '')).scene);
     }
     default:
-      throw new Error(`meshes of kind ${kind ?? ''} are not read`);
+      throw new Error(t('editor3d:mesh.kind', { kind: kind ?? '' }));
   }
 }
 
@@ -52,6 +65,6 @@ function merged(root: THREE.Object3D): THREE.BufferGeometry {
       parts.push(plain(child.geometry as THREE.BufferGeometry).applyMatrix4(child.matrixWorld));
     }
   });
-  if (parts.length === 0) throw new Error('no triangles');
+  if (parts.length === 0) throw new Error(t('editor3d:mesh.empty'));
   return mergeGeometries(parts);
 }

@@ -5,6 +5,7 @@ import type { RobotThing } from '@/model/universe/types';
 import { isReadOnly } from '@/features/editor3d/session';
 import { edit, type UniverseEditor } from './editor';
 import { useRobots } from './Palette';
+import { TopicFields } from './TopicFields';
 import { PoseFields } from '@/features/editor3d/PoseFields';
 
 interface RobotFieldsProps {
@@ -35,6 +36,7 @@ export function RobotFields({ editor, thing }: RobotFieldsProps) {
         isUpright
         onChange={(pose) => edit(editor, 'move', (now) => place(now, new Map([[thing.key, pose]])))}
       />
+      <TopicFields editor={editor} thing={thing} />
     </>
   );
 }

@@ -63,9 +63,9 @@ describe('joints', () => {
     expect(robotOf(turning).urdf.joints.get('part_joint')).toMatchObject({
       type: 'revolute',
       axis: [0, 0, 1],
-      limits: [-1.57, 1.57],
+      limits: [-1.570796, 1.570796],
     });
-    expect(turning[1]).toContain('<limit lower="-1.57" upper="1.57" effort="10" velocity="3"/>');
+    expect(turning[1]).toContain('<limit lower="-1.570796" upper="1.570796" effort="10" velocity="3"/>');
     const narrow = after(turning, (robot) =>
       setJoint(robot, 'part_joint', { limits: [0, 1], axis: [0, 1, 0] }),
     );

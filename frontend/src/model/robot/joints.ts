@@ -21,7 +21,7 @@ export const FRICTION = 0.8;
 
 /** Between which a joint begins to move: rad, of a prismatic one m. */
 const FIRST_LIMITS: Readonly<Record<string, readonly [number, number]>> = {
-  revolute: [-1.57, 1.57],
+  revolute: [-Math.PI / 2, Math.PI / 2],
   prismatic: [0, 0.1],
 };
 

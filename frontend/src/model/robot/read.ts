@@ -37,6 +37,19 @@ const readXml = remembering((source: string): UrdfReading => {
   }
 });
 
+/** What publishes or hears a topic by a name of its own, as a `robot.yaml` says, and the topic. */
+export const topicsOf = remembering((yaml: string): readonly { name: string; topic: string }[] => {
+  const said = valueOfYaml(yaml);
+  if (!('raw' in said) || !isObject(said.raw)) return [];
+  const joints = Array.isArray(said.raw['joints']) ? (said.raw['joints'] as Json[]) : [];
+  return [
+    ...sensorsOf(said.raw).map(({ name, raw }) => ({ name, topic: text(raw['topic'], '') })),
+    ...joints.flatMap((each) =>
+      isObject(each) ? [{ name: text(each['joint'], ''), topic: text(each['topic'], '') }] : [],
+    ),
+  ].filter(({ name, topic }) => name !== '' && topic !== '');
+});
+
 const KEY = '\0';
 const readBoth = remembering((both: string): RobotReading => {
   const [yaml = '', urdf] = both.split(KEY);

@@ -99,7 +99,11 @@ function thingOf(
   if (section === 'models') return modelOf(said, { section, ...placed });
   if (section === 'actors') return actorOf(said, { section, ...placed });
   const model = text(said['model'], 'turtle2');
-  return { section, ...placed, model, pose: pose(said['pose']) } satisfies RobotThing;
+  const named = isObject(said['topics']) ? Object.entries(said['topics']) : [];
+  const topics = Object.fromEntries(
+    named.filter((row): row is [string, string] => typeof row[1] === 'string'),
+  );
+  return { section, ...placed, model, pose: pose(said['pose']), topics } satisfies RobotThing;
 }
 
 function modelOf(

@@ -1,7 +1,8 @@
 import { Button } from '@mantine/core';
 import { IconShare3 } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { registerActions } from '@/actions/registry';
 import { useProjectStore } from '@/store/project';
 import { ShareDialog } from './ShareDialog';
 import { useMe } from './useMe';
@@ -14,6 +15,22 @@ export function ShareButton() {
   const projectId = useProjectStore((state) => state.projectId);
   const name = useProjectStore((state) => state.name);
   const role = useProjectStore((state) => state.role);
+  const canShare = me !== undefined && me.mode !== 'local' && role === 'owner' && projectId !== null;
+  useEffect(
+    () =>
+      canShare
+        ? registerActions([
+            {
+              id: 'project.share',
+              group: 'project',
+              labelKey: 'accounts:share.button',
+              icon: IconShare3,
+              run: () => setOpen(true),
+            },
+          ])
+        : undefined,
+    [canShare],
+  );
   if (!me || me.mode === 'local' || role !== 'owner' || projectId === null) return null;
   return (
     <>

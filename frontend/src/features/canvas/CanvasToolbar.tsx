@@ -12,14 +12,18 @@ import {
   type Icon,
 } from '@tabler/icons-react';
 import { useReactFlow, useStore } from '@xyflow/react';
-import { memo } from 'react';
+import { memo, useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
+import { shortcutLabel } from '@/actions/shortcuts';
 import { ActionButton } from '@/ui/ActionButton';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/commands';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { FIT_KEYS } from './actions';
+import type { BlockNode, TreeEdge } from './flow';
 import { FIT } from './useViewport';
+import { fitSelection, showsTree } from './views';
 import classes from './Canvas.module.css';
 
 interface ToolProps {
@@ -49,12 +53,16 @@ function Tool({ label, icon: Symbol, onClick, testId, isOn }: ToolProps) {
 /** Zoom, layout and search, below the tree. */
 export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
-  const flow = useReactFlow();
+  const flow = useReactFlow<BlockNode, TreeEdge>();
   const zoom = useStore((state) => Math.round(state.transform[2] * 100));
   const isHorizontal = useProjectStore((state) => state.diagrams[treeId]?.layout === 'horizontal');
   const hasSelection = useProjectStore((state) => state.activeTree === treeId && state.selection.length > 0);
-  const blocks = useProjectStore((state) => Object.keys(state.diagrams[treeId]?.nodes ?? {}).length);
-  const minimap = useEditorStore((state) => isMinimapShown(state.minimap, blocks));
+  const wish = useEditorStore((state) => state.minimap);
+  const minimap = useProjectStore((state) =>
+    isMinimapShown(wish, Object.keys(state.diagrams[treeId]?.nodes ?? {}).length),
+  );
+
+  useEffect(() => showsTree(treeId, flow), [treeId, flow]);
 
   const fitSoon = (): void => {
     // After React has drawn the new layout.
@@ -80,18 +88,15 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
       </Tooltip>
       <Tool label={t('toolbar.zoomIn')} icon={IconPlus} onClick={() => void flow.zoomIn({ duration: 120 })} />
       <Tool
-        label={t('toolbar.fit')}
+        label={`${t('toolbar.fit')} (${shortcutLabel(FIT_KEYS.all)})`}
         icon={IconMaximize}
         onClick={() => void flow.fitView({ ...FIT, duration: 200 })}
       />
       {hasSelection && (
         <Tool
-          label={t('toolbar.fitSelection')}
+          label={`${t('toolbar.fitSelection')} (${shortcutLabel(FIT_KEYS.selection)})`}
           icon={IconFocusCentered}
-          onClick={() => {
-            const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
-            void flow.fitView({ ...FIT, nodes, duration: 200 });
-          }}
+          onClick={fitSelection}
         />
       )}
       <span className={classes['divider']} />

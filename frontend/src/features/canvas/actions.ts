@@ -13,9 +13,14 @@ import {
   IconCopy,
   IconCopyPlus,
   IconCut,
+  IconFocusCentered,
   IconLayoutDistributeHorizontal,
+  IconMap2,
+  IconMaximize,
   IconPlus,
   IconSearch,
+  IconZoomIn,
+  IconZoomOut,
 } from '@tabler/icons-react';
 import { setLayout, tidy } from '@/model/edits';
 import { copySelection, cutSelection, paste } from '@/store/project/clipboard';
@@ -27,10 +32,11 @@ import {
   toggleDisabled,
   unwrapSelection,
 } from '@/store/project/commands';
-import { setEditor, toggleExpanded } from '@/store/project/editor';
+import { isMinimapShown, setEditor, toggleExpanded } from '@/store/project/editor';
 import { extractSelection, inlineSelection } from '@/store/project/subtrees';
 import { useProjectStore } from '@/store/project';
 import { openQuickAddHere } from './quickAdd/open';
+import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from './views';
 
 const state = () => useProjectStore.getState();
 const history = () => state().histories[state().activeTree ?? ''];
@@ -239,7 +245,65 @@ const rows: readonly UserAction[] = [
   },
 ];
 
+/** Figma's keys for the same. */
+export const FIT_KEYS = { all: 'Shift+Digit1', selection: 'Shift+Digit2' } as const;
+
+const views: readonly UserAction[] = [
+  {
+    id: 'canvas.fit',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.fit',
+    icon: IconMaximize,
+    shortcut: FIT_KEYS.all,
+    enabled: isTreeShown,
+    run: fit,
+  },
+  {
+    id: 'canvas.fitSelection',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.fitSelection',
+    icon: IconFocusCentered,
+    shortcut: FIT_KEYS.selection,
+    enabled: () => isTreeShown() && hasSelection(),
+    run: fitSelection,
+  },
+  {
+    id: 'canvas.zoomIn',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomIn',
+    icon: IconZoomIn,
+    enabled: isTreeShown,
+    run: zoomIn,
+  },
+  {
+    id: 'canvas.zoomOut',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomOut',
+    icon: IconZoomOut,
+    enabled: isTreeShown,
+    run: zoomOut,
+  },
+  {
+    id: 'canvas.zoomReset',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomReset',
+    enabled: isTreeShown,
+    run: zoomReset,
+  },
+  {
+    id: 'canvas.minimap',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.minimap',
+    icon: IconMap2,
+    enabled: hasTree,
+    run: () => {
+      const blocks = Object.keys(activeDiagram()?.nodes ?? {}).length;
+      setEditor(({ minimap }) => ({ minimap: !isMinimapShown(minimap, blocks) }));
+    },
+  },
+];
+
 /** Adds the editor's commands to the table; the returned function takes them out again. */
 export function registerCanvasActions(): () => void {
-  return registerActions(rows);
+  return registerActions([...rows, ...views]);
 }

@@ -8,7 +8,9 @@ import {
   IconRulerMeasure,
   IconView360Arrow,
 } from '@tabler/icons-react';
+import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
+import { registerActions, type UserAction } from '@/actions/registry';
 import { setDriving, useTeleop } from '@/store/run/teleop';
 import { setMeasuring, useMeasuring } from './measuring';
 import type { ViewOptions } from './viewOptions';
@@ -25,6 +27,7 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   const { t } = useTranslation('viewer');
   const isDriving = useTeleop((state) => state.isOn);
   const isMeasuring = useMeasuring((state) => state.isOn);
+  useViewerActions(options, onChange);
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={t('tools')}>
       <Menu position="left-start" closeOnItemClick={false}>
@@ -79,6 +82,26 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
       />
     </div>
   );
+}
+
+/** The tools in the table of actions, for as long as there is a world to look at. */
+function useViewerActions({ follow }: ViewOptions, onChange: (part: Partial<ViewOptions>) => void): void {
+  const act = useEffectEvent(onChange);
+  useEffect(() => {
+    const row = (id: string, labelKey: string, icon: typeof IconEye, run: () => void): UserAction => ({
+      id: `view3d.${id}`,
+      group: 'view',
+      labelKey: `viewer:${labelKey}`,
+      icon,
+      run,
+    });
+    return registerActions([
+      row('follow', 'follow', IconCurrentLocation, () => act({ follow: !follow })),
+      row('top', 'top', IconFocusCentered, () => act({ viewpoint: { kind: 'top' } })),
+      row('reset', 'reset', IconView360Arrow, () => act({ viewpoint: { kind: 'default' } })),
+      row('measure', 'measure', IconRulerMeasure, () => setMeasuring(!useMeasuring.getState().isOn)),
+    ]);
+  }, [follow]);
 }
 
 interface ToolProps {

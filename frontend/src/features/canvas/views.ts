@@ -1,0 +1,32 @@
+import type { ReactFlowInstance } from '@xyflow/react';
+import { useProjectStore } from '@/store/project';
+import type { BlockNode, TreeEdge } from './flow';
+import { FIT } from './useViewport';
+
+type View = ReactFlowInstance<BlockNode, TreeEdge>;
+
+const views = new Map<string, View>();
+const FAST = { duration: 120 };
+const SLOW = { duration: 200 };
+
+/** Has the table of actions move the view of a tree; the returned function ends that. */
+export function showsTree(treeId: string, view: View): () => void {
+  views.set(treeId, view);
+  return () => {
+    if (views.get(treeId) === view) views.delete(treeId);
+  };
+}
+
+const inFront = (): View | undefined => views.get(useProjectStore.getState().activeTree ?? '');
+
+export const isTreeShown = (): boolean => inFront() !== undefined;
+export const zoomIn = (): void => void inFront()?.zoomIn(FAST);
+export const zoomOut = (): void => void inFront()?.zoomOut(FAST);
+export const zoomReset = (): void => void inFront()?.zoomTo(1, FAST);
+export const fit = (): void => void inFront()?.fitView({ ...FIT, ...SLOW });
+
+/** Goes to what is selected. */
+export function fitSelection(): void {
+  const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
+  void inFront()?.fitView({ ...FIT, nodes, ...SLOW });
+}

@@ -16,10 +16,10 @@ from executor.world.joints import JointMotors
 from executor.world.kinematics import add_links, link_pose, sensor_placements
 from executor.world.lidar import LidarCaster
 from executor.world.senses import Senses
-from executor.world.transforms import Pose, compose, from_xyz_rpy, inverse, yaw_of
+from executor.world.transforms import Pose, Vector, compose, from_xyz_rpy, inverse, yaw_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from executor.messages import SensorPlacement
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from executor.world.rays import RayCaster
 
 DEFAULT_FRICTION: Final = 0.8
+ANY_LINK: Final = -2  # PyBullet's default
+MOST_QUESTIONS: Final = 2
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
 FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are Bullet's own and ours for things
 ALL_GROUPS: Final = 0x7FFF
@@ -82,6 +84,7 @@ class BulletRobot:
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
         self._motors = JointMotors(bullet, self.uid, config, self._joints)
         self._wheel_links = {self._links[name] for name in config.wheels}
+        self._bumping = self._bumping_links()
         self._inertial = self._inertial_inverse()
         self._applied: tuple[float, float] | None = None
         self._at = self.pose[:2]
@@ -178,8 +181,9 @@ class BulletRobot:
         """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
-        base = self.base_pose
-        self._feel(base, dt_s)
+        center, turn = self._bullet.getBasePositionAndOrientation(self.uid)
+        base = compose((*center, *turn), self._inertial)
+        self._feel(base, center, dt_s)
         x, y = base[:2]
         moved = math.dist((x, y), self._at)
         if moved > 1e-5:  # the solver's own trembling is no travel
@@ -190,12 +194,11 @@ class BulletRobot:
         """Looks at what touches the robot; once a physics step."""
         self._clock_s = now_s
         touched = None
-        for contact in self._bullet.getContactPoints(bodyA=self.uid):
-            if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
-                body = name_of(contact[2])
-                if body is not None:
-                    self._senses.touch(contact[5], now_s)
-                    touched = touched or body
+        for contact in self._contacts():
+            body = name_of(contact[2])
+            if body is not None:
+                self._senses.touch(contact[5], now_s)
+                touched = touched or body
         return None if touched is None else self._counter.observe(now_s, touched)
 
     def moved_by_hand(self) -> None:
@@ -244,6 +247,13 @@ class BulletRobot:
 
     # --- inside ---
 
+    def _contacts(self) -> Iterator[Sequence[Any]]:
+        """Gives PyBullet's points of contact elsewhere than at the wheels."""
+        for link in self._bumping:
+            for contact in self._bullet.getContactPoints(bodyA=self.uid, linkIndexA=link):
+                if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
+                    yield contact
+
     def _where(self, ids: dict[str, int]) -> Sequence[tuple[int, Pose]]:
         base, positions = self.base_pose, self._positions()
         urdf = self.config.urdf
@@ -263,12 +273,11 @@ class BulletRobot:
     def _positions(self) -> dict[str, float]:
         return {name: state[0] for name, state in self.joint_states().items()}
 
-    def _feel(self, base: Pose, dt_s: float) -> None:
+    def _feel(self, base: Pose, center: Vector, dt_s: float) -> None:
         drive, odometry = self.config.drive, self._drive.state.odometry
         effort = abs(odometry.linear) / drive.max_linear + abs(odometry.angular) / drive.max_angular
         self._senses.drain(effort, dt_s)
         if self._senses.has_imu:
-            center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
             linear, rate = self._bullet.getBaseVelocity(self.uid)
             self._senses.move(base, center, linear, rate, dt_s)
 
@@ -300,6 +309,15 @@ class BulletRobot:
             joints[info[1].decode()] = index
             links[info[12].decode()] = index
         return joints, links
+
+    def _bumping_links(self) -> list[int]:
+        """Returns the links to ask for contacts: all by one question where one for each would cost more."""
+        solid = [
+            index
+            for index in self._links.values()
+            if index not in self._wheel_links and self._bullet.getCollisionShapeData(self.uid, index)
+        ]
+        return solid if len(solid) <= MOST_QUESTIONS else [ANY_LINK]
 
     def _inertial_inverse(self) -> Pose:
         info = self._bullet.getDynamicsInfo(self.uid, -1)

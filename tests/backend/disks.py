@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 import subprocess
+import tempfile
 from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
 
 MEBIBYTE = 1024 * 1024
 
@@ -22,6 +25,15 @@ class SmallDisk:
         if self.mounted:
             subprocess.run(["mount", "-o", f"remount,size={mebibytes}m", self.folder], check=True)
         self.prefix = ()
+
+
+@cache
+def may_mount():
+    """Whether this user may mount a disk here; root in a container often may not."""
+    if os.geteuid() != 0:
+        return False
+    with tempfile.TemporaryDirectory() as name, small_disk(Path(name) / "disk", 1) as disk:
+        return disk.mounted
 
 
 @contextmanager

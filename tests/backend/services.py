@@ -22,34 +22,65 @@ def _program(name):
     return found
 
 
+class Cluster:
+    """A PostgreSQL server, on a Unix socket alone."""
+
+    def __init__(self, folder, command, options):
+        self.url = f"postgresql://bts@/bts?host={folder}"
+        self._folder, self._command, self._options = folder, command, options
+        self._log = (folder / "log").open("wb")
+        self.start()
+
+    def start(self):
+        """Starts the server, unless it still runs, and waits until it answers."""
+        process = getattr(self, "_process", None)
+        if process is None or process.poll() is not None:
+            process = subprocess.Popen(
+                self._command, stdout=self._log, stderr=self._log, cwd=self._folder, **self._options
+            )
+        self._process = process
+        ready = [_program("pg_isready"), "-q", "-h", self._folder, "-U", "bts"]
+        _await(lambda: _answers(ready), process)
+
+    def end(self):
+        self._process.terminate()  # "smart": waits for clients; the second signal does not
+        time.sleep(0.1)
+        self._process.send_signal(2)
+        self._process.wait(timeout=TIMEOUT_S)
+        self._log.close()
+
+
 @contextmanager
-def postgresql(place=None, **settings):
-    """The URL of a fresh cluster in `place`, on a Unix socket alone; PostgreSQL refuses to run as root."""
+def cluster(place=None, *, data=None, log=None, segment_mb=16, **settings):
+    """A fresh server in `place`; its data and its write-ahead log may be elsewhere."""
+    # PostgreSQL refuses to run as root.
     as_user = {"user": "postgres", "group": "postgres", "extra_groups": []} if os.geteuid() == 0 else {}
     with tempfile.TemporaryDirectory(prefix="bts-pg-", dir=place) as name:
         folder = Path(name)
-        if as_user:
-            shutil.chown(folder, "postgres", "postgres")
-        data = folder / "data"
+        data = data or folder / "data"
+        if log:
+            log.mkdir()
+        for one in {folder, data.parent, log or folder} if as_user else ():
+            shutil.chown(one, "postgres", "postgres")
         quick = ["--no-sync", "--no-instructions", "--auth=trust", "--username=bts", "--encoding=UTF8"]
-        initdb = [_program("initdb"), "--locale=C.UTF-8", *quick, "-D", data]
+        quick += ["--locale=C.UTF-8", f"--wal-segsize={segment_mb}", *([f"--waldir={log}"] if log else [])]
+        initdb = [_program("initdb"), *quick, "-D", data]
         subprocess.run(initdb, check=True, stdout=subprocess.DEVNULL, cwd=folder, **as_user)
         options = {"listen_addresses": "", "unix_socket_directories": name, "max_connections": 60} | settings
         arguments = [part for key, value in options.items() for part in ("-c", f"{key}={value}")]
-        log = (folder / "log").open("wb")
-        process = subprocess.Popen(
-            [_program("postgres"), "-D", data, *arguments], stdout=log, stderr=log, cwd=folder, **as_user
-        )
+        running = Cluster(folder, [_program("postgres"), "-D", data, *arguments], as_user)
         try:
-            _await(lambda: _answers([_program("pg_isready"), "-q", "-h", name, "-U", "bts"]), process)
             subprocess.run([_program("createdb"), "-h", name, "-U", "bts", "bts"], check=True, cwd=folder)
-            yield f"postgresql://bts@/bts?host={name}"
+            yield running
         finally:
-            process.terminate()  # "smart": waits for clients; the second signal does not
-            time.sleep(0.1)
-            process.send_signal(2)
-            process.wait(timeout=TIMEOUT_S)
-            log.close()
+            running.end()
+
+
+@contextmanager
+def postgresql(place=None, **settings):
+    """The URL of a fresh server."""
+    with cluster(place, **settings) as running:
+        yield running.url
 
 
 @contextmanager

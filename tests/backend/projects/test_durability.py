@@ -6,15 +6,17 @@ import logging
 import random
 import signal
 import sqlite3
+import tempfile
 import threading
 import time
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 import requests
 
-from tests.backend.disks import MEBIBYTE, small_disk
-from tests.backend.services import postgresql
+from tests.backend.disks import MEBIBYTE, may_mount, small_disk
+from tests.backend.services import cluster, postgresql
 from tests.backend.serving import TIMEOUT_S, serving
 from tests.backend.zygote import zygote
 from tests.budget import count
@@ -187,3 +189,49 @@ def test_no_acknowledged_save_is_lost_when_the_disk_is_full(tmp_path):
             again = requests.post(address, json=body, headers=server.headers, timeout=TIMEOUT_S)
             assert again.json()["revision"] == newest + 1
         assert_sound(disk.folder)
+
+
+def settled(server, project, revision):
+    """Saves over the newest revision until it works again; the revision that came of it."""
+    body = {"files": [{"path": p, "base_revision": revision, "content": "room again"} for p in FILES]}
+    address = f"{server.base}/api/v1/projects/{project}/changes"
+    return answered(requests.post, address, json=body, headers=server.headers)["revision"]
+
+
+def fill_and_make_room(server, database, disk, *, log_too):
+    (project,) = make_projects(server, 1)
+    acknowledged, refused = fill(server, project)
+    code = refused.json()["code"]
+    assert (refused.status_code, code) == (507, "disk_full") or (log_too and code == "database_unavailable")
+    assert len(acknowledged) > 1
+    log.info("%d saves, then %s", len(acknowledged), code)
+    if code == "disk_full":  # reading goes on
+        assert {n: written(server, project, n) for n in acknowledged} == acknowledged
+    disk.grow(256)
+    database.start()
+    newest = answered(requests.get, f"{server.base}/api/v1/projects/{project}", headers=server.headers)[
+        "revision"
+    ]
+    # What was told to have failed may have been stored: the answer was lost, not the save.
+    assert newest in {max(acknowledged), max(acknowledged) + 1}
+    assert {n: written(server, project, n) for n in acknowledged} == acknowledged
+    body = {"files": [{"path": p, "base_revision": newest, "content": "room again"} for p in FILES]}
+    address = f"{server.base}/api/v1/projects/{project}/changes"
+    again = answered(requests.post, address, json=body, headers=server.headers)
+    assert again["revision"] == newest + 1
+
+
+if may_mount():  # else the report says that this was not tried
+
+    @pytest.mark.parametrize("log_too", [True, False][: count("backend_full_postgresql")])
+    def test_no_acknowledged_save_is_lost_when_the_disk_of_postgresql_is_full(tmp_path, log_too):
+        """Without room for its log, too, PostgreSQL may end; then it is started again."""
+        with tempfile.TemporaryDirectory(prefix="bts-") as name, small_disk(Path(name) / "disk", 52) as disk:
+            Path(name).chmod(0o755)  # PostgreSQL's own user finds its way
+            places = {"data": disk.folder / "data", "log": None if log_too else Path(name) / "log"}
+            small = {"segment_mb": 1, "min_wal_size": "2MB", "max_wal_size": "6MB"}
+            with (
+                cluster(Path(name), **places, **small) as database,
+                serving(tmp_path, BT_STUDIO_DATABASE_URL=database.url) as server,
+            ):
+                fill_and_make_room(server, database, disk, log_too=log_too)

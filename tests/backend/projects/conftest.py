@@ -1,0 +1,12 @@
+"""Says at the end what could not be tried here."""
+
+from __future__ import annotations
+
+from tests.backend.disks import may_mount
+
+
+def pytest_terminal_summary(terminalreporter):
+    """PostgreSQL needs a small disk; SQLite makes do with a limit on the size of files."""
+    if not may_mount():
+        sentence = "PostgreSQL on a full disk was NOT tried: it takes root, and the right to mount a disk."
+        terminalreporter.write_line(sentence, yellow=True)

@@ -70,7 +70,7 @@ def read_npm(out: str, err: str) -> Answer:
 def report(what: str, answer: Answer) -> int:
     """Prints an answer; returns the status."""
     if answer.trouble:
-        print(f"{what}: NOT asked. The advisory service cannot be reached: {answer.trouble}")
+        print(f"{what}: NOT asked: the advisory service could not be reached, or refused: {answer.trouble}")
         return 2
     print(f"{what}: {answer.packages} packages, {len(answer.known) or 'no'} known vulnerabilities")
     for line in answer.known:

@@ -1,6 +1,7 @@
 """Another process with plain rclpy hears every picture that is published: the settings of Fast DDS work."""
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -11,10 +12,14 @@ import pytest
 
 from executor.ros.environment import ros_environment
 from executor.supervision.channel import Channel, socket_pair
+from tests.budget import count
 
 ROOT = Path(__file__).parents[3]
 DOMAIN_ID = 222
-PICTURES = 45
+PICTURES = count("camera_delivery")
+# A slow speed: what is tested is that nothing is lost, not how fast this machine is today. The full count is
+# meant for a quiet one.
+SPEED = 0.25 if PICTURES < 100 else 1.0
 
 
 @pytest.mark.simulation
@@ -36,13 +41,13 @@ def test_no_picture_is_lost_between_processes() -> None:
     )
     try:
         assert listener.stdout is not None
-        # A slow speed: what is tested is that nothing is lost, not how fast this machine is today.
-        start = {"type": "start", "universe": "walled_room", "seed": 1, "speed": 0.25, "domain_id": DOMAIN_ID}
-        channel.send(start)
+        start = {"type": "start", "universe": "walled_room", "seed": 1, "speed": SPEED}
+        channel.send(start | {"domain_id": DOMAIN_ID})
         wait_for(channel, "ready")
         assert json.loads(listener.stdout.readline()) == {"ready": True}
         channel.send({"type": "resume"})
         said = json.loads(listener.stdout.readline())
+        share = smallest_share(channel)
     finally:
         channel.send({"type": "stop"})
         listener.communicate(timeout=30)
@@ -50,10 +55,21 @@ def test_no_picture_is_lost_between_processes() -> None:
         channel.close()
     stamps = said["stamps"]
     assert len(stamps) == PICTURES
-    assert [round((b - a) * 15) for a, b in pairwise(stamps)] == [1] * (PICTURES - 1)
+    # A machine too slow even for this draws fewer pictures, and says so; what it draws must arrive.
+    gaps = {round((b - a) * 15) for a, b in pairwise(stamps)}
+    assert gaps <= set(range(1, math.ceil(1 / share) + 1))
     assert said["scans"] > 0
     assert said["matched_s"] is not None
     assert world.returncode == 0
+
+
+def smallest_share(channel: Channel) -> float:
+    """Of their rates at which cameras drew at worst."""
+    shares = [1.0]
+    while (message := channel.receive(0)) is not None:
+        if message["type"] == "sim":
+            shares.append(float(str(message["camera_share"])))
+    return min(shares)
 
 
 def wait_for(channel: Channel, kind: str) -> dict[str, object]:

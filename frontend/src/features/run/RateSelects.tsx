@@ -46,32 +46,58 @@ function RateSelect({ label, value, options, format, testId, onChoose }: RateSel
   );
 }
 
-export function TickRateSelect() {
+/** How often the tree is ticked, and how fast time passes. */
+function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
-  return (
-    <RateSelect
-      label={t('tickRate')}
-      value={tickHz}
-      options={TICK_RATES}
-      format={(value) => `${value} Hz`}
-      testId="tick-rate"
-      onChoose={setTickRate}
-    />
-  );
+  const speed = useSessionStore((state) => state.speed);
+  return [
+    {
+      label: t('tickRate'),
+      value: tickHz,
+      options: TICK_RATES,
+      format: (value) => `${value} Hz`,
+      testId: 'tick-rate',
+      onChoose: setTickRate,
+    },
+    {
+      label: t('simSpeed'),
+      value: speed,
+      options: SPEEDS,
+      format: (value) => `×${value}`,
+      testId: 'sim-speed',
+      onChoose: setSpeed,
+    },
+  ];
 }
 
-export function SpeedSelect() {
-  const { t } = useTranslation('run');
-  const speed = useSessionStore((state) => state.speed);
-  return (
-    <RateSelect
-      label={t('simSpeed')}
-      value={speed}
-      options={SPEEDS}
-      format={(value) => `×${value}`}
-      testId="sim-speed"
-      onChoose={setSpeed}
-    />
-  );
+export function RateSelects() {
+  return useRates().map((rate) => <RateSelect key={rate.testId} {...rate} />);
+}
+
+/** The same within a menu: where the window is too narrow for both. */
+export function RateMenus() {
+  return useRates().map(({ label, value, options, format, testId, onChoose }) => (
+    <Menu.Sub key={testId}>
+      <Menu.Sub.Target>
+        <Menu.Sub.Item
+          leftSection={<span className={classes['unchecked']} />}
+          data-testid={`menu-${testId}`}
+        >{`${label}: ${format(value)}`}</Menu.Sub.Item>
+      </Menu.Sub.Target>
+      <Menu.Sub.Dropdown>
+        {options.map((option) => (
+          <Menu.Item
+            key={option}
+            role="menuitemradio"
+            aria-checked={option === value}
+            fw={option === value ? 600 : 400}
+            onClick={() => onChoose(option)}
+          >
+            {format(option)}
+          </Menu.Item>
+        ))}
+      </Menu.Sub.Dropdown>
+    </Menu.Sub>
+  ));
 }

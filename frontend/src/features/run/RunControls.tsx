@@ -9,7 +9,7 @@ import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
 import { useHindrance } from './useHindrance';
-import { SpeedSelect, TickRateSelect } from './RateSelects';
+import { RateSelects } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
@@ -64,8 +64,7 @@ export function RunControls() {
       <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isHindered} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>
-        <TickRateSelect />
-        <SpeedSelect />
+        <RateSelects />
       </div>
       <ExecutorState />
     </Group>

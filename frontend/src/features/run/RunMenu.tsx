@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 import { perform, useActionTable } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
+import { RateMenus } from './RateSelects';
 import { useFollowing } from './following';
 import classes from './run.module.css';
 
@@ -50,6 +51,7 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
         >
           {t('action.followRunning')}
         </Menu.Item>
+        <RateMenus />
         <Menu.Label>{t('statusRate')}</Menu.Label>
         {STATUS_RATES.map((rate) => (
           <Menu.Item

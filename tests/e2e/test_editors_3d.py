@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,16 +17,31 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
+# A pyramid in mm, as drawing programs write it: no text, so that only the server has it.
+CORNERS = ((0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60))
+MESH_MM = (
+    bytes(80)
+    + struct.pack("<I", 4)
+    + b"".join(
+        struct.pack("<12fH", 0, 0, 0, *(part for corner in face for part in CORNERS[corner]), 0)
+        for face in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))
+    )
+)
 CRATE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 
 
 def text_of(studio: Studio, path: str) -> str:
+    """A text of the project as the server has it."""
+    return file_of(studio, path).decode()
+
+
+def file_of(studio: Studio, path: str) -> bytes:
     """A file of the project as the server has it."""
     studio.saved()
     project = studio.page.url.rstrip("/").split("/")[-1]
     answer = studio.page.request.get(f"{studio.server.origin}/api/v1/projects/{project}/files/{path}")
     assert answer.ok, answer.text()
-    return answer.text()
+    return answer.body()
 
 
 def field(panel: Locator, test_id: str, value: str) -> None:
@@ -86,9 +102,59 @@ def change_a_robot(studio: Studio) -> None:
     expect(studio.at("thing-sensor imu")).to_have_attribute("aria-selected", "true")
     studio.at("undo").click()
     expect(studio.at("thing-sensor imu")).to_have_count(0)
+    let_a_mesh_turn(studio)
     studio.at("robot-text").click()
     studio.page.get_by_text("robot.urdf", exact=True).last.click()
     expect(studio.at("code-editor")).to_have_attribute("data-path", "robots/mine/robot.urdf")
+
+
+def let_a_mesh_turn(studio: Studio) -> None:
+    """A mesh is brought, becomes a piece of body with a name of its own, and gets a motor."""
+    fields = studio.at("part-fields")
+    studio.at("part-mesh-file").set_input_files(
+        files=[{"name": "cup.stl", "mimeType": "model/stl", "buffer": MESH_MM}]
+    )
+    expect(studio.at("thing-link cup_link")).to_have_attribute("aria-selected", "true")
+    field(fields, "part-name", "holder")
+    field(fields, "part-friction", "0.3")
+    studio.at("joint").locator("summary").click()
+    studio.at("joint-type").click()
+    studio.page.get_by_role("option", name="turns between limits").click()
+    field(fields, "joint-upper", "45")
+    studio.at("joint-motor").check(force=True)
+    field(fields, "value-max_rate", "2")
+    urdf = text_of(studio, "robots/mine/robot.urdf")
+    assert '<mesh filename="meshes/cup.stl" scale="0.001 0.001 0.001"/>' in urdf, "the file counts in mm"
+    assert '<child link="holder"/>' in urdf
+    assert 'upper="0.785398"' in urdf
+    config = text_of(studio, "robots/mine/robot.yaml")
+    assert "holder: 0.3" in config
+    assert "topic: /cup/command, max_rate: 2" in config
+    studio.picture("robot-editor")  # of docs/how-to/make-a-robot.md
+
+
+def delete_and_bring_back(studio: Studio, name: str) -> None:
+    """A robot goes with its URDF and its mesh, and all of it comes back."""
+    studio.page.get_by_role("button", name=f"More for {name}").click()
+    studio.page.get_by_role("menuitem", name="Delete").click()
+    for file in ("robot.yaml", "robot.urdf", "meshes/cup.stl"):
+        expect(studio.at(f"file-robots/{name}/{file}")).to_have_count(0)
+    studio.page.get_by_role("button", name="Undo", exact=True).last.click()
+    for file in ("robot.yaml", "robot.urdf", "meshes/cup.stl"):
+        expect(studio.at(f"file-robots/{name}/{file}")).to_be_visible()
+    assert file_of(studio, f"robots/{name}/meshes/cup.stl") == MESH_MM
+    assert f'"robot": "{name}"' in text_of(studio, "project.json")
+
+
+def rename(studio: Studio, name: str, to: str) -> None:
+    """A robot's folder is called otherwise; the project goes on running with it."""
+    studio.page.get_by_role("button", name=f"More for {name}").click()
+    studio.page.get_by_role("menuitem", name="Rename").click()
+    studio.page.get_by_role("dialog").get_by_role("textbox").fill(to)
+    studio.page.keyboard.press("Enter")
+    expect(studio.at(f"file-robots/{to}/meshes/cup.stl")).to_be_visible()
+    expect(studio.at(f"file-robots/{name}/robot.yaml")).to_have_count(0)
+    expect(studio.at("robot-view").locator("canvas")).to_be_visible()
 
 
 def test_a_universe_and_a_robot_are_made_by_hand_and_run(studio: Studio):
@@ -100,6 +166,8 @@ def test_a_universe_and_a_robot_are_made_by_hand_and_run(studio: Studio):
     studio.picture("robot-editor-light")
     expect_accessible(studio, "dark")
     studio.picture("robot-editor-dark")
+    delete_and_bring_back(studio, "mine")
+    rename(studio, "mine", "turner")
     studio.at("robot-editor").get_by_test_id("run-here").click()
     studio.expect_state("application_running")
     studio.end_session()

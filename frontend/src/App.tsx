@@ -1,12 +1,13 @@
 import { ModalsProvider } from '@mantine/modals';
 import { Notifications } from '@mantine/notifications';
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
 import { ErrorBoundary } from '@/features/frame/ErrorBoundary';
 import { Waiting } from '@/features/frame/Waiting';
 import { StartPage } from '@/features/projects/StartPage';
 import { useRoute } from '@/store/route';
+import { lazyPart } from '@/ui/parts';
 
-const Studio = lazy(async () => ({ default: (await import('@/features/frame/Studio')).Studio }));
+const Studio = lazyPart(async () => (await import('@/features/frame/Studio')).Studio);
 
 export function App() {
   const route = useRoute((state) => state.route);

@@ -2,8 +2,9 @@ import { MantineProvider } from '@mantine/core';
 import { QueryClient, QueryClientProvider } from '@tanstack/react-query';
 import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
-import './i18n';
+import { t } from './i18n';
 import './ui/global.css';
+import { stylesArrive } from '@/ui/parts';
 import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { App } from './App';
 
@@ -11,8 +12,20 @@ const queries = new QueryClient({
   defaultOptions: { queries: { retry: 1, refetchOnWindowFocus: true, staleTime: 2000 } },
 });
 
-const root = document.getElementById('root');
-if (root) {
+/** A page without its style is none: it is waited for, and missed in words that need no style. */
+async function start(root: HTMLElement): Promise<void> {
+  try {
+    await stylesArrive();
+  } catch {
+    root.textContent = `${t('frame:missing.title')}. ${t('frame:missing.text')} `;
+    const again = document.createElement('button');
+    again.textContent = t('frame:crash.reload');
+    again.onclick = () => {
+      window.location.reload();
+    };
+    root.append(again);
+    return;
+  }
   createRoot(root).render(
     <StrictMode>
       <QueryClientProvider client={queries}>
@@ -28,3 +41,6 @@ if (root) {
     </StrictMode>,
   );
 }
+
+const root = document.getElementById('root');
+if (root) void start(root);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -67,6 +68,13 @@ class Trace:
     def total_ms(self, names: frozenset[str] = WORK) -> float:
         """All of such work together."""
         return sum(duration for _, duration in self.work_ms(names))
+
+    def to_paint_ms(self, kinds: frozenset[str]) -> float:
+        """Work and paint from the first of these inputs to the first picture after the last of them."""
+        begins = self.begins(kinds)
+        pictures = (event["ts"] / 1000 for event in self.events if event["name"] in PAINT)
+        picture = next((each for each in pictures if each > begins[-1]), math.inf)
+        return sum(own for start, own in self.work_ms(WORK | PAINT) if begins[0] <= start <= picture)
 
     def by_step_ms(self, begins: list[float]) -> list[float]:
         """Work between each input and the next."""

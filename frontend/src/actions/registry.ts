@@ -13,7 +13,8 @@ export interface UserAction {
   /** In tinykeys' words: `$mod+KeyK`, `F5`. */
   shortcut?: string;
   enabled?: () => boolean;
-  run: () => void;
+  /** `page` is the one on which it was asked for: a panel may have a window of its own. */
+  run: (page?: Document) => void;
   /** Absent from the command palette. */
   hidden?: boolean;
   /** The shortcut also works while a text field has the focus. */
@@ -49,7 +50,7 @@ export function registerActions(rows: readonly UserAction[]): () => void {
 }
 
 /** Does what the action does, unless it may not be done now. */
-export function perform(id: string): void {
+export function perform(id: string, page: Document = document): void {
   const action = useActionTable.getState().actions[id];
-  if (action && action.enabled?.() !== false) action.run();
+  if (action && action.enabled?.() !== false) action.run(page);
 }

@@ -1,5 +1,5 @@
 import { useEffect } from 'react';
-import { tinykeys } from 'tinykeys';
+import { createKeybindingsHandler } from 'tinykeys';
 import { useActionTable, type UserAction } from './registry';
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
@@ -16,7 +16,7 @@ function handler(action: UserAction) {
     if (!action.inTextFields && isTextField(event.target)) return;
     if (action.enabled?.() === false) return;
     event.preventDefault();
-    action.run();
+    action.run((event.target as Node | null)?.ownerDocument ?? document);
   };
 }
 
@@ -25,7 +25,23 @@ function bind(target: Window, actions: readonly UserAction[]): () => void {
   for (const action of actions) {
     if (action.shortcut) bindings[action.shortcut] = handler(action);
   }
-  return tinykeys(target, bindings);
+  const handle = createKeybindingsHandler(bindings);
+  const listen = (event: KeyboardEvent): void => {
+    const own = target === window ? event : ownCopy(event);
+    handle(own);
+    if (own.defaultPrevented) event.preventDefault();
+  };
+  target.addEventListener('keydown', listen);
+  return () => {
+    target.removeEventListener('keydown', listen);
+  };
+}
+
+/** A key of another window as a key of this one: the library knows no other class of events. */
+function ownCopy(event: KeyboardEvent): KeyboardEvent {
+  const copy = new KeyboardEvent(event.type, event);
+  Object.defineProperty(copy, 'target', { value: event.target });
+  return copy;
 }
 
 /** Binds every shortcut of the table, as it is at any time, to a window; answers how to end that. */

@@ -10,7 +10,7 @@ export interface Choice {
 }
 
 /** Every kind of block that this tree may contain: built-ins, actions, and subtrees by their names. */
-export function allChoices(diagram: Diagram | null, vocabulary: Vocabulary): Choice[] {
+export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Vocabulary): Choice[] {
   const choices: Choice[] = [];
   for (const spec of vocabulary.specs.values()) {
     if (spec.type === 'SubTree') continue;

@@ -63,8 +63,8 @@ export function parentsOf(diagram: Diagram): ReadonlyMap<NodeId, NodeId> {
 }
 
 export function parentOf(diagram: Diagram, id: NodeId): NodeId | null {
-  for (const [parent, node] of Object.entries(diagram.nodes)) {
-    if (node.children?.includes(id)) return parent;
+  for (const parent in diagram.nodes) {
+    if (diagram.nodes[parent]?.children?.includes(id)) return parent;
   }
   return null;
 }

@@ -29,7 +29,7 @@ export function canMoveUnder(diagram: Diagram, id: NodeId, parent: NodeId, vocab
 }
 
 /** Whether a block of this kind may be in this tree at all. */
-export function isKindLegal(diagram: Diagram, kind: Kind, vocabulary: Vocabulary): boolean {
+export function isKindLegal(diagram: Pick<Diagram, 'id'>, kind: Kind, vocabulary: Vocabulary): boolean {
   return !(kind.type === 'SubTree' && kind.tree && wouldRecurse(vocabulary, diagram.id, kind.tree));
 }
 

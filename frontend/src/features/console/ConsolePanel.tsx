@@ -4,6 +4,7 @@ import { useVirtualizer } from '@tanstack/react-virtual';
 import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
+import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import classes from './console.module.css';
@@ -17,8 +18,8 @@ const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 export function ConsolePanel() {
   const { t } = useTranslation('console');
   const logs = useSessionStore((state) => state.logs);
-  const filePaths = useProjectStore((state) => state.files);
-  const files = useMemo(() => new Set(Object.keys(filePaths)), [filePaths]);
+  const filePaths = useProjectStore(useShallow((state) => Object.keys(state.files)));
+  const files = useMemo(() => new Set(filePaths), [filePaths]);
   const [filter, setFilter] = useState<ConsoleFilter>({ source: 'all', level: 'info', search: '' });
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
   const [isFollowing, setFollowing] = useState(true);

@@ -1,15 +1,16 @@
 import { Button, SegmentedControl, Text } from '@mantine/core';
 import { IconAlertTriangle } from '@tabler/icons-react';
-import { lazy, Suspense, type ReactNode } from 'react';
+import { Suspense, type ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
 import type { DocumentProblem } from '@/model/document/yaml';
+import { lazyPart } from '@/ui/parts';
 import classes from './editor3d.module.css';
 import { ProblemList } from './ProblemList';
 import type { Editor } from './session';
 import { useUndoInFront } from './useUndoInFront';
 
-const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
+const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
 /** How a kind of document is spoken of. */
 interface Words {

@@ -1,9 +1,10 @@
 import { Modal } from '@mantine/core';
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
+import { lazyPart } from '@/ui/parts';
 import { closeTakeAway, useTakeAway } from './takeAway';
 
-const Contents = lazy(async () => ({ default: (await import('./TakeAwayContents')).TakeAwayContents }));
+const Contents = lazyPart(async () => (await import('./TakeAwayContents')).TakeAwayContents);
 
 /** Shows what can be taken along, before it is. */
 export function TakeAway() {

@@ -1,72 +1,183 @@
 import { Kbd } from '@mantine/core';
-import { Spotlight, type SpotlightActionData } from '@mantine/spotlight';
 import { IconFileCode, IconGitFork, IconSearch } from '@tabler/icons-react';
-import { useMemo } from 'react';
+import { useEffect, useLayoutEffect, useMemo, useRef, useState, type ComponentType } from 'react';
+import { createPortal } from 'react-dom';
 import { useTranslation } from 'react-i18next';
-import { useActionTable, type ActionGroup } from '@/actions/registry';
+import { closePalette, usePalette } from '@/actions/palette';
+import { perform, useActionTable, type ActionGroup } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
+import { matchScore } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
+import classes from './commands.module.css';
 import { openTab } from './tabs';
 
 /** What is wanted most often comes first. */
 const GROUPS: ActionGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go'];
 
-/** Everything that can be done, and every file, by name. */
-export function CommandPalette() {
+interface Command {
+  readonly id: string;
+  readonly label: string;
+  readonly icon: ComponentType<{ size?: number | string }> | undefined;
+  readonly shortcut?: string | undefined;
+  readonly run: () => void;
+}
+
+/** Everything that can be done, and every file. */
+function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
   const table = useActionTable((state) => state.actions);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
-
-  const actions = useMemo(() => {
-    const commands = Object.values(table)
+  return useMemo(() => {
+    const actions = Object.values(table)
       .filter((action) => !action.hidden)
       .sort((a, b) => GROUPS.indexOf(a.group) - GROUPS.indexOf(b.group))
-      .map((action): SpotlightActionData => {
-        const Icon = action.icon;
-        return {
-          id: action.id,
-          label: t(action.labelKey),
-          onClick: () => {
-            if (action.enabled?.() !== false) action.run();
-          },
-          ...(Icon ? { leftSection: <Icon size={18} /> } : {}),
-          ...(action.shortcut ? { rightSection: <Kbd size="xs">{shortcutLabel(action.shortcut)}</Kbd> } : {}),
-        };
+      .map(({ id, labelKey, icon, shortcut }): Command => {
+        return { id, label: t(labelKey), icon, shortcut, run: () => perform(id, page) };
       });
-    const documents: SpotlightActionData[] = [
-      ...Object.keys(diagrams).map((id) => ({
-        id: `tree:${id}`,
-        label: t('palette.openTree', { name: id }),
-        leftSection: <IconGitFork size={18} />,
-        onClick: () => openTab({ kind: 'tree', id }),
-      })),
-      ...Object.values(files)
-        .filter((file) => file.kind === 'text')
-        .map(({ path }) => ({
-          id: `file:${path}`,
-          label: t('palette.openFile', { name: path }),
-          leftSection: <IconFileCode size={18} />,
-          onClick: () => openTab({ kind: 'file', path }),
-        })),
-    ];
-    return [...commands, ...documents];
-  }, [table, files, diagrams, t]);
+    const trees = Object.keys(diagrams).map((id): Command => {
+      const label = t('palette.openTree', { name: id });
+      return { id: `tree:${id}`, label, icon: IconGitFork, run: () => openTab({ kind: 'tree', id }) };
+    });
+    const texts = Object.values(files)
+      .filter((file) => file.kind === 'text')
+      .map(({ path }): Command => {
+        const label = t('palette.openFile', { name: path });
+        return { id: `file:${path}`, label, icon: IconFileCode, run: () => openTab({ kind: 'file', path }) };
+      });
+    return [...actions, ...trees, ...texts];
+  }, [table, files, diagrams, t, page]);
+}
+
+/** Those whose words fit best, first; among equals the order stays. */
+function matching(commands: readonly Command[], search: string): Command[] {
+  const rated = commands.map((command) => ({ command, score: matchScore(command.label, search) }));
+  return rated
+    .filter(({ score }) => score > 0)
+    .sort((a, b) => b.score - a.score)
+    .map(({ command }) => command);
+}
+
+/** Everything that can be done, and every file, by name: in the window in which it is asked for. */
+export function CommandPalette() {
+  const page = usePalette((state) => state.page);
+  useEffect(() => closePalette, []);
+  return page && createPortal(<Palette page={page} />, page.body);
+}
+
+function Palette({ page }: { readonly page: Document }) {
+  const { t } = useTranslation('frame');
+  const [search, setSearch] = useState('');
+  const [index, setIndex] = useState(0);
+  const list = useRef<HTMLDivElement>(null);
+  const field = useRef<HTMLInputElement>(null);
+  const commands = useCommands(page);
+  const found = useMemo(() => matching(commands, search.trim()), [commands, search]);
+  const active = Math.min(index, found.length - 1);
+
+  useLayoutEffect(() => {
+    const before = page.activeElement as HTMLElement | null;
+    field.current?.focus();
+    return () => {
+      before?.focus({ preventScroll: true });
+    };
+  }, [page]);
+  useEffect(() => {
+    list.current?.querySelector('[aria-selected="true"]')?.scrollIntoView({ block: 'nearest' });
+  }, [active, found]);
+
+  const choose = (at: number): void => {
+    closePalette();
+    // What it does may move the focus: that comes after the palette has given it back.
+    setTimeout(() => found[at]?.run());
+  };
+  const moves: Record<string, () => void> = {
+    Escape: closePalette,
+    Enter: () => {
+      choose(active);
+    },
+    ArrowDown: () => {
+      setIndex((active + 1) % Math.max(1, found.length));
+    },
+    ArrowUp: () => {
+      setIndex((active + found.length - 1) % Math.max(1, found.length));
+    },
+    Tab: () => undefined,
+  };
 
   return (
-    <Spotlight
-      actions={actions}
-      shortcut={null}
-      nothingFound={t('palette.nothing')}
-      highlightQuery
-      scrollable
-      maxHeight={420}
-      attributes={{ content: { 'aria-label': t('palette.placeholder') } }}
-      searchProps={{
-        leftSection: <IconSearch size={18} />,
-        placeholder: t('palette.placeholder'),
-        'aria-label': t('palette.placeholder'),
+    // A press beside the palette is a way out besides Escape.
+    <div
+      className={classes['backdrop']}
+      onPointerDown={(event) => {
+        if (event.target === event.currentTarget) closePalette();
       }}
-    />
+    >
+      <div
+        className={classes['palette']}
+        role="dialog"
+        aria-modal="true"
+        aria-label={t('palette.placeholder')}
+        data-testid="command-palette"
+      >
+        <div className={classes['search']}>
+          <IconSearch size={18} aria-hidden="true" />
+          <input
+            ref={field}
+            role="combobox"
+            aria-expanded="true"
+            aria-controls="commands"
+            aria-activedescendant={found.length > 0 ? `command-${active}` : undefined}
+            aria-label={t('palette.placeholder')}
+            placeholder={t('palette.placeholder')}
+            value={search}
+            onChange={(event) => {
+              setSearch(event.currentTarget.value);
+              setIndex(0);
+            }}
+            onKeyDown={(event) => {
+              const move = moves[event.key];
+              if (!move) return;
+              event.preventDefault();
+              event.stopPropagation();
+              move();
+            }}
+            onBlur={(event) => {
+              if (page.hasFocus() && event.relatedTarget === null) event.currentTarget.focus();
+            }}
+          />
+        </div>
+        <div
+          ref={list}
+          id="commands"
+          className={classes['list']}
+          role="listbox"
+          aria-label={t('palette.list')}
+        >
+          {found.map(({ id, label, icon: Icon, shortcut }, at) => (
+            // The field has the keyboard: a row is pointed at, or chosen with Enter.
+            // eslint-disable-next-line jsx-a11y/click-events-have-key-events
+            <div
+              key={id}
+              id={`command-${at}`}
+              className={classes['row']}
+              role="option"
+              aria-selected={at === active}
+              onMouseDown={(event) => {
+                event.preventDefault();
+              }}
+              onClick={() => {
+                choose(at);
+              }}
+            >
+              {Icon ? <Icon size={18} /> : null}
+              <span className={classes['label']}>{label}</span>
+              {shortcut === undefined ? null : <Kbd size="xs">{shortcutLabel(shortcut)}</Kbd>}
+            </div>
+          ))}
+        </div>
+        {found.length === 0 && <p className={classes['nothing']}>{t('palette.nothing')}</p>}
+      </div>
+    </div>
   );
 }

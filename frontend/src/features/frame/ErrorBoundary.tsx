@@ -1,6 +1,7 @@
 import { Button, Center, Code, Stack, Text, Title } from '@mantine/core';
 import { Component, type ReactNode } from 'react';
 import { t } from '@/i18n';
+import { PartMissing } from '@/ui/parts';
 
 interface Props {
   readonly children: ReactNode;
@@ -10,7 +11,7 @@ interface State {
   readonly error: Error | null;
 }
 
-/** What the user sees of a mistake of ours: what happened, that edits are kept, and a way on. */
+/** What the user sees of a mistake of ours, or of a part that did not come: that edits are kept, and a way on. */
 export class ErrorBoundary extends Component<Props, State> {
   override state: State = { error: null };
 
@@ -21,11 +22,12 @@ export class ErrorBoundary extends Component<Props, State> {
   override render() {
     const { error } = this.state;
     if (!error) return this.props.children;
+    const what = error instanceof PartMissing ? 'missing' : 'crash';
     return (
       <Center h="100%" p="xl" role="alert">
         <Stack maw={560} gap="md">
-          <Title order={3}>{t('frame:crash.title')}</Title>
-          <Text c="dimmed">{t('frame:crash.text')}</Text>
+          <Title order={3}>{t(`frame:${what}.title`)}</Title>
+          <Text c="dimmed">{t(`frame:${what}.text`)}</Text>
           <Code block>{error.message}</Code>
           <Button w="fit-content" onClick={() => window.location.reload()}>
             {t('frame:crash.reload')}

@@ -5,6 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { openNewFile, type NewFileKind } from '@/features/code/newFile';
 import { openNewRobot, ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { openNewUniverse, UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
+import { useShallow } from 'zustand/react/shallow';
 import { useProjectStore } from '@/store/project';
 import { ExplorerItem } from './ExplorerItem';
 import classes from './explorer.module.css';
@@ -37,7 +38,7 @@ function sectionOf(path: string): Section {
 /** The project's files, by what they are. */
 export function Explorer() {
   const { t } = useTranslation('frame');
-  const files = useProjectStore((state) => state.files);
+  const files = useProjectStore(useShallow((state) => Object.keys(state.files)));
   const sections = useMemo(() => {
     const found: Record<Section, string[]> = {
       trees: [],
@@ -46,7 +47,7 @@ export function Explorer() {
       robots: [],
       others: [],
     };
-    for (const path of Object.keys(files).sort()) found[sectionOf(path)].push(path);
+    for (const path of [...files].sort()) found[sectionOf(path)].push(path);
     return found;
   }, [files]);
 

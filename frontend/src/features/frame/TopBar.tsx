@@ -21,8 +21,11 @@ export function TopBar() {
   const name = useProjectStore((state) => state.name);
   const role = useProjectStore((state) => state.role);
   const activeTree = useProjectStore((state) => state.activeTree);
-  const history = useProjectStore((state) =>
-    state.activeTree ? state.histories[state.activeTree] : undefined,
+  const canUndo = useProjectStore(({ histories, activeTree }) =>
+    Boolean(histories[activeTree ?? '']?.past.length),
+  );
+  const canRedo = useProjectStore(({ histories, activeTree }) =>
+    Boolean(histories[activeTree ?? '']?.future.length),
   );
   const target = useUndoTarget((state) => state.target);
   const goHome = (event: MouseEvent) => {
@@ -50,16 +53,8 @@ export function TopBar() {
         {role === 'viewer' ? <ReadOnlyBadge /> : <SaveIndicator />}
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
-        <ActionButton
-          action="edit.undo"
-          testId="undo"
-          isDisabled={!(target?.canUndo ?? Boolean(history?.past.length))}
-        />
-        <ActionButton
-          action="edit.redo"
-          testId="redo"
-          isDisabled={!(target?.canRedo ?? Boolean(history?.future.length))}
-        />
+        <ActionButton action="edit.undo" testId="undo" isDisabled={!(target?.canUndo ?? canUndo)} />
+        <ActionButton action="edit.redo" testId="redo" isDisabled={!(target?.canRedo ?? canRedo)} />
         <Divider orientation="vertical" mx={4} my={8} />
         <RunControls />
       </Group>

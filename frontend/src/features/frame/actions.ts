@@ -1,4 +1,3 @@
-import { spotlight } from '@mantine/spotlight';
 import {
   IconAdjustments,
   IconCode,
@@ -10,7 +9,9 @@ import {
   IconHistory,
   IconHome,
   IconKeyboard,
+  IconLanguage,
   IconLayout,
+  IconLayoutSidebar,
   IconPlus,
   IconTerminal2,
   IconWorld,
@@ -18,6 +19,7 @@ import {
   IconWorldPlus,
   IconAlertTriangle,
 } from '@tabler/icons-react';
+import { togglePalette } from '@/actions/palette';
 import { registerActions, type UserAction } from '@/actions/registry';
 import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
@@ -30,6 +32,8 @@ import { openNewRobot } from '@/features/robotEditor/newRobot';
 import { openNewUniverse } from '@/features/worldEditor/newUniverse';
 import { resetLayout } from './Dock';
 import { focusInspector } from './focus';
+import { LANGUAGES, setLanguage, type Language } from '@/i18n';
+import type { PanelId } from './layoutModel';
 import { popOut } from './popouts';
 import { openTab, showPanel, togglePanel } from './tabs';
 
@@ -62,7 +66,7 @@ const rows: UserAction[] = [
     shortcut: '$mod+KeyK',
     inTextFields: true,
     hidden: true,
-    run: () => spotlight.toggle(),
+    run: togglePalette,
   },
   {
     id: 'project.save',
@@ -86,6 +90,13 @@ const rows: UserAction[] = [
     labelKey: 'frame:action.newTree',
     icon: IconPlus,
     run: () => openNewFile('tree'),
+  },
+  {
+    id: 'project.newFile',
+    group: 'project',
+    labelKey: 'frame:explorer.new.file',
+    icon: IconPlus,
+    run: () => openNewFile('file'),
   },
   {
     id: 'project.takeAway',
@@ -220,4 +231,35 @@ const rows: UserAction[] = [
   },
 ];
 
-export const registerFrameActions = () => registerActions(rows);
+/** Panels that no command of their own brings to the front. */
+const PANELS: readonly PanelId[] = [
+  'explorer',
+  'outline',
+  'palette',
+  'library',
+  'inspector',
+  'blackboard',
+  'viewer3d',
+  'video',
+  'camera',
+  'timeline',
+  'topics',
+];
+
+const panels = PANELS.map((id): UserAction => ({
+  id: `panel.${id}`,
+  group: 'view',
+  labelKey: `frame:panel.${id}`,
+  icon: IconLayoutSidebar,
+  run: () => showPanel(id),
+}));
+
+const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserAction => ({
+  id: `view.language.${code}`,
+  group: 'view',
+  labelKey: `frame:languages.${code}`,
+  icon: IconLanguage,
+  run: () => setLanguage(code),
+}));
+
+export const registerFrameActions = () => registerActions([...rows, ...panels, ...languages]);

@@ -1,4 +1,4 @@
-import { lazy, Suspense, type ReactNode } from 'react';
+import { Suspense, type ReactNode } from 'react';
 import type { TabNode } from 'flexlayout-react';
 import { BlackboardPanel } from '@/features/blackboard/BlackboardPanel';
 import { Canvas } from '@/features/canvas/Canvas';
@@ -14,6 +14,7 @@ import { CameraPanel } from '@/features/viewer/CameraPanel';
 import { VideoPanel } from '@/features/viewer/VideoPanel';
 import { ROBOT_FILE } from '@/features/robotEditor/newRobot';
 import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
+import { lazyPart } from '@/ui/parts';
 import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from './Explorer';
 import type { PanelId } from './layoutModel';
@@ -21,21 +22,13 @@ import { InItsWindow } from './popouts';
 import type { DocumentTab } from './tabs';
 import { Waiting } from './Waiting';
 
-const Viewer3d = lazy(async () => ({ default: (await import('@/features/viewer/Viewer3d')).Viewer3d }));
-const XmlPanel = lazy(async () => ({ default: (await import('@/features/xml/XmlPanel')).XmlPanel }));
-const HistoryPanel = lazy(async () => ({
-  default: (await import('@/features/history/HistoryPanel')).HistoryPanel,
-}));
-const CompareTab = lazy(async () => ({
-  default: (await import('@/features/history/CompareTab')).CompareTab,
-}));
-const UniverseTab = lazy(async () => ({
-  default: (await import('@/features/worldEditor/UniverseTab')).UniverseTab,
-}));
-const RobotTab = lazy(async () => ({
-  default: (await import('@/features/robotEditor/RobotTab')).RobotTab,
-}));
-const CodeTab = lazy(async () => ({ default: (await import('@/features/code/CodeTab')).CodeTab }));
+const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
+const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
+const HistoryPanel = lazyPart(async () => (await import('@/features/history/HistoryPanel')).HistoryPanel);
+const CompareTab = lazyPart(async () => (await import('@/features/history/CompareTab')).CompareTab);
+const UniverseTab = lazyPart(async () => (await import('@/features/worldEditor/UniverseTab')).UniverseTab);
+const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
+const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
 const panels: Record<PanelId, () => ReactNode> = {
   explorer: () => <Explorer />,

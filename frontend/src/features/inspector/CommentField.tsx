@@ -4,6 +4,7 @@ import { setComment } from '@/model/edits';
 import { change } from '@/store/project/commands';
 import { Section } from './Section';
 import type { Target } from './target';
+import classes from './Inspector.module.css';
 
 export function CommentField({ id, node }: Target) {
   const { t } = useTranslation('inspector');
@@ -11,8 +12,8 @@ export function CommentField({ id, node }: Target) {
     <Section title={t('comment')}>
       <Textarea
         size="xs"
-        autosize
-        minRows={1}
+        rows={1}
+        classNames={{ input: classes['growing'] ?? '' }}
         aria-label={t('comment')}
         value={node.comment ?? ''}
         onChange={(event) => {

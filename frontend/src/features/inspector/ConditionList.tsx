@@ -23,15 +23,11 @@ const CONDITIONS = [
 ] as const;
 
 /** Scripts before and after the node's tick, in BT.CPP's script language. */
-export function ConditionList({ tree, id, node }: Target) {
+export function ConditionList({ diagram, id, node }: Target) {
   const { t } = useTranslation('inspector');
   const set = node.conditions ?? {};
-  const diagram = useProjectStore((state) => state.diagrams[tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  const keys = useMemo(
-    () => (diagram ? [...blackboardKeys(diagram, vocabulary).keys()].sort() : []),
-    [diagram, vocabulary],
-  );
+  const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
   const free = CONDITIONS.filter((name) => !(name in set));
   return (
     <Section

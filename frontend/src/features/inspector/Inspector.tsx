@@ -1,4 +1,6 @@
+import { memo, useDeferredValue, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
+import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { useProjectStore } from '@/store/project';
 import { CommentField } from './CommentField';
@@ -11,12 +13,28 @@ import { PortList } from './PortList';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
-/** Everything about the selected block, editable. */
+interface Shown {
+  readonly diagram: Diagram | undefined;
+  readonly count: number;
+  readonly id: NodeId | undefined;
+}
+
+/**
+ * Everything about the selected block, editable. Another block's fields come after the picture of the
+ * canvas, on which the user looks; what is typed here is here at once.
+ */
 export function Inspector() {
-  const { t } = useTranslation('inspector');
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);
   const count = useProjectStore((state) => state.selection.length);
   const id = useProjectStore((state) => state.selection[0]);
+  const now = useMemo(() => ({ diagram, count, id }), [diagram, count, id]);
+  const before = useDeferredValue(now);
+  const isSame = before.id === id && before.count === count && before.diagram?.id === diagram?.id;
+  return <Fields {...(isSame ? now : before)} />;
+}
+
+const Fields = memo(function Fields({ diagram, count, id }: Shown) {
+  const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const node = id === undefined ? undefined : diagram?.nodes[id];
   if (!diagram || id === undefined || !node || count > 1) {
@@ -28,7 +46,7 @@ export function Inspector() {
     );
   }
   const spec = vocabulary.specs.get(node.type);
-  const target = { tree: diagram.id, id, node, spec };
+  const target = { diagram, tree: diagram.id, id, node, spec };
   return (
     <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
       <NodeHeader {...target} />
@@ -42,4 +60,4 @@ export function Inspector() {
       <NodeDocs spec={spec} />
     </section>
   );
-}
+});

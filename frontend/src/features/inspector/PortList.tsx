@@ -25,23 +25,17 @@ const extraPort = (name: string): PortSpec => ({
 });
 
 /** Ports of the block, declared ones first; an open type takes any other. */
-export function PortList({ tree, id, node, spec }: Target) {
+export function PortList({ diagram, id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
-  const diagram = useProjectStore((state) => state.diagrams[tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const textOf = useProblemText();
   const [isAdding, setIsAdding] = useState(false);
-  const keys = useMemo(
-    () => (diagram ? [...blackboardKeys(diagram, vocabulary).keys()].sort() : []),
-    [diagram, vocabulary],
-  );
+  const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
   const declared = spec?.ports ?? [];
   const known = new Set(declared.map((port) => port.name));
   const extra = Object.keys(node.ports ?? {}).filter((name) => !known.has(name));
-  const problems = diagram
-    ? problemsOf(diagram, vocabulary, diagnostics).filter((each) => each.node === id)
-    : [];
+  const problems = problemsOf(diagram, vocabulary, diagnostics).filter((each) => each.node === id);
   const errorOf = (name: string): string | null => {
     const problem = problems.find((each) => each.port === name);
     return problem ? textOf(problem).message : null;

@@ -1,10 +1,11 @@
 import { Text, Textarea } from '@mantine/core';
-import { lazy, Suspense, useMemo } from 'react';
+import { Suspense, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { isProblem, readScript } from '@/model/script';
 import { scriptText } from '@/ui/scriptText';
+import { lazyPart } from '@/ui/parts';
 
-const ScriptEditor = lazy(async () => ({ default: (await import('./ScriptEditor')).ScriptEditor }));
+const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).ScriptEditor);
 
 export interface ScriptInputProps {
   readonly value: string;

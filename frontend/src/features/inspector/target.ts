@@ -1,8 +1,9 @@
-import type { DiagramNode, NodeId } from '@/model/diagram';
+import type { Diagram, DiagramNode, NodeId } from '@/model/diagram';
 import type { NodeSpec } from '@/model/vocabulary';
 
 /** The block that the inspector shows. */
 export interface Target {
+  readonly diagram: Diagram;
   readonly tree: string;
   readonly id: NodeId;
   readonly node: DiagramNode;

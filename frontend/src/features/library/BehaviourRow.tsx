@@ -1,14 +1,15 @@
 import { Badge, Button, Group, Text } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 import { IconChevronRight, IconPlus, IconRefresh } from '@tabler/icons-react';
-import { lazy, Suspense, useState } from 'react';
+import { Suspense, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { insertBehaviour } from '@/store/project/library';
 import { TreePicture } from '@/features/projects/TreePicture';
+import { lazyPart } from '@/ui/parts';
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
 
-const UpdateDialog = lazy(async () => ({ default: (await import('./UpdateDialog')).UpdateDialog }));
+const UpdateDialog = lazyPart(async () => (await import('./UpdateDialog')).UpdateDialog);
 
 interface BehaviourRowProps {
   readonly offer: Offer;

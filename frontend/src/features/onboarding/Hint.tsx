@@ -1,7 +1,7 @@
-import { spotlight } from '@mantine/spotlight';
 import { IconBulb, IconX } from '@tabler/icons-react';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
+import { openPalette } from '@/actions/palette';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { finishHint, HINTS, useHints } from './hints';
@@ -34,7 +34,7 @@ export function Hint() {
           className={classes['hintText']}
           onClick={() => {
             finishHint('find');
-            spotlight.open();
+            openPalette();
           }}
         >
           {t('hint.find')}

@@ -20,10 +20,14 @@ function groupOf({ spec }: Choice): Group {
 export function Palette() {
   const { t } = useTranslation('palette');
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? ''] ?? null);
+  // What may be added depends on which tree it is, not on what is in it.
+  const tree = useProjectStore((state) => state.diagrams[state.activeTree ?? '']?.id ?? null);
   const [search, setSearch] = useState('');
   const [isNaming, setIsNaming] = useState(false);
-  const choices = useMemo(() => allChoices(diagram, vocabulary), [diagram, vocabulary]);
+  const choices = useMemo(
+    () => allChoices(tree === null ? null : { id: tree }, vocabulary),
+    [tree, vocabulary],
+  );
   const shown = choices.filter(
     (choice) =>
       matchScore(choice.label, search.trim()) > 0 ||

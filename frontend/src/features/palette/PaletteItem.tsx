@@ -1,4 +1,5 @@
 import { Tooltip } from '@mantine/core';
+import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Choice } from '@/model/choices';
 import { addHere } from '@/store/project/commands';
@@ -7,7 +8,7 @@ import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Palette.module.css';
 
 /** A block to be: drag it onto the tree, or click to add it where it fits. */
-export function PaletteItem({ choice }: { readonly choice: Choice }) {
+export const PaletteItem = memo(function PaletteItem({ choice }: { readonly choice: Choice }) {
   const { t } = useTranslation('palette');
   const { kind, spec, label } = choice;
   return (
@@ -42,4 +43,4 @@ export function PaletteItem({ choice }: { readonly choice: Choice }) {
       </button>
     </Tooltip>
   );
-}
+});

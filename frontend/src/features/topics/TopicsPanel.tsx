@@ -1,19 +1,20 @@
 import { Button, SegmentedControl } from '@mantine/core';
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
-import { lazy, Suspense, useEffect, useRef, useState } from 'react';
+import { Suspense, useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform } from '@/actions/registry';
 import { refreshTopics } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
 import { useTopicsStore } from '@/store/session/topics';
 import { useVisible } from '@/ui/useVisible';
+import { lazyPart } from '@/ui/parts';
 import { EchoList } from './EchoList';
 import { LaunchNodes } from './LaunchNodes';
 import { openPublish } from './publishing';
 import { TopicList } from './TopicList';
 import classes from './topics.module.css';
 
-const Plot = lazy(async () => ({ default: (await import('./Plot')).Plot }));
+const Plot = lazyPart(async () => (await import('./Plot')).Plot);
 
 const REFRESH_MS = 1000;
 

@@ -1,9 +1,10 @@
 import { Modal } from '@mantine/core';
-import { lazy, Suspense } from 'react';
+import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
+import { lazyPart } from '@/ui/parts';
 import { closeWorlds, useWorlds } from './worlds';
 
-const Chooser = lazy(async () => ({ default: (await import('./WorldChooser')).WorldChooser }));
+const Chooser = lazyPart(async () => (await import('./WorldChooser')).WorldChooser);
 
 /** Where the robot will be, and which robot. */
 export function Worlds() {

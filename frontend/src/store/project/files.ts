@@ -57,6 +57,12 @@ export function currentText(data: ProjectData, path: string): string | null {
 
 /** Makes the list of files agree with the trees after an edit, an undo, or a deletion. */
 export function syncTrees(data: ProjectData): Pick<ProjectData, 'files' | 'removed'> {
+  const isInStep =
+    Object.keys(data.diagrams).every((id) => data.files[treePath(id)]?.kind === 'tree') &&
+    Object.values(data.files).every(
+      ({ kind, path }) => kind !== 'tree' || data.diagrams[treeIdOf(path) ?? ''],
+    );
+  if (isInStep) return data;
   const files: Record<string, FileEntry> = { ...data.files };
   const removed: Record<string, number> = { ...data.removed };
   for (const id of Object.keys(data.diagrams)) {

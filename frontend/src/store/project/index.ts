@@ -6,7 +6,15 @@ import { emptyHistory, redo, seal, undo, type Travel } from '@/model/history';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { refusingViewers } from './readOnly';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
-import { changeDiagrams, initialData, knowing, removeFile, type Change, type Diagrams } from './transitions';
+import {
+  changeDiagrams,
+  confirmed,
+  initialData,
+  knowing,
+  removeFile,
+  type Change,
+  type Diagrams,
+} from './transitions';
 
 /** Everything about the open project that is saved, and what is selected in it. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
@@ -234,7 +242,13 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     },
 
     setChecked: ({ diagnostics, actions }) => {
-      set((state) => knowing({ ...state, diagnostics, actions }));
+      set((state) =>
+        knowing({
+          ...state,
+          diagnostics: confirmed(state.diagnostics, diagnostics),
+          actions: confirmed(state.actions, actions),
+        }),
+      );
     },
     pendingChanges: () => pendingChanges(get()),
     applySaved: (sent, result) => {
@@ -243,8 +257,8 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
           ...state,
           ...applySaved(state, sent, result),
           revision: result.revision,
-          actions: result.actions,
-          diagnostics: result.diagnostics,
+          actions: confirmed(state.actions, result.actions),
+          diagnostics: confirmed(state.diagnostics, result.diagnostics),
         }),
       );
     },

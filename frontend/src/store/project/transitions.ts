@@ -55,9 +55,15 @@ function vocabularyOf(data: ProjectData): Vocabulary {
   return vocabulary;
 }
 
+/** What was known, where the server says the same again: nothing that shows it is drawn anew. */
+export function confirmed<T>(before: T, now: T): T {
+  return JSON.stringify(before) === JSON.stringify(now) ? before : now;
+}
+
 /** Brings files and vocabulary in step with trees and actions. */
 export function knowing<T extends ProjectData>(data: T): T {
-  return { ...data, ...syncTrees(data), vocabulary: vocabularyOf(data) };
+  const { files, removed } = syncTrees(data);
+  return { ...data, files, removed, vocabulary: vocabularyOf(data) };
 }
 
 /** A change of trees, written as if they were mutable. */
@@ -86,10 +92,10 @@ export function changeDiagrams(
     before: mine,
     after,
   });
-  const files = { ...data.files };
-  const entry = files[treePath(owner)];
+  const entry = data.files[treePath(owner)];
   // An edit of the tree supersedes a text of it that did not parse.
-  if (entry?.kind === 'tree' && entry.text !== null) files[treePath(owner)] = { ...entry, text: null };
+  const isText = entry?.kind === 'tree' && entry.text !== null;
+  const files = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
   return {
     ...knowing({ ...data, files, diagrams }),
     histories: { ...data.histories, [owner]: history },

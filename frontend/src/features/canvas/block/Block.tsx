@@ -51,8 +51,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       <span className={classes['tile']}>
         <NodeSymbol type={node.type} family={family} size={22} />
       </span>
-      <BlockTitle id={id} node={node} />
-      <BlockPorts node={node} spec={spec} />
+      <BlockTitle id={id} node={node} t={t} />
+      <BlockPorts node={node} spec={spec} t={t} />
       <StatusMark status={fault === undefined ? status : 'FAILURE'} flash={flash} />
       {fault !== undefined && (
         <ProblemMark

@@ -1,4 +1,4 @@
-import { useTranslation } from 'react-i18next';
+import type { TFunction } from 'i18next';
 import type { DiagramNode } from '@/model/diagram';
 import { BLOCK, portLines, type PortLine } from '@/model/measure';
 import { readPortText } from '@/model/ports';
@@ -17,11 +17,11 @@ const ARROWS = { input: '', output: '→', inout: '⇄' } as const;
 interface BlockPortsProps {
   readonly node: DiagramNode;
   readonly spec: NodeSpec | undefined;
+  readonly t: TFunction<'canvas'>;
 }
 
 /** Ports with their values, as many as a block shows. */
-export function BlockPorts({ node, spec }: BlockPortsProps) {
-  const { t } = useTranslation('canvas');
+export function BlockPorts({ node, spec, t }: BlockPortsProps) {
   const lines = portLines(node, spec);
   if (lines.length === 0) return null;
   const more = lines.length - BLOCK.maxPorts;

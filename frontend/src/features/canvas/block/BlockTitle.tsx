@@ -1,4 +1,4 @@
-import { useTranslation } from 'react-i18next';
+import type { TFunction } from 'i18next';
 import { displayName, type DiagramNode, type NodeId } from '@/model/diagram';
 import { setComment, setName } from '@/model/edits';
 import { change } from '@/store/project/commands';
@@ -10,11 +10,11 @@ import classes from './Block.module.css';
 interface BlockTitleProps {
   readonly id: NodeId;
   readonly node: DiagramNode;
+  readonly t: TFunction<'canvas'>;
 }
 
 /** Name and type, and the field in which F2 and `/` edit name and comment. */
-export function BlockTitle({ id, node }: BlockTitleProps) {
-  const { t } = useTranslation('canvas');
+export function BlockTitle({ id, node, t }: BlockTitleProps) {
   const field = useEditorStore((state) => (state.editing?.node === id ? state.editing.field : null));
   const name = displayName(node);
   const hasBadges = node.comment !== undefined || node.conditions !== undefined;

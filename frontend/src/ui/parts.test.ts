@@ -1,0 +1,74 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { loadPart, PartMissing, stylesArrive } from './parts';
+
+let server: MutationObserver | null = null;
+
+/** A style sheet that comes at the `attempts`-th request, as the page sees it: jsdom fetches none. */
+function styleThatComes(attempts: number): HTMLLinkElement {
+  const link = document.createElement('link');
+  link.rel = 'stylesheet';
+  link.href = '/assets/part.css';
+  Object.defineProperty(link, 'sheet', { value: { cssRules: [] } });
+  let asked = 1;
+  server = new MutationObserver((changes) => {
+    for (const added of changes.flatMap((change) => [...change.addedNodes])) {
+      if (!(added instanceof HTMLLinkElement) || added === link) continue;
+      asked += 1;
+      if (asked >= attempts) Object.defineProperty(added, 'sheet', { value: { cssRules: [{}] } });
+      added.dispatchEvent(new Event(asked >= attempts ? 'load' : 'error'));
+    }
+  });
+  server.observe(document.head, { childList: true });
+  document.head.append(link);
+  return link;
+}
+
+const links = () => [...document.querySelectorAll<HTMLLinkElement>('link[rel=stylesheet]')];
+
+beforeEach(() => {
+  vi.useFakeTimers();
+});
+afterEach(() => {
+  vi.useRealTimers();
+  server?.disconnect();
+  document.head.replaceChildren();
+});
+
+/** What becomes of it when all waiting is over. */
+async function outcome<T>(promise: Promise<T>): Promise<PromiseSettledResult<T>> {
+  const settled = Promise.allSettled([promise]);
+  await vi.advanceTimersByTimeAsync(20_000);
+  return (await settled)[0];
+}
+
+describe('a part of the page', () => {
+  it('is asked for again when it does not come', async () => {
+    const load = vi.fn().mockRejectedValueOnce(new Error('timed out')).mockResolvedValue('part');
+    expect(await outcome(loadPart(load))).toEqual({ status: 'fulfilled', value: 'part' });
+    expect(load).toHaveBeenCalledTimes(2);
+  });
+
+  it('is given up after some seconds, and says so', async () => {
+    const load = vi.fn().mockRejectedValue(new Error('timed out'));
+    expect(await outcome(loadPart(load))).toEqual({
+      status: 'rejected',
+      reason: new PartMissing('timed out'),
+    });
+    expect(load).toHaveBeenCalledTimes(4);
+  });
+
+  it('is not shown before its style is there', async () => {
+    styleThatComes(3);
+    expect(await outcome(loadPart(() => Promise.resolve('part')))).toMatchObject({ value: 'part' });
+    expect(links().map((link) => link.sheet?.cssRules.length)).toEqual([1]);
+  });
+});
+
+describe('the styles of a page', () => {
+  it('are missed by name when they never come', async () => {
+    styleThatComes(99);
+    expect(await outcome(stylesArrive())).toMatchObject({
+      reason: new PartMissing('The style sheet /assets/part.css did not come.'),
+    });
+  });
+});

@@ -11,6 +11,7 @@ import typer
 
 if TYPE_CHECKING:
     from executor.headless.live import HeadlessOptions
+    from executor.headless.lockstep import LockstepOptions
     from executor.headless.report import Report
     from translator import Project
 
@@ -35,7 +36,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     report: Annotated[Path | None, typer.Option(help="File for the report, as JSON.")] = None,
     record: Annotated[
         Path | None,
-        typer.Option(help="File for all that the run says, line by line; .gz compresses. Not in lock-step."),
+        typer.Option(help="File for all that the run says, line by line; .gz compresses."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
@@ -44,8 +45,6 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     from backend.cli.errors import CliError
     from translator import TranslatorError
 
-    if lockstep and record is not None:
-        raise typer.BadParameter("a run in lock-step has no stream to record", param_hint="--record")
     if lockstep and viewer:
         text = "lock-step is too fast to look at; leave out one of the two"
         raise typer.BadParameter(text, param_hint="--serve-viewer")
@@ -55,7 +54,11 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     try:
         opened = cli.open_project(project)
         if lockstep:
-            done = _in_lockstep(opened, universe, robot, seed, duration)
+            from executor.headless.lockstep import LockstepOptions
+
+            wanted = LOCKSTEP_DURATION_S if duration is None else duration
+            options = LockstepOptions(universe, robot, seed, wanted, recording=record)
+            done = _in_lockstep(opened, options)
         else:
             from executor.headless.live import HeadlessOptions
 
@@ -73,19 +76,19 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         raise CliError(*(_fault_line(fault) for fault in done.errors))
 
 
-def _in_lockstep(
-    project: Project, universe: str | None, robot: str | None, seed: int, duration: float | None
-) -> Report:
+def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
     from backend.cli.errors import CliError
-    from executor.headless.lockstep import LockstepOptions, run_lockstep
+    from executor.headless.errors import HeadlessError
+    from executor.headless.lockstep import run_lockstep
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
 
-    wanted = LOCKSTEP_DURATION_S if duration is None else duration
-    options = LockstepOptions(universe=universe, robot=robot, seed=seed, duration_s=wanted)
+    def progress(time_s: float) -> None:
+        _progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
+
     try:
-        return run_lockstep(project, options, progress=lambda t: _progress(f"{t:6.1f} s of {wanted:g} s"))
-    except DocumentError as error:
+        return run_lockstep(project, options, progress=progress)
+    except (DocumentError, HeadlessError) as error:
         raise CliError(str(error)) from error
     except LoadError as error:
         raise CliError(*map(str, error.diagnostics)) from error
@@ -97,7 +100,8 @@ def _in_lockstep(
 
 def _in_real_time(project: Project, options: HeadlessOptions) -> Report:
     from backend.cli.errors import CliError
-    from executor.headless.live import HeadlessError, run_headless
+    from executor.headless.errors import HeadlessError
+    from executor.headless.live import run_headless
     from translator import to_app_zip
 
     def progress(so_far: Report) -> None:

@@ -42,11 +42,24 @@ def describe_tree(tree: Tree) -> list[dict[str, Any]]:
 
 
 class Reporter:
-    """Makes messages of what happens; `send` takes them, `now_s` is simulated time."""
+    """Makes messages of what happens.
 
-    def __init__(self, send: Callable[[dict[str, Any]], None], now_s: Callable[[], float]) -> None:
+    Args:
+        send: takes them.
+        now_s: is simulated time.
+        clock: of what must not come too often; real time where somebody reads along.
+    """
+
+    def __init__(
+        self,
+        send: Callable[[dict[str, Any]], None],
+        now_s: Callable[[], float],
+        *,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
         self._send = send
         self._now_s = now_s
+        self._clock = clock
         self._entries: dict[tuple[str, str], BlackboardChange] = {}
         self._entries_due_s = 0.0
         self._ticks_due_s = 0.0
@@ -58,7 +71,7 @@ class Reporter:
 
     def ticked(self, changes: TickChanges) -> None:
         """Observes the tree."""
-        now_s = time.monotonic()
+        now_s = self._clock()
         for entry in changes.blackboard:
             self._entries[entry.scope, entry.key] = entry
         if changes.changed or changes.flashed or now_s >= self._ticks_due_s:
@@ -86,15 +99,15 @@ class Reporter:
 
     def flush(self, *, now: bool = False) -> None:
         """Sends the blackboard's changes, not too often."""
-        if not self._entries or (time.monotonic() < self._entries_due_s and not now):
+        if not self._entries or (self._clock() < self._entries_due_s and not now):
             return
-        self._entries_due_s = time.monotonic() + BLACKBOARD_INTERVAL_S
+        self._entries_due_s = self._clock() + BLACKBOARD_INTERVAL_S
         entries, self._entries = self._entries, {}
         self._send({"type": "blackboard", "entries": [_entry(change) for change in entries.values()]})
 
     def raised(self, error: TickError) -> None:
         """An action raised. The same fault again and again is told once a second."""
-        key, now_s = (error.path, error.message), time.monotonic()
+        key, now_s = (error.path, error.message), self._clock()
         if now_s < self._faults_s.get(key, 0.0):
             return
         self._faults_s[key] = now_s + SAME_FAULT_INTERVAL_S

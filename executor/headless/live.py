@@ -17,8 +17,9 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 from executor import messages
+from executor.headless.errors import HeadlessError
 from executor.headless.measured import Measured
-from executor.headless.recording import Recording
+from executor.headless.recording import Recording, decode_frame, open_recording
 from executor.headless.viewer import RunViewer
 from executor.manager.manager import Manager, ManagerSettings
 from executor.universes import BUILTIN_IDS, builtin_path
@@ -35,13 +36,6 @@ __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 TRAJECTORY_HZ: Final = 10.0
 VIEW_HZ: Final = 15.0
 FIGURES_EVERY_S: Final = 0.2
-_decode_frame = msgspec.msgpack.Decoder(
-    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
-).decode
-
-
-class HeadlessError(Exception):
-    """The session refused to run; the text says why."""
 
 
 @dataclass(frozen=True)
@@ -111,12 +105,8 @@ def _recording(
 ) -> contextlib.AbstractContextManager[Recording | None]:
     if options.recording is None:
         return contextlib.nullcontext()
-    universe = options.universe or project.settings.universe
-    about = {"project": project.settings.name, "universe": universe, "seed": options.seed}
-    try:
-        return Recording(options.recording, about)
-    except OSError as error:
-        raise HeadlessError(f"{options.recording}: cannot be written: {error.strerror}") from error
+    path, universe, seed = options.recording, options.universe, options.seed
+    return open_recording(path, project, universe=universe, seed=seed)
 
 
 class _Runner:
@@ -253,7 +243,7 @@ class _Runner:
         with contextlib.suppress(ConnectionClosed):
             async for data in self._stream:
                 if isinstance(data, bytes):
-                    frame = _decode_frame(data)
+                    frame = decode_frame(data)
                     self._measured.take_frame(frame)
                     if self._viewer is not None and isinstance(frame, messages.View):
                         self._viewer.show(frame.jpeg)

@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from executor.headless.recording import Recording
+    from executor.headless.scribe import Scribe
     from executor.ros.spin import DrainingExecutor
     from executor.world.bullet import BulletWorld
     from translator import Project
@@ -47,6 +49,7 @@ class LockstepOptions:
     tick_hz: float | None = None
     on_finish: str | None = None
     on_error: str | None = None
+    recording: Path | None = None
 
 
 def run_lockstep(
@@ -69,6 +72,7 @@ def run_lockstep(
         DocumentError: the universe or the robot does not exist or is wrong.
         LoadError: an action cannot be loaded.
         TickError: the setup of an action raised.
+        HeadlessError: the recording cannot be written.
     """
     _use_environment()
     run = _Run(_open(project), options or LockstepOptions())
@@ -93,11 +97,13 @@ class _Run:
         self._durations: list[float] = []
         self._context = Context()
         self._stack: list[Callable[[], object]] = []
+        recording = self._open_recording(project)
         self._world = self._make_world(project)
         self._stack.append(self._world.close)
         self._join_ros()
         self._tree = self._make_tree(project)
         self._counts = [NodeCount(node.path) for node in self._tree.nodes]
+        self._scribe = self._make_scribe(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
         """Ticks until the end."""
@@ -124,6 +130,8 @@ class _Run:
                 progress(self._world.time_s)
             if runner.is_finished:
                 self._report.root_status = (status or runner.status).name
+                if self._scribe is not None:
+                    self._scribe.finished(status)
                 break
         else:
             self._advance(round(ticks / self._tick_hz / self._world.step_s))
@@ -190,6 +198,24 @@ class _Run:
         tree.add_hook(after=self._count)
         return tree
 
+    def _open_recording(self, project: Project) -> Recording | None:
+        options = self._options
+        if options.recording is None:
+            return None
+        from executor.headless.recording import open_recording  # noqa: PLC0415 - few runs are recorded
+
+        universe, seed = options.universe, options.seed
+        recording = open_recording(options.recording, project, universe=universe, seed=seed)
+        self._stack.append(recording.close)
+        return recording
+
+    def _make_scribe(self, recording: Recording | None) -> Scribe | None:
+        if recording is None:
+            return None
+        from executor.headless.scribe import Scribe  # noqa: PLC0415 - few runs are recorded
+
+        return Scribe(recording, self._world, self._sensors, self._tree)
+
     # --- running ---
 
     def _advance(self, until_step: int) -> None:
@@ -204,6 +230,8 @@ class _Run:
             self._sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:
                 self._node.publish(self._sensors)
+                if self._scribe is not None:
+                    self._scribe.look()
 
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
@@ -219,6 +247,8 @@ class _Run:
             setattr(count, name, getattr(count, name) + 1)
 
     def _note_fault(self, error: TickError) -> None:
+        if self._scribe is not None:
+            self._scribe.raised(error)
         self._report.errors.append(
             {
                 "node_path": error.path,

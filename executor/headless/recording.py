@@ -12,20 +12,29 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Final, Self, cast
 
 import msgspec
 
+from executor import messages
+from executor.headless.errors import HeadlessError
+
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["FORMAT", "VERSION", "Recording"]
+    from translator import Project
+
+__all__ = ["FORMAT", "VERSION", "Recording", "decode_frame", "open_recording"]
 
 FORMAT: Final = "bt-studio/recording"
 VERSION: Final = 1
 _LEFT_OUT: Final = frozenset({"ack", "error", "introspection", "snapshot", "progress"})
 _KEPT: Final = ("t", "tick", "command", "data")
 _encode = msgspec.json.Encoder().encode
+decode_frame: Final = msgspec.msgpack.Decoder(
+    messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
+).decode
+"""Returns the frame of a message of the stream socket."""
 
 
 class Recording:
-    """An open file; use it as a context.
+    """An open file; use it as a context, or close it.
 
     Raises:
         OSError: the file cannot be written.
@@ -40,6 +49,10 @@ class Recording:
         return self
 
     def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Writes nothing more."""
         self._file.close()
 
     def event(self, message: dict[str, Any]) -> None:
@@ -52,5 +65,22 @@ class Recording:
         """Writes a frame of the stream socket."""
         self._write(frame)
 
+    def packed_frame(self, data: bytes) -> None:
+        """Writes a frame as the stream socket carries it."""
+        self.frame(decode_frame(data))
+
     def _write(self, line: object) -> None:
         self._file.write(_encode(line) + b"\n")
+
+
+def open_recording(path: Path, project: Project, *, universe: str | None, seed: int) -> Recording:
+    """Begins the recording of a run.
+
+    Raises:
+        HeadlessError: the file cannot be written.
+    """
+    about = {"project": project.settings.name, "universe": universe or project.settings.universe}
+    try:
+        return Recording(path, about | {"seed": seed})
+    except OSError as error:
+        raise HeadlessError(f"{path}: cannot be written: {error.strerror}") from error

@@ -16,19 +16,21 @@ if TYPE_CHECKING:
     from executor.session.events import ChildSaid, Kind
     from executor.session.protocol import Session
 
-__all__ = ["forward", "hear"]
+__all__ = ["APPLICATION_EVENTS", "forward", "hear"]
 
 _log = logging.getLogger(__name__)
 
+APPLICATION_EVENTS: Final[dict[str, type[Struct]]] = {
+    "tree": messages.Tree,
+    "tick": messages.Tick,
+    "blackboard": messages.Blackboard,
+    "log": messages.Log,
+    "fault": messages.Fault,
+    "finished": messages.Finished,
+}
+"""What an application says that becomes an event of its own name."""
 _FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
-    "application": {
-        "tree": messages.Tree,
-        "tick": messages.Tick,
-        "blackboard": messages.Blackboard,
-        "log": messages.Log,
-        "fault": messages.Fault,
-        "finished": messages.Finished,
-    },
+    "application": APPLICATION_EVENTS,
     "world": {"log": messages.Log, "sim": messages.Sim},
     "node": {},
 }

@@ -130,10 +130,38 @@ def test_a_run_is_recorded_line_by_line(tmp_path):
     assert times == sorted(times)
 
 
+@pytest.mark.simulation
+def test_a_run_in_lockstep_is_recorded_the_same_each_time(tmp_path):
+    path = tmp_path / "run.jsonl"
+    options = ["--lockstep", "--duration", "3", "--record", path]
+    recordings = []
+    for _ in range(2):
+        done = studio("run", EXAMPLE, *options)
+        assert (done.returncode, done.stderr) == (0, "")
+        recordings.append([json.loads(line) for line in path.read_text().splitlines()])
+    head, *lines = recordings[0]
+    assert (head["format"], head["version"]) == ("bt-studio/recording", 1)
+    assert {line["type"] for line in lines} == {"event", "scene", "poses", "scan"}
+    assert {"tree", "tick"} <= {line["command"] for line in lines if line["type"] == "event"}
+    scans = [line["t"] for line in lines if line["type"] == "scan"]
+    assert len(scans) >= 29
+    assert scans == sorted(scans)
+    for lines in recordings:
+        for line in lines:
+            line.get("data", {}).pop("duration_ms", None)
+    assert recordings[0] == recordings[1]
+
+
+def test_a_recording_that_cannot_be_written_is_told(tmp_path):
+    done = studio("run", EXAMPLE, "--lockstep", "--record", tmp_path / "missing" / "run.jsonl")
+    assert done.returncode == 1
+    assert "run.jsonl: cannot be written: No such file or directory" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        (["--lockstep", "--record", "r.jsonl"], "no stream to record"),
         (["--lockstep", "--universe", "none"], "needs a simulated world"),
     ],
 )

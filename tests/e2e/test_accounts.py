@@ -16,6 +16,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_no_findings
+from tests.e2e.mailbox import Mailbox, mailbox
 from tests.e2e.server import Server, command, serving
 from tests.e2e.studio import Studio
 
@@ -30,12 +31,19 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
-PASSWORD = "Correct-horse-9"
+PASSWORD, ANOTHER = "Correct-horse-9", "Battery-staple-4"
 
 
 @pytest.fixture
-def team(tmp_path: Path) -> Iterator[Server]:
-    """A server with accounts, and one: Ada, its administrator."""
+def mails() -> Iterator[Mailbox]:
+    """What the server mails."""
+    with mailbox() as box:
+        yield box
+
+
+@pytest.fixture
+def team(tmp_path: Path, mails: Mailbox) -> Iterator[Server]:
+    """A server with accounts that sends mail, and one account: Ada, its administrator."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     settings = {
@@ -43,6 +51,8 @@ def team(tmp_path: Path) -> Iterator[Server]:
         "BT_STUDIO_PUBLIC_URL": f"http://127.0.0.1:{port}",
         "BT_STUDIO_DATABASE_URL": f"sqlite:///{tmp_path}/team.sqlite3",
         "BT_STUDIO_SECRET_KEY": "k" * 40,
+        "BT_STUDIO_SMTP_URL": mails.url,
+        "BT_STUDIO_MAIL_FROM": "BT Studio <bt@example.org>",
     }
     with serving(tmp_path, "--port", str(port), **settings) as server:
         make = command("admin", "create", "ada", "--email", "ada@example.org", "--password-stdin")
@@ -66,10 +76,10 @@ class Someone(Studio):
         """Fills in a field."""
         self.page.get_by_label(label, exact=True).fill(text)
 
-    def sign_in(self, name: str) -> None:
+    def sign_in(self, name: str, password: str = PASSWORD) -> None:
         """By keyboard alone."""
         self.page.get_by_label("Login").focus()
-        for text, key in ((name, "Tab"), (PASSWORD, "Enter")):
+        for text, key in ((name, "Tab"), (password, "Enter")):
             self.page.keyboard.type(text)
             self.page.keyboard.press(key)
 
@@ -118,13 +128,16 @@ def people(team: Server, browser: Browser) -> Iterator[list[Someone]]:
         assert someone.complaints == [], "the browser's console must stay empty"
 
 
-def test_a_class_from_the_first_sign_in_to_the_end_of_an_account(people: list[Someone]) -> None:
+def test_a_class_from_the_first_sign_in_to_the_end_of_an_account(
+    people: list[Someone], mails: Mailbox
+) -> None:
     ada, bob, guest = people
     signs_in_where_she_wanted_to_go(ada)
-    invites_to_a_class(ada, bob)
+    invites_to_a_class(ada, bob, mails)
     shares_a_project_and_gives_it_away(ada, bob, guest)
     tells_whoever_works_of_an_upgrade(ada, bob)
     takes_a_second_factor(ada)
+    forgets_the_password(bob, mails)
     takes_everything_along_and_goes(bob)
 
 
@@ -138,7 +151,7 @@ def signs_in_where_she_wanted_to_go(ada: Someone) -> None:
     ada.page.wait_for_url("**/api/v1/docs")
 
 
-def invites_to_a_class(ada: Someone, bob: Someone) -> None:
+def invites_to_a_class(ada: Someone, bob: Someone, mails: Mailbox) -> None:
     ada.go("/")
     ada.menu("Groups")
     ada.type("New group", "Robotics 1")
@@ -156,6 +169,13 @@ def invites_to_a_class(ada: Someone, bob: Someone) -> None:
     bob.type("Password", PASSWORD)
     bob.type("Password (again)", PASSWORD)
     bob.page.keyboard.press("Enter")
+    bob.comes_to("/accounts/confirm-email/")
+    bob.can_be_used("address to be confirmed")
+    bob.go(mails.link_for("bob@example.org"))
+    bob.can_be_used("confirmation")
+    bob.press("button", "Confirm")
+    bob.comes_to("/accounts/login/")
+    bob.sign_in("bob")
     expect(bob.at("new-from-laser_bump_and_go")).to_be_visible()
 
 
@@ -170,6 +190,10 @@ def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someon
     ada.press("button", "Make a link")
     guest.go(ada.page.get_by_label("Read-only link").input_value())
     expect(guest.at("read-only")).to_be_visible()
+    run = guest.page.get_by_role("button", name="Run", exact=True).first
+    expect(run).to_have_attribute("aria-disabled", "true")
+    run.hover()
+    expect(guest.page.get_by_role("tooltip")).to_contain_text("takes an account")
     ada.press("button", "Make bob the owner")
     ada.can_be_used("sharing")
     ada.press("button", "Keep it")
@@ -214,6 +238,28 @@ def takes_a_second_factor(ada: Someone) -> None:
     ada.can_be_used("code")
 
 
+def forgets_the_password(bob: Someone, mails: Mailbox) -> None:
+    bob.go("/accounts/logout/")
+    bob.press("button", "Sign Out")
+    bob.go("/accounts/password/reset/")
+    bob.type("Email", "bob@example.org")
+    bob.page.keyboard.press("Enter")
+    bob.comes_to("/accounts/password/reset/done/")
+    bob.can_be_used("mail on its way")
+    bob.go(mails.link_for("bob@example.org"))
+    bob.can_be_used("new password")
+    bob.type("New Password", ANOTHER)
+    bob.type("New Password (again)", ANOTHER)
+    bob.page.keyboard.press("Enter")
+    bob.comes_to("/accounts/password/reset/key/done/")
+    bob.go("/accounts/login/")
+    bob.sign_in("bob")
+    expect(bob.page.get_by_text("not correct")).to_be_visible()
+    bob.go("/accounts/login/")
+    bob.sign_in("bob", ANOTHER)
+    expect(bob.at("new-from-laser_bump_and_go")).to_be_visible()
+
+
 def takes_everything_along_and_goes(bob: Someone) -> None:
     bob.go("/")
     bob.menu("Room and data")
@@ -224,5 +270,5 @@ def takes_everything_along_and_goes(bob: Someone) -> None:
     bob.can_be_used("room and data")
     bob.press("button", "Delete the account for good")
     bob.comes_to("/accounts/login/")
-    bob.sign_in("bob")
+    bob.sign_in("bob", ANOTHER)
     expect(bob.page.get_by_text("not correct")).to_be_visible()

@@ -73,7 +73,9 @@ class Editor:
                     await self._ask("list", "GET", "projects?limit=20")
                 if CHANCE.random() < EXTRA["open"]:
                     await self._ask("open", "GET", f"projects/{self._project['id']}")
-                await asyncio.sleep(max(0.0, pace_s - (time.monotonic() - started)))
+                if started + pace_s >= until:
+                    return
+                await asyncio.sleep(max(0.0, started + pace_s - time.monotonic()))
 
     async def _ask(self, kind: str, method: str, path: str, body: object = None) -> dict:
         data = b"" if body is None else json.dumps(body).encode()

@@ -69,7 +69,9 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
 
         def on_ready() -> None:
             robots = (
-                "; robots that run go on" if settings.launcher == "docker" else " and every robot that runs"
+                "; robots that run go on"
+                if settings.launcher == "docker" and settings.is_team
+                else " and every robot that runs"
             )
             print(f"BT Studio is at {url}\nCtrl+C ends it{robots}.", flush=True)
             if ready_file:

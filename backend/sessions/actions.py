@@ -199,8 +199,11 @@ def end_sessions_without_right(
 
 
 def end_all_sessions() -> None:
-    """Ends every session whose executor does not outlive the server; for its last moments."""
-    if launcher().survives_server:
+    """Ends every session that is not to outlive the server; for its last moments.
+
+    In containers they could, and for a team they do. Of one user's IDE that was stopped nothing is to go on.
+    """
+    if launcher().survives_server and environment().is_team:
         return
     live = queries.live_sessions()
     with ThreadPoolExecutor(max_workers=max(1, len(live))) as pool:

@@ -78,6 +78,8 @@ class Stack:
                 time.sleep(0.1)
 
     def down(self) -> None:
+        # First those who start containers.
+        self.compose("stop", "-t", "5", "web", "keeper")
         for name in self.sessions() + self.tools():
             self.engine.run("rm", "-f", name)
         self.compose("down", "-v", "-t", "5")

@@ -301,9 +301,11 @@ async def test_a_full_server_queues_and_says_the_position(stack, ann, ben, proje
     waiting = [ann.post(f"projects/{third}/session"), ben.post(f"projects/{fourth}/session")]
     assert [one["state"] for one in waiting] == ["queued", "queued"]
     assert [one["position"] for one in waiting] == [1, 2]
-    opening = asyncio.create_task(ann.open_session(waiting[0], stream=False))
-    ann.delete(f"sessions/{running[0]['id']}")
-    client = await asyncio.wait_for(opening, 120)
+    client = ann.client_of(waiting[0])
+    opening = asyncio.create_task(client.open(stream=False))
+    await until(lambda: client.named("progress"), 120)
+    await asyncio.to_thread(ann.delete, f"sessions/{running[0]['id']}")
+    await asyncio.wait_for(opening, 120)
     assert "number 1" in client.named("progress")[0]["message"]
     assert ben.get(f"sessions/{waiting[1]['id']}")["position"] == 1
     await client.close()

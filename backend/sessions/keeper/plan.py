@@ -137,7 +137,8 @@ class Plan:
                 "Init": True,
                 "Memory": memory,
                 "MemorySwap": memory,
-                "NanoCpus": int(limits.cpus * 1e9),
+                # Docker refuses to give more than the machine has.
+                "NanoCpus": int(min(limits.cpus, os.cpu_count() or 1) * 1e9),
                 "PidsLimit": int(limits.pids),
                 "OomScoreAdj": 500,
                 "ShmSize": int(limits.shm_mb * MEBIBYTE),

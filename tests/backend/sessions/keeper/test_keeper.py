@@ -188,7 +188,15 @@ def test_a_storm_of_processes_is_ended_from_outside(host_of):
     assert "256 processes" in host.launcher.explain(started.state)
 
 
-def test_a_container_may_do_little():
+def test_a_container_gets_no_more_processors_than_there_are(monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    for wanted, given in ((1.5, 1_500_000_000), (4, 2_000_000_000)):
+        plan = Plan("executor:1", "gate", "stack", limits=Limits(cpus=wanted))
+        assert plan.container("id", TOKEN, 7)["HostConfig"]["NanoCpus"] == given
+
+
+def test_a_container_may_do_little(monkeypatch):
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
     plan = Plan("executor:1", "gate", "stack", limits=Limits(cpus=1.5, memory_mb=1024, pids=100, disk_mb=64))
     config = plan.container("id", TOKEN, 7)
     host = config["HostConfig"]

@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from tests.e2e.accessibility import expect_accessible
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Locator
+    from playwright.sync_api import Locator, Route
 
     from tests.e2e.studio import Studio
 
@@ -25,8 +25,14 @@ def expect_xml(studio: Studio, state: str) -> None:
     expect(studio.at("xml-state")).to_have_attribute("data-state", state)
 
 
-def test_text_and_canvas_stay_in_step_and_every_state_comes_back(shared_studio: Studio) -> None:
-    studio = shared_studio
+def test_what_was_comes_back(shared_studio: Studio) -> None:
+    text_and_canvas_stay_in_step_and_every_state_comes_back(shared_studio)
+    a_file_goes_back_by_the_explorers_menu(shared_studio)
+    a_problem_is_mended_by_keys(shared_studio)
+    a_page_waits_for_its_style(shared_studio)
+
+
+def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> None:
     page = studio.page
     studio.new_from("laser_bump_and_go")
     page.keyboard.press("Control+Shift+X")
@@ -84,3 +90,56 @@ def test_text_and_canvas_stay_in_step_and_every_state_comes_back(shared_studio: 
     expect(slept).to_have_count(1)
     page.keyboard.press("Control+Shift+H")
     studio.saved()
+
+
+def a_file_goes_back_by_the_explorers_menu(studio: Studio) -> None:
+    page = studio.page
+    page.get_by_role("tab", name="Explorer", exact=True).click()
+    page.get_by_role("button", name="More for MainTree").click()
+    page.get_by_role("menuitem", name="History").click()
+    studio.at("revision-1").click()
+    studio.at("restore").click()
+    studio.at("restore-file").click()
+    page.get_by_role("tab", name="MainTree", exact=True).click()
+    expect(studio.at("node-n1")).to_be_visible()
+    expect(page.locator("[data-testid=canvas] [data-type=Sleep]")).to_have_count(0)
+    studio.saved()
+
+
+def a_problem_is_mended_by_keys(studio: Studio) -> None:
+    """A key without its brace: `Ctrl+.` offers what mends it, Enter does it, and the canvas has the keys."""
+    forward = studio.page.locator("[data-testid=canvas] [data-type=Forward]")
+    forward.click()
+    field = studio.at("port-lin_speed")
+    field.fill("{speed")
+    field.press("Enter")
+    expect(forward).to_have_attribute("data-problem", "error")
+    forward.click()
+    studio.page.keyboard.press("Control+Period")
+    expect(studio.at("fix-box").locator("button").first).to_be_focused()
+    studio.page.keyboard.press("Enter")
+    expect(studio.at("fix-box")).to_be_hidden()
+    expect(forward).not_to_have_attribute("data-problem", "error")
+    expect(studio.at("canvas")).to_be_focused()
+    studio.saved()
+
+
+def a_page_waits_for_its_style(studio: Studio) -> None:
+    """Each style sheet is lost once, as on a server that is too busy to answer."""
+    page = studio.page.context.new_page()
+    lost: set[str] = set()
+
+    def lose_once(route: Route) -> None:
+        if route.request.url in lost:
+            route.continue_()
+        else:
+            lost.add(route.request.url)
+            route.abort("timedout")
+
+    page.route("**/assets/*.css", lose_once)
+    page.goto(studio.page.url)
+    expect(page.get_by_test_id("canvas")).to_be_visible()
+    assert len(lost) >= 2, "the first page and the editor have a style each"
+    expect(page.get_by_test_id("canvas")).to_have_css("position", "relative")
+    expect(page.get_by_test_id("palette")).to_have_css("display", "flex")
+    page.close()

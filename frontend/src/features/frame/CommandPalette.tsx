@@ -162,6 +162,7 @@ function Palette({ page }: { readonly page: Document }) {
               id={`command-${at}`}
               className={classes['row']}
               role="option"
+              tabIndex={-1}
               aria-selected={at === active}
               onMouseDown={(event) => {
                 event.preventDefault();

@@ -1,0 +1,82 @@
+"""The page's memory while a tree of 600 blocks runs: `python -m tests.benchmarks.heap --minutes 10`."""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import tempfile
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from playwright.sync_api import sync_playwright
+
+from tests.benchmarks.browser import LIVE_BLOCKS, busy_tree, new_project, open_project, page_of, see_all
+from tests.benchmarks.session import Client
+from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
+from tests.e2e.server import serving
+
+if TYPE_CHECKING:
+    from playwright.sync_api import CDPSession, Page
+
+EVERY_S = 20
+# Until then code is compiled and buffers fill up that have a size: the console, the timeline, the trail.
+SETTLED_S = 120
+
+
+def main() -> None:
+    """Prints each look, and how fast the heap grew after the first two minutes."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--minutes", type=float, default=10.0)
+    minutes = parser.parse_args().minutes
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        serving(Path(folder)) as server,
+        sync_playwright() as started,
+    ):
+        client = Client(server)
+        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL])
+        project = new_project(client, busy_tree(LIVE_BLOCKS // 5))
+        with page_of(browser, client) as page:
+            open_project(page, client, project)
+            page.get_by_test_id("run").click()
+            page.locator("[data-testid=executor-state][data-state=application_running]").wait_for()
+            see_all(page)
+            slope_of(looks(page, minutes))
+            page.get_by_test_id("end-session").click()
+            page.wait_for_timeout(2000)
+        browser.close()
+
+
+def looks(page: Page, minutes: float) -> list[tuple[float, float]]:
+    """Times in s, and the heap in MB that is in use after a collection of garbage."""
+    cdp = page.context.new_cdp_session(page)
+    began = time.monotonic()
+    found: list[tuple[float, float]] = []
+    while (at := time.monotonic() - began) < 60 * minutes:
+        used = heap_mb(cdp)
+        counts = cdp.send("Memory.getDOMCounters")
+        found.append((at, used))
+        kept = f"{counts['nodes']} DOM nodes, {counts['jsEventListeners']} listeners"
+        print(f"{at:5.0f} s: {used:.2f} MB, {kept}", flush=True)
+        page.wait_for_timeout(1000 * EVERY_S)
+    return found
+
+
+def heap_mb(cdp: CDPSession) -> float:
+    """What the page's script holds."""
+    cdp.send("HeapProfiler.collectGarbage")
+    used: float = cdp.send("Runtime.getHeapUsage")["usedSize"]
+    return used / 1e6
+
+
+def slope_of(found: list[tuple[float, float]]) -> None:
+    """A straight line through the looks after the first minutes."""
+    settled = [(at, used) for at, used in found if at >= SETTLED_S] or found
+    slope = statistics.linear_regression(*zip(*settled, strict=True)).slope
+    first, last = settled[0][1], settled[-1][1]
+    print(f"{first:.2f} MB, then {last:.2f} MB: {3600 * slope:+.2f} MB an hour")
+
+
+if __name__ == "__main__":
+    main()

@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.server import wait_until
+from tests.e2e.studio import OUTPUT
 
 if TYPE_CHECKING:
     from tests.e2e.observer import Observer
@@ -30,6 +31,7 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
     expect(studio.at("camera-inset").locator("canvas")).to_be_visible()
     studio.picture("following")
     expect(studio.at("console")).to_contain_text("Person in sight")
+    the_camera_follows_in_a_window_of_its_own(studio)
 
     end = first_seen + WATCHED_S
     observer.wait_for_sim_time(end + 0.5, deadline_s=WATCHED_S * 3)
@@ -43,6 +45,33 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
     assert max(distances) <= 3.0
     assert 0.3 <= walking_speed(observer) <= 0.6
     observer.close()
+
+
+def the_camera_follows_in_a_window_of_its_own(studio: Studio) -> None:
+    """Out by the command, with the page's theme and its keys; back when its window closes."""
+    page = studio.page
+    page.keyboard.press("Control+k")
+    page.keyboard.type("camera in a")
+    with page.expect_popup() as opened:
+        page.keyboard.press("Enter")
+    window = opened.value
+    expect(window.get_by_test_id("camera-figures")).to_contain_text("640")
+    expect(page.get_by_role("tab", name="Camera", exact=True)).to_have_count(0)
+    picture = window.locator("canvas")
+    first = picture.evaluate("canvas => canvas.toDataURL()")
+    wait_until(lambda: picture.evaluate("canvas => canvas.toDataURL()") != first, "the picture moves on")
+
+    window.keyboard.press("Control+k")
+    expect(window.get_by_test_id("command-palette")).to_be_visible()
+    expect(studio.at("command-palette")).to_have_count(0)
+    window.keyboard.type("dark theme")
+    window.keyboard.press("Enter")
+    for each in (page, window):
+        expect(each.locator("html")).to_have_attribute("data-mantine-color-scheme", "dark")
+    window.screenshot(path=OUTPUT / "camera-window-dark.png")
+
+    window.evaluate("window.close()")
+    expect(page.get_by_role("tab", name="Camera", exact=True)).to_be_visible()
 
 
 def uid_of(observer: Observer, node_type: str) -> int:

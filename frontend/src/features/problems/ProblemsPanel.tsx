@@ -7,7 +7,9 @@ import { displayName } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { fixesOfDiagnostic } from '@/store/project/fixes';
 import { openFile, openTree } from '@/store/project/navigation';
+import { inOwnWords } from '@/store/project/problems';
 import { QuickFixes } from '@/ui/QuickFixes';
+import { useProblemText } from '@/ui/useProblemText';
 import classes from './problems.module.css';
 
 const ORDER: Severity[] = ['error', 'warning', 'note'];
@@ -54,9 +56,10 @@ export function ProblemsPanel() {
 
 function Row({ item }: { readonly item: Diagnostic }) {
   const { t } = useTranslation('problems');
-  const node = useProjectStore((state) =>
-    item.tree && item.node ? state.diagrams[item.tree]?.nodes[item.node] : undefined,
-  );
+  const diagram = useProjectStore((state) => (item.tree ? state.diagrams[item.tree] : undefined));
+  const vocabulary = useProjectStore((state) => state.vocabulary);
+  const { message, hint } = useProblemText()(inOwnWords(item, diagram, vocabulary));
+  const node = item.node ? diagram?.nodes[item.node] : undefined;
   const Icon = ICONS[item.severity];
   const place = item.file ? [item.file, item.line].filter(Boolean).join(':') : (item.tree ?? '');
   const where = [node ? displayName(node) : '', item.port ? t('port', { port: item.port }) : '', place]
@@ -74,7 +77,7 @@ function Row({ item }: { readonly item: Diagnostic }) {
       >
         <Icon size={16} role="img" aria-label={t(`severity.${item.severity}`)} />
         <span className={classes['text']}>
-          {item.message} {item.hint ? <span className={classes['hint']}>{item.hint}</span> : null}
+          {message} {hint ? <span className={classes['hint']}>{hint}</span> : null}
         </span>
         <span className={classes['where']}>{where}</span>
         <span className={classes['code']}>{item.code}</span>

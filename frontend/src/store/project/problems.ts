@@ -57,6 +57,21 @@ export function problemsOf(
   return [...own, ...server];
 }
 
+/** A finding of the server's, in the editor's own words where it has found the same: those are translated. */
+export function inOwnWords(
+  item: Diagnostic,
+  diagram: Diagram | undefined,
+  vocabulary: Vocabulary,
+): ShownProblem {
+  const place = placeOf(item.code, item.node || null, item.port || undefined);
+  const own = (diagram ? ownProblems(diagram, vocabulary) : []).find(({ kind, node, port }) =>
+    CODES[kind].some((code) => placeOf(code, node, port) === place),
+  );
+  if (own) return { source: 'editor', ...own };
+  const { severity, code, message, hint } = item;
+  return { source: 'server', severity, node: item.node || null, code, message, hint: hint ?? '' };
+}
+
 /** The worst finding of each node. */
 export function worstByNode(problems: readonly ShownProblem[]): ReadonlyMap<NodeId, ShownProblem> {
   const worst = new Map<NodeId, ShownProblem>();

@@ -1,0 +1,32 @@
+import { describe, expect, it } from 'vitest';
+import { emptyDiagram, type Diagram } from '@/model/diagram';
+import { inOwnWords } from './problems';
+import { useProjectStore } from '.';
+
+describe('a finding of the server', () => {
+  const { vocabulary } = useProjectStore.getState();
+  const node = { id: 'n1', type: 'Nobody', name: '', children: [], ports: {} };
+  const diagram = { ...emptyDiagram('Main'), root: 'n1', nodes: { n1: node } } as unknown as Diagram;
+  const item = {
+    code: 'BT0102',
+    severity: 'error' as const,
+    message: 'There is no node or action “Nobody”.',
+    hint: 'Write it.',
+    tree: 'Main',
+    node: 'n1',
+  };
+
+  it('is told in the words of the editor, which are translated, where it has found the same', () => {
+    expect(inOwnWords(item, diagram, vocabulary)).toMatchObject({
+      source: 'editor',
+      kind: 'unknown-type',
+      values: { type: 'Nobody' },
+    });
+  });
+
+  it('is told as it came where the editor knows nothing of it', () => {
+    const alone = { source: 'server', message: item.message, hint: item.hint };
+    expect(inOwnWords({ ...item, code: 'BT0601' }, diagram, vocabulary)).toMatchObject(alone);
+    expect(inOwnWords(item, undefined, vocabulary)).toMatchObject(alone);
+  });
+});

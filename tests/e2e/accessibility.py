@@ -36,3 +36,26 @@ def expect_no_findings(page: Page, name: str) -> None:
         " + each.nodes.map(n => n.target.join(' ') + ' — ' + n.failureSummary).join(' | '))"
     )
     assert not found, f"axe-core, {name}:\n" + "\n".join(found)
+
+
+# Controls beyond an edge of the window, unless something that scrolls holds them.
+BEYOND = """() => {
+  const scrolls = (element) => {
+    for (let at = element.parentElement; at; at = at.parentElement)
+      if (/auto|scroll/.test(getComputedStyle(at).overflowX) && at.scrollWidth > at.clientWidth) return true;
+    return Boolean(element.closest('.react-flow__viewport'));
+  };
+  const out = [...document.querySelectorAll('button, input, a, select, [role=tab]')].filter((element) => {
+    const { left, right, width, height } = element.getBoundingClientRect();
+    return width && height && (right > innerWidth + 1 || left < -1) && !scrolls(element);
+  });
+  const page = document.scrollingElement.scrollWidth - innerWidth;
+  const found = out.map((each) => each.outerHTML.slice(0, 150));
+  return page > 0 ? [`the page is ${page} px too wide`, ...found] : found;
+}"""
+
+
+def expect_to_fit(page: Page, name: str) -> None:
+    """Nothing of a page lies beyond its window, where nobody could reach it."""
+    beyond = page.evaluate(BEYOND)
+    assert not beyond, f"{name} does not fit into {page.viewport_size}:\n" + "\n".join(beyond)

@@ -160,10 +160,114 @@ def test_by_mouse(shared_studio: Studio) -> None:
         expect_accessible(studio, scheme)
         studio.picture(f"built-{scheme}")
 
+    the_tree_is_changed_by_hand(studio)
     fault_is_found_and_mended(studio)
     package_is_taken_away(studio)
     behaviour_is_reused(studio)
     world_is_chosen(studio)
+
+
+def the_tree_is_changed_by_hand(studio: Studio) -> None:
+    """Everything that the canvas does to blocks; undo takes each of it back."""
+    page, keys = studio.page, studio.page.keyboard
+    whole = children(studio)
+    blocks_are_dragged(studio, whole)
+    menu_and_keys(studio, whole)
+
+    block(studio, "Turn").click()
+    keys.press("Control+f")
+    keys.type("forw")
+    keys.press("Enter")
+    expect(page.locator("#canvas-announcer")).to_contain_text("Forward")
+    keys.press("Escape")
+    for _ in range(6):
+        page.get_by_role("button", name="Zoom out").click()
+    expect(studio.at("canvas")).to_have_attribute("data-far", "true")
+    studio.at("canvas").focus()
+    keys.press("Shift+Digit1")
+    expect(studio.at("canvas")).not_to_have_attribute("data-far", "true")
+    studio.saved()
+
+
+def takes_back(studio: Studio, whole: list[str]) -> None:
+    studio.at("undo").click()
+    wait_until(lambda: children(studio) == whole, "undo brings the tree back")
+
+
+def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
+    """Before a sibling, onto a parent, as a copy, and a connection that ends nowhere."""
+    mouse = studio.page.mouse
+
+    def middle(locator: Locator) -> tuple[float, float]:
+        box = locator.bounding_box()
+        assert box
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def drag(start: Locator, x: float, y: float) -> None:
+        at = middle(start)
+        mouse.move(*at)
+        mouse.down()
+        mouse.move(at[0] + 20, at[1] + 5, steps=3)
+        mouse.move(x, y, steps=6)
+        mouse.up()
+
+    forward, fallback = block(studio, "Forward"), block(studio, "ReactiveFallback")
+    x, y = middle(fallback)
+    drag(forward, x - 110, y)
+    wait_until(lambda: children(studio)[1:3] == ["Forward", "ReactiveFallback"], "it goes before its sibling")
+    takes_back(studio, whole)
+    drag(forward, x, y)
+    wait_until(lambda: children(studio)[2:5] == ["Inverter", "Turn", "Forward"], "it goes below the other")
+    takes_back(studio, whole)
+    x, y = middle(forward)
+    studio.page.keyboard.down("Alt")
+    drag(forward, x + 40, y + 150)
+    studio.page.keyboard.up("Alt")
+    expect(forward).to_have_count(2)
+    takes_back(studio, whole)
+    node = studio.page.locator(".react-flow__node:has([data-type=ReactiveFallback])")
+    drag(node.locator(".react-flow__handle.source"), x, y + 150)
+    expect(studio.at("quick-add")).to_be_visible()
+    studio.page.keyboard.type("AlwaysFailure")
+    studio.page.keyboard.press("Enter")
+    expect(block(studio, "AlwaysFailure")).to_be_visible()
+    takes_back(studio, whole)
+
+
+def menu_and_keys(studio: Studio, whole: list[str]) -> None:
+    """Wrap, disable, comment, cut and paste; a piece becomes a tree, is looked into, and comes back."""
+    keys = studio.page.keyboard
+    forward = block(studio, "Forward")
+    forward.click()
+    keys.press("Control+g")
+    keys.type("Repeat")
+    keys.press("Enter")
+    expect(block(studio, "Repeat")).to_be_visible()
+    takes_back(studio, whole)
+    forward.click()
+    keys.press("Control+e")
+    expect(forward).to_have_attribute("data-disabled", "true")
+    takes_back(studio, whole)
+    keys.press("Control+x")
+    expect(forward).to_have_count(0)
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click()
+    keys.type("sleep")  # a letter on a block opens the box with it
+    expect(studio.at("quick-add")).to_be_visible()
+    keys.press("Enter")
+    expect(block(studio, "Sleep")).to_be_visible()
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click(button="right")
+    studio.page.get_by_role("menuitem", name="Extract").click()
+    call = block(studio, "SubTree")
+    expect(block(studio, "Turn")).to_have_count(0)
+    call.click()
+    keys.press("Space")
+    expect(block(studio, "Turn")).to_be_visible()
+    keys.press("Space")
+    call.click(button="right")
+    studio.page.get_by_role("menuitem", name="Inline").click()
+    wait_until(lambda: children(studio) == whole, "the piece is back in the tree")
 
 
 def new_action(studio: Studio, action: str) -> None:

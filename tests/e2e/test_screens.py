@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import pytest
 from playwright.sync_api import expect
 
 from tests.budget import count
-from tests.e2e.accessibility import expect_accessible
+from tests.e2e.accessibility import expect_accessible, expect_to_fit
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -57,4 +58,27 @@ def test_every_screen_can_be_used_by_everybody(studio: Studio, scheme: str) -> N
     for name in screens(studio):
         expect_accessible(studio, scheme)
         studio.picture(f"screen-{name}-{scheme}")
+    everything_is_within_reach_of_a_narrow_window_in_spanish(studio)
     studio.end_session()
+
+
+def everything_is_within_reach_of_a_narrow_window_in_spanish(studio: Studio) -> None:
+    page = studio.page
+    page.get_by_role("button", name="More", exact=True).click()
+    page.get_by_role("menuitem", name="Español").click()
+    page.set_viewport_size({"width": 480, "height": 850})
+    tabs = page.locator(".flexlayout__tabset_tabbar_outer").last.get_by_role("tab")
+    expect(tabs).to_have_count(14)
+    for name in tabs.all_inner_texts():
+        tab = tabs.filter(has_text=re.compile(f"^{name}$"))
+        tab.evaluate("tab => tab.scrollIntoView()")
+        tab.click()
+        expect(tab).to_have_attribute("aria-selected", "true")
+        expect_to_fit(page, name)
+    for name, keys in DIALOGUES.items():
+        page.keyboard.press(keys)
+        expect(page.get_by_role("dialog")).to_be_visible()
+        expect_to_fit(page, name)
+        page.keyboard.press("Escape")
+        expect(page.get_by_role("dialog")).to_have_count(0)
+    studio.picture("narrow-spanish")

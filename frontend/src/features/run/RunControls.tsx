@@ -32,8 +32,8 @@ export function RunControls() {
     <Group gap={4} wrap="nowrap">
       <Tooltip
         label={hindrance ? t(`hindrance.${hindrance}`) : `${t(help)} (${shortcutLabel('F5')})`}
-        multiline={isHindered}
-        maw={300}
+        multiline
+        maw={340}
         events={{ hover: true, focus: isHindered, touch: isHindered }}
       >
         <Button

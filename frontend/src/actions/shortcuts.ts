@@ -62,7 +62,12 @@ export function useShortcuts(): void {
   useEffect(() => bindShortcuts(window), []);
 }
 
-const KEY_NAMES: Record<string, string> = { $mod: isMac ? '⌘' : 'Ctrl', Shift: isMac ? '⇧' : 'Shift' };
+const KEY_NAMES: Record<string, string> = {
+  $mod: isMac ? '⌘' : 'Ctrl',
+  Shift: isMac ? '⇧' : 'Shift',
+  Period: '.',
+  Slash: '/',
+};
 
 /** A shortcut as people write it: `Ctrl+Shift+P`. */
 export function shortcutLabel(shortcut: string): string {

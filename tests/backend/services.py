@@ -29,18 +29,23 @@ class Cluster:
         self.url = f"postgresql://bts@/bts?host={folder}"
         self._folder, self._command, self._options = folder, command, options
         self._log = (folder / "log").open("wb")
+        self._process = None
         self.start()
 
     def start(self):
-        """Starts the server, unless it still runs, and waits until it answers."""
-        process = getattr(self, "_process", None)
-        if process is None or process.poll() is not None:
-            process = subprocess.Popen(
-                self._command, stdout=self._log, stderr=self._log, cwd=self._folder, **self._options
-            )
-        self._process = process
+        """Starts the server, unless it runs, and waits until it answers; also if it was about to end."""
         ready = [_program("pg_isready"), "-q", "-h", self._folder, "-U", "bts"]
-        _await(lambda: _answers(ready), process)
+        deadline = time.monotonic() + TIMEOUT_S
+        while not self._runs() or not _answers(ready):
+            assert time.monotonic() < deadline, (self._folder / "log").read_text()[-2000:]
+            if not self._runs():
+                self._process = subprocess.Popen(
+                    self._command, stdout=self._log, stderr=self._log, cwd=self._folder, **self._options
+                )
+            time.sleep(0.05)
+
+    def _runs(self):
+        return self._process is not None and self._process.poll() is None
 
     def end(self):
         self._process.terminate()  # "smart": waits for clients; the second signal does not

@@ -123,7 +123,7 @@ export function contactOf({ raw }: Robot, field: Contact, link: string): number 
 }
 
 export function setContact(robot: Robot, field: Contact, link: string, value: number): RobotEdit {
-  if (contactOf(robot, field, link) === value) return NOTHING;
+  if (!robot.urdf.links.has(link) || contactOf(robot, field, link) === value) return NOTHING;
   return isObject(robot.raw[field])
     ? setValue(robot, [field, link], value)
     : { ops: [{ kind: 'set', path: [field], value: { [link]: rounded(value) } }] };

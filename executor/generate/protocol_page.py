@@ -140,7 +140,13 @@ def _struct(title: str, kind: type[Struct]) -> Iterator[str]:
 
 def _type_name(kind: Any) -> str:
     text = inspect.formatannotation(kind)
-    for noise in ("executor.messages.", "executor.stream_messages.", "typing.", "msgspec."):
+    for noise in (
+        "executor.messages.",
+        "executor.command_messages.",
+        "executor.stream_messages.",
+        "typing.",
+        "msgspec.",
+    ):
         text = text.replace(noise, "")
     return f"`{text}`".replace("|", "\\|")
 

@@ -9,14 +9,19 @@ from __future__ import annotations
 import argparse
 import inspect
 from pathlib import Path
-from typing import Final, Literal, get_args, get_origin
+from typing import TYPE_CHECKING, Final, Literal, get_args, get_origin
 
 import msgspec
 from msgspec import inspect as types
 
-from executor import messages, stream_messages
+from executor import command_messages, messages, stream_messages
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 TARGET: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "messages.ts"
+
+_MODULES: Final = (command_messages, messages, stream_messages)
 
 _HEADER: Final = """// Generated from executor/messages.py by `python -m executor.generate.typescript`.
 // Do not edit.
@@ -37,7 +42,7 @@ _SCALARS: Final[dict[type[types.Type], str]] = {
 def generate() -> str:
     """Returns the text of the TypeScript module."""
     parts = [_HEADER, f'export const PROTOCOL = "{messages.PROTOCOL}";\n']
-    parts += [_literal(name, value) for name, value in vars(messages).items() if _is_literal(value)]
+    parts += [_literal(name, value) for name, value in _literals().items()]
     parts += [_interface(struct) for struct in _structs()]
     parts.append(_map("Commands", messages.COMMANDS))
     parts.append(_map("Events", messages.EVENTS))
@@ -47,19 +52,23 @@ def generate() -> str:
 
 
 def _structs() -> list[type[msgspec.Struct]]:
-    """The message types in the order of the module."""
-    found = [v for v in vars(messages).values() if inspect.isclass(v) and issubclass(v, msgspec.Struct)]
-    own = {messages.__name__, stream_messages.__name__}
-    return [struct for struct in found if struct.__module__ in own]
+    """The message types in the order of their modules."""
+    return [v for module in _MODULES for v in vars(module).values() if _is_struct_of(module, v)]
+
+
+def _is_struct_of(module: ModuleType, value: object) -> bool:
+    return (
+        inspect.isclass(value) and issubclass(value, msgspec.Struct) and value.__module__ == module.__name__
+    )
 
 
 def _is_literal(value: object) -> bool:
     return get_origin(value) is Literal
 
 
-def _literals() -> dict[frozenset[object], str]:
-    """Named literal types by their values, so that fields refer to the name."""
-    return {frozenset(get_args(v)): name for name, v in vars(messages).items() if _is_literal(v)}
+def _literals() -> dict[str, object]:
+    """The named literal types; those of commands are named again in `messages`."""
+    return {name: v for module in _MODULES for name, v in vars(module).items() if _is_literal(v)}
 
 
 def _literal(name: str, value: object) -> str:
@@ -119,8 +128,8 @@ def _type(kind: types.Type) -> str:
         return scalar
     match kind:
         case types.LiteralType(values=values):
-            named = _literals().get(frozenset(values))
-            return named or " | ".join(f'"{value}"' for value in values)
+            named = [name for name, value in _literals().items() if set(get_args(value)) == set(values)]
+            return named[0] if named else " | ".join(f'"{value}"' for value in values)
         case types.StructType(cls=struct):
             return struct.__name__
         case types.UnionType(types=options):

@@ -112,7 +112,8 @@ class BulletWorld:
 
     @property
     def scene(self) -> Scene:
-        """What there is to see."""
+        """What there is to see, and where it is now."""
+        self._objects.tell(self.poses())
         self._scene.t = self.time_s
         return self._scene
 
@@ -301,9 +302,6 @@ class BulletWorld:
             actor.add_to_scene(self._objects)
         for robot in self._content.robots:
             robot.add_to_scene(self._objects, sensors)
-        poses = self._objects.update()
-        for scene_object, pose in zip(self._objects.objects, poses, strict=True):
-            scene_object.pose = [float(value) for value in pose]
         universe = self._universe
         return Scene(
             name=universe.name,

@@ -43,6 +43,11 @@ class SceneObjects:
             self._poses = self._poses.copy()  # who got the last array keeps it as it was
             self._poses[object_id] = pose
 
+    def tell(self, poses: NDArray[np.float32]) -> None:
+        """Writes the poses into the objects themselves, which a scene shows."""
+        for scene_object, pose in zip(self.objects, poses.tolist(), strict=True):
+            scene_object.pose = pose
+
     def update(self) -> NDArray[np.float32]:
         """Asks all that moves, and returns the poses of all objects in a new array."""
         if len(self._poses) != len(self.objects):

@@ -45,17 +45,22 @@ TEMPLATE = "laser_bump_and_go"
 
 def main() -> None:
     """Prints every figure."""
+    with served_browser() as (browser, client):
+        for size in SIZES:
+            handling(browser, client, size)
+        live(browser, client)
+
+
+@contextmanager
+def served_browser() -> Iterator[tuple[Browser, Client]]:
+    """Starts a server with no projects, a client of it and Chromium."""
     with (
         tempfile.TemporaryDirectory() as folder,
         serving(Path(folder)) as server,
         sync_playwright() as started,
+        started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL]) as browser,
     ):
-        client = Client(server)
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL])
-        for size in SIZES:
-            handling(browser, client, size)
-        live(browser, client)
-        browser.close()
+        yield browser, Client(server)
 
 
 def wide_tree(count: int) -> dict[str, Any]:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import argparse
 import statistics
-import tempfile
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from playwright.sync_api import sync_playwright
-
-from tests.benchmarks.browser import LIVE_BLOCKS, busy_tree, new_project, open_project, page_of, see_all
-from tests.benchmarks.session import Client
-from tests.e2e.conftest import CHROMIUM, QUIET, SOFTWARE_WEBGL
-from tests.e2e.server import serving
+from tests.benchmarks.browser import (
+    LIVE_BLOCKS,
+    busy_tree,
+    new_project,
+    open_project,
+    page_of,
+    see_all,
+    served_browser,
+)
 
 if TYPE_CHECKING:
     from playwright.sync_api import CDPSession, Page
@@ -29,13 +30,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=10.0)
     minutes = parser.parse_args().minutes
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        serving(Path(folder)) as server,
-        sync_playwright() as started,
-    ):
-        client = Client(server)
-        browser = started.chromium.launch(executable_path=CHROMIUM, args=[*QUIET, *SOFTWARE_WEBGL])
+    with served_browser() as (browser, client):
         project = new_project(client, busy_tree(LIVE_BLOCKS // 5))
         with page_of(browser, client) as page:
             open_project(page, client, project)
@@ -45,7 +40,6 @@ def main() -> None:
             slope_of(looks(page, minutes))
             page.get_by_test_id("end-session").click()
             page.wait_for_timeout(2000)
-        browser.close()
 
 
 def looks(page: Page, minutes: float) -> list[tuple[float, float]]:

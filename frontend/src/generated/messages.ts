@@ -3,13 +3,17 @@
 
 export const PROTOCOL = "bt-studio.v1";
 
+export type StreamName = "poses" | "scan" | "camera" | "view";
+
+export type OnFinish = "stop" | "repeat";
+
+export type OnError = "stop" | "failure";
+
 export type State = "idle" | "connected" | "universe_ready" | "visualization_ready" | "application_running" | "paused";
 
 export type Rung = "connect" | "launch_universe" | "prepare_visualization" | "run_application";
 
 export type NodeStatus = "IDLE" | "RUNNING" | "SUCCESS" | "FAILURE" | "SKIPPED";
-
-export type StreamName = "poses" | "scan" | "camera" | "view";
 
 export type LogSource = "action" | "world" | "manager" | "launch";
 
@@ -19,138 +23,7 @@ export type Role = "driver" | "viewer";
 
 export type LaunchState = "running" | "ended" | "failed";
 
-export type OnFinish = "stop" | "repeat";
-
-export type OnError = "stop" | "failure";
-
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
-
-/** One image of a robot's camera, or of the server's view of the world (`view`). */
-export interface Camera {
-  type: "camera";
-  t: number;
-  sensor: string;
-  width: number;
-  height: number;
-  jpeg: Uint8Array;
-}
-
-/** A directional light; the direction is the one in which it shines. */
-export interface Light {
-  direction: number[];
-  intensity: number;
-}
-
-/**
- * Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
- *
- * Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
- */
-export interface Mesh {
-  positions: Uint8Array;
-  normals: Uint8Array;
-  indices: Uint8Array;
-  uvs?: Uint8Array;
-}
-
-/**
- * Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
- *
- * Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 says which of qx, qy, qz, qw is left out (the
- * largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)). Little-endian.
- */
-export interface Poses {
-  type: "poses";
-  t: number;
-  ids: Uint8Array;
-  poses: Uint8Array;
-}
-
-/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
-export interface Scan {
-  type: "scan";
-  t: number;
-  sensor: string;
-  pose: number[];
-  angle_min: number;
-  angle_increment: number;
-  range_max: number;
-  ranges: Uint8Array;
-}
-
-/** The world, once for each client and again when it changes. */
-export interface Scene {
-  type: "scene";
-  name: string;
-  t: number;
-  objects: SceneObject[];
-  meshes: Record<string, Mesh>;
-  lights: Light[];
-  ground_color: number[];
-  sensors: SensorPlacement[];
-  textures?: Record<string, Texture>;
-  ground_texture?: string;
-}
-
-/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
-export interface SceneObject {
-  id: number;
-  body: string;
-  link: string;
-  kind: "actor" | "dynamic" | "robot" | "static";
-  shapes: Shape[];
-  pose: number[];
-}
-
-/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
-export interface SensorPlacement {
-  name: string;
-  kind: "camera" | "lidar";
-  object_id: number;
-  pose: number[];
-  fov: number;
-  range: number;
-}
-
-/**
- * A visual shape in its object's frame.
- *
- * Args:
- *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
- *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
- *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
- *     color: [r, g, b, a], each 0 to 1, sRGB.
- *     mesh: key in `Scene.meshes` for a mesh, else "".
- *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
- */
-export interface Shape {
-  shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
-  size: number[];
-  pose: number[];
-  color: number[];
-  mesh?: string;
-  texture?: string;
-}
-
-/**
- * A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
- *
- * It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
- * whatever the size.
- */
-export interface Texture {
-  jpeg: Uint8Array;
-  tile: number[];
-}
-
-/** The world as the server draws it. */
-export interface View {
-  type: "view";
-  t: number;
-  width: number;
-  height: number;
-  jpeg: Uint8Array;
-}
 
 /** A command without arguments. */
 export type Empty = Record<string, never>;
@@ -488,6 +361,133 @@ export interface ServerMessage {
   seq: number;
   t: number;
   tick?: number;
+}
+
+/**
+ * A visual shape in its object's frame.
+ *
+ * Args:
+ *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+ *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
+ *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
+ *     color: [r, g, b, a], each 0 to 1, sRGB.
+ *     mesh: key in `Scene.meshes` for a mesh, else "".
+ *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
+ */
+export interface Shape {
+  shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
+  size: number[];
+  pose: number[];
+  color: number[];
+  mesh?: string;
+  texture?: string;
+}
+
+/** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */
+export interface SceneObject {
+  id: number;
+  body: string;
+  link: string;
+  kind: "actor" | "dynamic" | "robot" | "static";
+  shapes: Shape[];
+  pose: number[];
+}
+
+/**
+ * Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
+ *
+ * Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
+ */
+export interface Mesh {
+  positions: Uint8Array;
+  normals: Uint8Array;
+  indices: Uint8Array;
+  uvs?: Uint8Array;
+}
+
+/**
+ * A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
+ *
+ * It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
+ * whatever the size.
+ */
+export interface Texture {
+  jpeg: Uint8Array;
+  tile: number[];
+}
+
+/** A directional light; the direction is the one in which it shines. */
+export interface Light {
+  direction: number[];
+  intensity: number;
+}
+
+/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
+export interface SensorPlacement {
+  name: string;
+  kind: "camera" | "lidar";
+  object_id: number;
+  pose: number[];
+  fov: number;
+  range: number;
+}
+
+/** The world, once for each client and again when it changes. */
+export interface Scene {
+  type: "scene";
+  name: string;
+  t: number;
+  objects: SceneObject[];
+  meshes: Record<string, Mesh>;
+  lights: Light[];
+  ground_color: number[];
+  sensors: SensorPlacement[];
+  textures?: Record<string, Texture>;
+  ground_texture?: string;
+}
+
+/**
+ * Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
+ *
+ * Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 says which of qx, qy, qz, qw is left out (the
+ * largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)). Little-endian.
+ */
+export interface Poses {
+  type: "poses";
+  t: number;
+  ids: Uint8Array;
+  poses: Uint8Array;
+}
+
+/** One LIDAR scan: ranges float32 in m, counter-clockwise; pose of the sensor in the world. */
+export interface Scan {
+  type: "scan";
+  t: number;
+  sensor: string;
+  pose: number[];
+  angle_min: number;
+  angle_increment: number;
+  range_max: number;
+  ranges: Uint8Array;
+}
+
+/** One image of a robot's camera, or of the server's view of the world (`view`). */
+export interface Camera {
+  type: "camera";
+  t: number;
+  sensor: string;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
+}
+
+/** The world as the server draws it. */
+export interface View {
+  type: "view";
+  t: number;
+  width: number;
+  height: number;
+  jpeg: Uint8Array;
 }
 
 /** Payload by `command`. */

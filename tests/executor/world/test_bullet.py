@@ -167,6 +167,18 @@ def test_the_scene_lists_everything_in_the_order_of_its_poses(make_world: "MakeW
     assert all(len(o.pose) == 7 for o in scene.objects)
 
 
+def test_the_scene_shows_where_things_are_now(make_world: "MakeWorld") -> None:
+    """Who joins late must not see the robot jump from its start."""
+    world = make_world("empty")
+    begun = {o.id: o.pose for o in world.scene.objects}
+    drive(world, 0.4, 0.0, 1.0)
+    scene = world.scene
+    assert scene.t == pytest.approx(1.0, abs=0.01)
+    assert [o.pose for o in scene.objects] == world.poses().tolist()
+    base = next(o for o in scene.objects if o.link == "base_link")
+    assert base.pose[0] - begun[base.id][0] > 0.1
+
+
 def test_a_saved_robot_with_noisy_odometry_goes_on_exactly(make_world: "MakeWorld") -> None:
     world = make_world("robots: [{id: robot, model: burger}]\n", seed=3)
     drive(world, 0.2, 0.4, 1.0)

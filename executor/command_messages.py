@@ -1,0 +1,188 @@
+"""What a client may ask on the control socket: a part of the protocol in `executor.messages`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Final, Literal
+
+import msgspec
+from msgspec import Meta, Struct
+
+StreamName = Literal["poses", "scan", "camera", "view"]
+OnFinish = Literal["stop", "repeat"]
+OnError = Literal["stop", "failure"]
+TickRate = Annotated[float, Meta(gt=0, le=1000)]
+Speed = Annotated[float, Meta(ge=0, le=10)]
+StreamRate = Annotated[float, Meta(gt=0, le=120)]
+StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
+DomainId = Annotated[int, Meta(ge=0, le=232)]
+Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
+
+
+class Empty(Struct, forbid_unknown_fields=True):
+    """A command without arguments."""
+
+
+class UniverseDocument(Struct, forbid_unknown_fields=True):
+    """A universe of the project: its YAML text and the assets that it names."""
+
+    document: str
+    assets_zip_base64: str = ""
+
+
+class LaunchUniverse(Struct, forbid_unknown_fields=True):
+    """Starts world and robots, paused. `universe` is a built-in id or a document.
+
+    `none` starts no world: the application runs against an outside ROS graph of this machine, in the domain
+    `domain_id`; null is the `ROS_DOMAIN_ID` with which the server was started.
+    """
+
+    universe: str | UniverseDocument
+    robot: str | None = None
+    seed: int = 0
+    speed: Speed = 1.0
+    domain_id: DomainId | None = None
+
+
+class RunApplication(Struct, forbid_unknown_fields=True):
+    """(Re)starts the application from an app zip and un-pauses the world."""
+
+    app_zip_base64: str
+    tick_hz: TickRate = 20.0
+    on_finish: OnFinish = "stop"
+    on_error: OnError = "stop"
+
+
+class Run(Struct, forbid_unknown_fields=True):
+    """Climbs all missing rungs of the ladder up to `application_running`."""
+
+    universe: LaunchUniverse
+    application: RunApplication
+
+
+class SetTickRate(Struct, forbid_unknown_fields=True):
+    """Ticks a second of simulated time, from the next tick on."""
+
+    tick_hz: TickRate
+
+
+class SetSpeed(Struct, forbid_unknown_fields=True):
+    """Simulated seconds a second of real time, 0.1 to 10; 0 runs as fast as the machine can."""
+
+    speed: Speed
+
+
+class SetBlackboard(Struct, forbid_unknown_fields=True):
+    """Writes an entry; `scope` is the path of a subtree, "" the root. Only while paused."""
+
+    scope: str
+    key: str
+    value: Any
+
+
+class Teleop(Struct, forbid_unknown_fields=True):
+    """Drives the robot by hand: linear x in m/s, angular z in rad/s."""
+
+    linear: Velocity
+    angular: Velocity
+
+
+class MoveBody(Struct, forbid_unknown_fields=True):
+    """Puts a body somewhere: pose [x, y, z, roll, pitch, yaw] in m and rad. Only while paused."""
+
+    id: str
+    pose: tuple[float, float, float, float, float, float]
+
+
+class CameraPose(Struct, forbid_unknown_fields=True):
+    """Where the server's own view looks from: eye and target in m, world frame."""
+
+    eye: tuple[float, float, float]
+    target: tuple[float, float, float]
+
+
+class Subscribe(Struct, forbid_unknown_fields=True):
+    """Asks for a stream on this client's stream socket; again with other values changes them."""
+
+    stream: StreamName
+    max_hz: StreamRate = 30.0
+    width: StreamWidth | None = None
+    camera_pose: CameraPose | None = None
+
+
+class Unsubscribe(Struct, forbid_unknown_fields=True):
+    """Ends a stream."""
+
+    stream: StreamName
+
+
+class EchoTopic(Struct, forbid_unknown_fields=True):
+    """Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
+
+    Where several clients echo a topic, all get it at the highest rate that one of them asked for.
+    """
+
+    topic: str
+    max_hz: Annotated[float, Meta(ge=0, le=120)] = 10.0
+
+
+class PublishTopic(Struct, forbid_unknown_fields=True):
+    """Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`).
+
+    Fields that are left out keep their default. `"inf"`, `"-inf"` and `"nan"` stand
+    for the numbers that JSON has not.
+    """
+
+    topic: str
+    type: str
+    message: dict[str, Any]
+
+
+class DescribeType(Struct, forbid_unknown_fields=True):
+    """Asks for the fields of a message type; the answer is a `type_description` to this client alone."""
+
+    type: str
+
+
+class RestartNode(Struct, forbid_unknown_fields=True):
+    """Starts an extra node of the project's launch files again; `id` as in `launch_nodes`."""
+
+    id: str
+
+
+COMMANDS: Final[dict[str, type[Struct]]] = {
+    "connect": Empty,
+    "launch_universe": LaunchUniverse,
+    "prepare_visualization": Empty,
+    "run_application": RunApplication,
+    "run": Run,
+    "pause": Empty,
+    "resume": Empty,
+    "step": Empty,
+    "cancel": Empty,
+    "set_tick_rate": SetTickRate,
+    "set_speed": SetSpeed,
+    "restart_application": Empty,
+    "reset_world": Empty,
+    "terminate_application": Empty,
+    "terminate_visualization": Empty,
+    "terminate_universe": Empty,
+    "disconnect": Empty,
+    "set_blackboard": SetBlackboard,
+    "teleop": Teleop,
+    "move_body": MoveBody,
+    "subscribe": Subscribe,
+    "unsubscribe": Unsubscribe,
+    "list_topics": Empty,
+    "echo_topic": EchoTopic,
+    "publish_topic": PublishTopic,
+    "describe_type": DescribeType,
+    "restart_node": RestartNode,
+}
+
+
+class ClientMessage(Struct):
+    """The envelope of a command; `data` is decoded as `COMMANDS[command]`."""
+
+    id: str
+    command: str
+    data: msgspec.Raw = msgspec.Raw(b"null")

@@ -15,6 +15,7 @@ Speed = Annotated[float, Meta(ge=0, le=10)]
 StreamRate = Annotated[float, Meta(gt=0, le=120)]
 StreamWidth = Annotated[int, Meta(ge=64, le=1920)]
 DomainId = Annotated[int, Meta(ge=0, le=232)]
+FileName = Annotated[str, Meta(min_length=1, max_length=255)]
 Velocity = Annotated[float, Meta(ge=-1000, le=1000)]
 
 
@@ -23,10 +24,11 @@ class Empty(Struct, forbid_unknown_fields=True):
 
 
 class UniverseDocument(Struct, forbid_unknown_fields=True):
-    """A universe of the project: its YAML text and the assets that it names."""
+    """A universe of the project: its YAML text and the assets that it names; errors name `file`."""
 
     document: str
     assets_zip_base64: str = ""
+    file: FileName = "universe.yaml"
 
 
 class LaunchUniverse(Struct, forbid_unknown_fields=True):

@@ -173,7 +173,8 @@ def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
     """
     from backend.projects.archive import pack  # noqa: PLC0415 - it imports this module
 
-    document = files.get(f"universes/{name}.yaml")
+    path = f"universes/{name}.yaml"
+    document = files.get(path)
     if document is None and any(_OWN_ROBOT.fullmatch(path) for path in files):
         built_in = {path.stem: path for path in _UNIVERSES.glob("*.yaml")}.get(name)
         document = built_in.read_bytes() if built_in else None
@@ -182,9 +183,10 @@ def universe(files: Mapping[str, bytes], name: str) -> str | dict[str, str]:
     try:
         text = document.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise InvalidInputError(f"universes/{name}.yaml is not UTF-8 text.", field="universe") from error
+        raise InvalidInputError(f"{path} is not UTF-8 text.", field="universe") from error
     assets = {p: data for p, data in files.items() if p.startswith(("assets/", "robots/", "universes/"))}
-    return {"document": text, "assets_zip_base64": base64.b64encode(pack(assets)).decode("ascii")}
+    packed = base64.b64encode(pack(assets)).decode("ascii")
+    return {"document": text, "assets_zip_base64": packed, "file": path}
 
 
 def inspect(source: str, filename: str) -> dict[str, Any]:

@@ -421,8 +421,12 @@ class AppSerializer(serializers.Serializer[Any]):
                 {"type": "string"},
                 {
                     "type": "object",
-                    "properties": {"document": {"type": "string"}, "assets_zip_base64": {"type": "string"}},
-                    "required": ["document", "assets_zip_base64"],
+                    "properties": {
+                        "document": {"type": "string"},
+                        "assets_zip_base64": {"type": "string"},
+                        "file": {"type": "string", "description": "What errors call the document."},
+                    },
+                    "required": ["document", "assets_zip_base64", "file"],
                 },
             ]
         }

@@ -261,13 +261,15 @@ def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:
 def _run_data(project: Project, app_zip: bytes, options: HeadlessOptions) -> dict[str, Any]:
     settings = project.settings
     name = options.universe or settings.universe
-    own = project.files.get(f"universes/{name}.yaml")
+    path = f"universes/{name}.yaml"
+    own = project.files.get(path)
     universe: Any = name
     assets = {path: data for path, data in project.files.items() if path.startswith(("assets/", "robots/"))}
     if own is None and assets and name in BUILTIN_IDS:
         own = builtin_path(name).read_bytes()  # with the project's robots at hand
     if own is not None:
-        universe = {"document": own.decode(), "assets_zip_base64": _zip_base64(assets) if assets else ""}
+        packed = _zip_base64(assets) if assets else ""
+        universe = {"document": own.decode(), "assets_zip_base64": packed, "file": path}
     return {
         "universe": {"universe": universe, "robot": options.robot or settings.robot, "seed": options.seed},
         "application": {

@@ -149,13 +149,14 @@ class _Run:
         from executor.world.launch import make_world  # noqa: PLC0415 - slow to load
 
         universe = self._options.universe or project.settings.universe
-        own = project.files.get(f"universes/{universe}.yaml")
+        file = f"universes/{universe}.yaml"
+        own = project.files.get(file)
         robot = self._options.robot or project.settings.robot
         text = own.decode("utf-8") if own is not None else universe
         scratch = Scratch()
         self._stack.append(scratch.remove)
         _write_assets(project, scratch.path)
-        return make_world(text, seed=self._options.seed, robot=robot, assets=scratch.path)
+        return make_world(text, seed=self._options.seed, robot=robot, assets=scratch.path, file=file)
 
     def _join_ros(self) -> None:
         import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded

@@ -117,11 +117,12 @@ def _launch_universe(session: Session, data: Struct) -> Step:
     _progress(session, "launch_universe", 0.0, "Starting the simulated world")
     session.run.universe = data
     _aim(session, data)
-    universe, assets = data.universe, ""
+    universe, assets, file = data.universe, "", ""
     if isinstance(universe, messages.UniverseDocument):
         if universe.assets_zip_base64:
             unpacked = yield _unpacking(session, universe.assets_zip_base64)
             assets = _folder_of(unpacked, "assets")
+        file = universe.file
         universe = universe.document
     world = session.child("world")
     world.is_started = True
@@ -129,6 +130,7 @@ def _launch_universe(session: Session, data: Struct) -> Step:
         "world",
         "start",
         universe=universe,
+        file=file,
         assets=assets,
         robot=data.robot,
         seed=data.seed,

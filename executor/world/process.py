@@ -183,7 +183,11 @@ class WorldProcess:
         self._progress(0.2, "Building the world")
         assets = Path(message["assets"]) if message.get("assets") else None
         world = make_world(
-            message["universe"], seed=int(message.get("seed") or 0), robot=message.get("robot"), assets=assets
+            message["universe"],
+            seed=int(message.get("seed") or 0),
+            robot=message.get("robot"),
+            assets=assets,
+            file=message.get("file") or "",
         )
         self._close.append(world.close)
         renderer = self._renderer

@@ -183,8 +183,8 @@ def the_tree_is_changed_by_hand(studio: Studio) -> None:
     for _ in range(6):
         page.get_by_role("button", name="Zoom out").click()
     expect(studio.at("canvas")).to_have_attribute("data-far", "true")
-    for _ in range(6):
-        page.get_by_role("button", name="Zoom in").click()
+    studio.at("canvas").focus()
+    keys.press("Shift+Digit1")
     expect(studio.at("canvas")).not_to_have_attribute("data-far", "true")
     studio.saved()
 
@@ -235,7 +235,7 @@ def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
 
 
 def menu_and_keys(studio: Studio, whole: list[str]) -> None:
-    """Wrap, disable, comment, cut and paste; a piece becomes a tree and comes back."""
+    """Wrap, disable, comment, cut and paste; a piece becomes a tree, is looked into, and comes back."""
     keys = studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
@@ -261,6 +261,11 @@ def menu_and_keys(studio: Studio, whole: list[str]) -> None:
     block(studio, "ReactiveFallback").click(button="right")
     studio.page.get_by_role("menuitem", name="Extract").click()
     call = block(studio, "SubTree")
+    expect(block(studio, "Turn")).to_have_count(0)
+    call.click()
+    keys.press("Space")
+    expect(block(studio, "Turn")).to_be_visible()
+    keys.press("Space")
     expect(block(studio, "Turn")).to_have_count(0)
     call.click(button="right")
     studio.page.get_by_role("menuitem", name="Inline").click()

@@ -150,7 +150,7 @@ export interface AppBundle {
   tick_hz: number;
   on_finish: OnFinish;
   on_error: OnError;
-  universe: string | { document: string; assets_zip_base64: string };
+  universe: string | { document: string; assets_zip_base64: string; file: string };
   robot: string | null;
 }
 

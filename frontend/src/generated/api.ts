@@ -944,6 +944,8 @@ export interface components {
             readonly universe: string | {
                 document: string;
                 assets_zip_base64: string;
+                /** @description What errors call the document. */
+                file: string;
             };
             robot: string | null;
         };

@@ -28,10 +28,11 @@ export type FinishReason = "root_finished" | "action_raised" | "terminated" | "p
 /** A command without arguments. */
 export type Empty = Record<string, never>;
 
-/** A universe of the project: its YAML text and the assets that it names. */
+/** A universe of the project: its YAML text and the assets that it names; errors name `file`. */
 export interface UniverseDocument {
   document: string;
   assets_zip_base64?: string;
+  file?: string;
 }
 
 /**

@@ -268,6 +268,7 @@ def test_a_universe_of_the_project_goes_along(api):
     api.save(pid, file("universes/walled_room.yaml", 0, "name: mine\n"), file("assets/x.obj", 0, "o"))
     universe = api.get(f"projects/{pid}/app")["universe"]
     assert universe["document"] == "name: mine\n"
+    assert universe["file"] == "universes/walled_room.yaml"
     assert universe["assets_zip_base64"]
     assert api.get(f"projects/{pid}/app?universe=house")["universe"] == "house"
 

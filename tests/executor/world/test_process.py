@@ -153,9 +153,10 @@ def test_what_makes_no_sense_is_refused_and_the_world_goes_on(remote: Remote) ->
 
 def test_a_document_that_is_wrong_is_refused_with_its_line() -> None:
     remote = Remote()
-    remote.start("format: bt-studio/universe\nversion: 1\nname: x\nmodels: [{id: a}]\n")
+    document = "format: bt-studio/universe\nversion: 1\nname: x\nmodels: [{id: a}]\n"
+    remote.start(document, file="universes/mine.yaml")
     refusal = remote.hear("error")
-    assert "universe.yaml:4:" in refusal["message"]
+    assert "universes/mine.yaml:4:" in refusal["message"]
     remote.tell("stop")
     assert remote.process.wait(30) == 0
     remote.close()

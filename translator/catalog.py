@@ -81,5 +81,11 @@ def _port_model(row: dict[str, Any]) -> PortModel:
 
 def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str:
     """Returns the sentence that offers the nearest known name, or `otherwise`."""
-    near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
-    return f"Did you mean {near[0]}?" if near else otherwise
+    near = nearest(name, known)
+    return f"Did you mean {near}?" if near else otherwise
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """Returns the known name that is most like this one, or an empty text."""
+    found = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
+    return found[0] if found else ""

@@ -7,11 +7,14 @@ and serves the front end. A diagnostic always has a place: a file, and in it a n
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 TABLE_PATH = Path(__file__).with_name("diagnostics.json")
 
@@ -49,13 +52,18 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One finding. `str()` gives the line that the command line prints."""
+    """One finding. `str()` gives the line that the command line prints.
+
+    `values` is what message and hint were filled with: who tells it in another language needs the code
+    and these.
+    """
 
     code: str
     severity: Severity
     message: str
     hint: str
     place: Place
+    values: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     @property
     def is_error(self) -> bool:
@@ -70,6 +78,7 @@ class Diagnostic:
             "severity": self.severity.value,
             "message": self.message,
             "hint": self.hint,
+            "values": dict(self.values),
             "tree": place.tree,
             "node": place.node,
             "port": place.port,
@@ -109,7 +118,12 @@ def diagnostic(code: str, place: Place, **values: object) -> Diagnostic:
     """Makes a diagnostic from the table, its message and hint filled with `values`."""
     rule = rules()[code]
     return Diagnostic(
-        code, rule.severity, rule.message.format(**values), rule.hint.format(**values).strip(), place
+        code,
+        rule.severity,
+        rule.message.format(**values),
+        rule.hint.format(**values).strip(),
+        place,
+        {name: str(value) for name, value in values.items()},
     )
 
 

@@ -79,6 +79,7 @@ class DiagnosticSerializer(serializers.Serializer[Any]):
     severity = serializers.ChoiceField(choices=["error", "warning", "note"])
     message = serializers.CharField()
     hint = serializers.CharField()
+    values = serializers.DictField(child=serializers.CharField())
     tree = serializers.CharField()
     node = serializers.CharField()
     port = serializers.CharField()

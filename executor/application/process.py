@@ -139,12 +139,19 @@ class Application:
 
     def _set_blackboard(self, message: dict[str, Any]) -> str:
         assert self._runner is not None  # noqa: S101 - dito
+        from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
+
         tree, scope = self._runner.tree, str(message["scope"])
         try:
             board = tree.blackboard.scope(scope) if scope else tree.blackboard
-            board[str(message["key"])] = message["value"]
+            key, value = str(message["key"]), message["value"]
+            # JSON has one kind of number: 1 written over 0.5 is still a double.
+            is_double = isinstance(board.get(key), float) and type(value) is int
+            board[key] = float(value) if is_double else value
         except KeyError:
             return f"There is no subtree {scope!r}."
+        except PortError as error:
+            return f"The {error}."
         except Exception as error:
             return f"{type(error).__name__}: {error}"
         self._reporter.written(tree, scope, str(message["key"]))

@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 UNIVERSE = "warehouse"
 WATCHED_S = 10.0
 SESSIONS = (1, 6, 10)
-SETTLED_S = 20.0
+SETTLED_S = 40.0
+SIDE_BY_SIDE_S = 20.0
 TURNS = 12
 IDLE = """
 import py_trees
@@ -131,7 +132,7 @@ async def side_by_side(count: int) -> None:
         await asyncio.sleep(SETTLED_S)
         before = [client.events[-1]["t"] for _, client in sessions]
         began_s = time.monotonic()
-        await asyncio.sleep(WATCHED_S)
+        await asyncio.sleep(SIDE_BY_SIDE_S)
         passed_s = time.monotonic() - began_s
         factors = [
             (client.events[-1]["t"] - t) / passed_s for (_, client), t in zip(sessions, before, strict=True)

@@ -118,6 +118,20 @@ CASES = {
 }
 
 
+def test_who_tells_a_finding_in_another_language_gets_what_its_words_are_filled_with(make_project):
+    nodes = {
+        "n1": {"type": "Sequence", "children": ["a", "b"]},
+        "a": {"type": "Act", "ports": {"result": "{speed}"}},
+        "b": {"type": "Act", "ports": {"speed": "{spead}"}},
+    }
+    found = find(make_project(nodes), "BT0401").to_json()
+    assert found["values"]["key"] == "spead"
+    assert found["values"]["near"] == "speed"
+    rule = rules()["BT0401"]
+    assert found["message"] == rule.message.format(**found["values"])
+    assert found["hint"] == rule.hint.format(**found["values"])
+
+
 @pytest.mark.parametrize("name", CASES)
 def test_finding_and_its_place(make_project, name):
     code, nodes, node = CASES[name]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from translator.catalog import did_you_mean
+from translator.catalog import did_you_mean, nearest
 from translator.check.script import scripts_of
 from translator.script_names import script_names
 from translator.tree import Node, Tree, pointer
@@ -136,7 +136,8 @@ def _report_main(
     for key, use in own.read.items():
         if use.port and key not in own.written and key not in global_writes:
             suggestion = did_you_mean(key, own.written)
-            context.report("BT0401", main, use.node, use.port, key=key, port=use.port, suggestion=suggestion)
+            said = {"key": key, "port": use.port, "near": nearest(key, own.written)}
+            context.report("BT0401", main, use.node, use.port, suggestion=suggestion, **said)
     for key, use in own.written.items():
         if use.port and key not in own.read and f"@{key}" not in global_reads:
             context.report("BT0402", main, use.node, use.port, key=key, port=use.port)

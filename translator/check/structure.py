@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from translator.catalog import NodeModel, did_you_mean
+from translator.catalog import NodeModel, did_you_mean, nearest
 from translator.diagnostic import Place, diagnostic
 from translator.settings import NO_UNIVERSE, PROJECT_FILE
 from translator.text import bad_character, is_valid_id
@@ -44,7 +44,8 @@ def _check_main(context: Context) -> None:
     if main not in project.trees:
         hint = did_you_mean(main, project.trees, otherwise="Choose the main tree in the project's settings.")
         place = Place(PROJECT_FILE, line=1)
-        context.found.append(diagnostic("BT0100", place, main=main, suggestion=hint))
+        near = nearest(main, project.trees)
+        context.found.append(diagnostic("BT0100", place, main=main, suggestion=hint, near=near))
         return
     for tree_id, tree in project.trees.items():
         if tree_id not in context.reachable and tree.root is not None:

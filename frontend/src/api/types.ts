@@ -9,6 +9,8 @@ export interface Diagnostic {
   severity: Severity;
   message: string;
   hint?: string | null;
+  /** What message and hint were filled with, for who tells them in another language. */
+  values?: Readonly<Record<string, string>>;
   tree?: string | null;
   node?: string | null;
   port?: string | null;

@@ -47,3 +47,6 @@ export function currentLanguage(): Language {
 }
 
 export const t = i18next.t.bind(i18next);
+
+/** Whether the language of the page has words for a key. */
+export const translates = (key: string): boolean => i18next.exists(key);

@@ -1,6 +1,7 @@
 import type { TFunction } from 'i18next';
 import { useTranslation } from 'react-i18next';
 import type { ShownProblem } from '@/store/project/problems';
+import { findingText } from './findingText';
 import { scriptText } from './scriptText';
 
 export interface ProblemText {
@@ -17,9 +18,9 @@ function ownText(problem: ShownProblem & { source: 'editor' }, t: TFunction<'edi
   };
 }
 
-/** The words of a finding: the editor's own are translated, the server's come as they are. */
+/** The words of a finding, of the editor's own checks or of the server's. */
 export function useProblemText(): (problem: ShownProblem) => ProblemText {
   const { t } = useTranslation('editor');
   return (problem) =>
-    problem.source === 'server' ? { message: problem.message, hint: problem.hint } : ownText(problem, t);
+    problem.source === 'server' ? findingText(problem) : ownText(problem, t);
 }

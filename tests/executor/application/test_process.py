@@ -131,7 +131,7 @@ class Act(py_trees.behaviour.Behaviour):
 """
     async with session() as client:
         tree = "<Act _bts_id='n1' count='{count}' gain='{gain}'/>"
-        tree = f"<Sequence><Script code='gain := 1'/>{tree}</Sequence>"
+        tree = f"<Sequence><Script code='gain := 1; pace := 0.5'/>{tree}</Sequence>"
         assert await client.ask("run", run_data(app(source, tree))) == "ack"
         await client.event("blackboard", lambda d: any(e["key"] == "count" for e in d["entries"]))
         assert await client.ask("pause") == "ack"
@@ -149,6 +149,12 @@ class Act(py_trees.behaviour.Behaviour):
         assert [e for e in entries if e["key"] == "count"][-1]["value"] == before + 1 + 100
         bad = await client.ask("set_blackboard", {"scope": "nowhere", "key": "gain", "value": 1})
         assert bad["code"] == "bad_data"
+        bad = await client.ask("set_blackboard", {"scope": "", "key": "count", "value": "many"})
+        assert bad["message"] == "The entry 'count' is of type int: 'many' is not an integer."
+        at = len(client.events)
+        assert await client.ask("set_blackboard", {"scope": "", "key": "pace", "value": 2}) == "ack"
+        pace = (await client.event("blackboard", after=at))["data"]["entries"][0]
+        assert (pace["type"], pace["value"]) == ("double", 2.0), "a double stays one"
         assert await client.ask("set_tick_rate", {"tick_hz": 40.0}) == "ack"
         assert await client.ask("resume") == "ack"
         await client.event("tick", lambda d: d["n"] > before + 5, after=at)

@@ -10,7 +10,7 @@ from rclpy.qos import qos_profile_sensor_data
 from sensor_msgs.msg import Image, LaserScan
 
 WANTED = int(sys.argv[1])
-LIMIT_S = 60.0
+LIMIT_S = 180.0
 
 
 class Listener(Node):

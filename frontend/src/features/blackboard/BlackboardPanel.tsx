@@ -17,7 +17,9 @@ function byScope(rows: readonly Row[]): [scope: string, rows: Row[]][] {
 export function BlackboardPanel() {
   const { t } = useTranslation('blackboard');
   const blackboard = useSessionStore((state) => state.blackboard);
-  const isPaused = useSessionStore((state) => state.executor === 'paused');
+  const isOpen = useSessionStore(
+    ({ executor, introspection }) => executor === 'paused' && introspection?.role !== 'viewer',
+  );
   const groups = useMemo(() => byScope(Object.values(blackboard)), [blackboard]);
   return (
     <ScrollArea h="100%" type="auto" data-testid="blackboard">
@@ -34,7 +36,7 @@ export function BlackboardPanel() {
           </thead>
           <tbody>
             {rows.map((row) => (
-              <BlackboardRow key={row.key} row={row} canEdit={isPaused && !row.preview} />
+              <BlackboardRow key={row.key} row={row} canEdit={isOpen && !row.preview} />
             ))}
           </tbody>
         </table>

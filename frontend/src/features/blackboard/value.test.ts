@@ -13,10 +13,31 @@ describe('values', () => {
     expect(showValue(value)).toBe(text);
   });
 
-  it('reads what was typed as the value that it stands for', () => {
-    expect(readValue('0.5', 'double')).toBe(0.5);
-    expect(readValue('5', 'str')).toBe('5');
-    expect(readValue('[1, 2]', 'list')).toEqual([1, 2]);
-    expect(readValue('not json', 'object')).toBe('not json');
+  it.each([
+    ['0.5', 'double', 0.5],
+    ['.5', 'double', 0.5],
+    ['5', 'int', 5],
+    ['-7', 'uint8', -7],
+    ['5', 'string', '5'],
+    ['false', 'bool', false],
+    ['[1, 2]', 'list', [1, 2]],
+    ['{"x": 1}', 'dict', { x: 1 }],
+    ['—', 'NoneType', null],
+    ['not json', 'Pose', 'not json'],
+  ])('reads %s of type %s as the value that it stands for', (text, type, value) => {
+    expect(readValue(text, type)).toEqual({ value });
+  });
+
+  it.each([
+    ['fast', 'double', 'number'],
+    ['', 'float', 'number'],
+    ['0,5', 'double', 'number'],
+    ['1.5', 'int', 'integer'],
+    ['9007199254740993', 'int64', 'integer'],
+    ['"a"', 'list', 'list'],
+    ['[1', 'list', 'list'],
+    ['null', 'dict', 'dict'],
+  ])('does not take %s for a %s', (text, type, wrong) => {
+    expect(readValue(text, type)).toEqual({ wrong });
   });
 });

@@ -207,7 +207,11 @@ export function BlockMenu({ point, onClose }: BlockMenuProps) {
       <Menu.Target>
         <span style={{ position: 'fixed', left: point.x, top: point.y, width: 1, height: 1 }} />
       </Menu.Target>
-      <Menu.Dropdown>
+      <Menu.Dropdown
+        onContextMenu={(event) => {
+          event.preventDefault();
+        }}
+      >
         {groups.map((group, index) => (
           <Fragment key={group[0]?.key}>
             {index > 0 && <Menu.Divider />}

@@ -21,10 +21,10 @@ import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
-import { enterInside, onCanvasKey, openBlock } from './keyboard';
+import { enterInside, isMenuKey, onCanvasKey, openBlock } from './keyboard';
 import { Overview } from './Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
-import { openQuickAdd } from './quickAdd/open';
+import { openQuickAdd, pointOf } from './quickAdd/open';
 import { SlotMark } from './SlotMark';
 import { TreeEdge } from './TreeEdge';
 import { useConnecting } from './useConnecting';
@@ -109,6 +109,11 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     [treeId],
   );
 
+  const openMenuByKeys = (): void => {
+    const [first] = useProjectStore.getState().selection;
+    setMenu({ ...pointOf(first), onBlock: first !== undefined });
+  };
+
   return (
     // The canvas is one stop of the Tab key: arrows walk inside, as in a tree widget.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
@@ -128,7 +133,14 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
           viewport.cut(chosenEdge, layout);
           setChosenEdge(null);
           event.preventDefault();
+        } else if (isMenuKey(event) && event.target === event.currentTarget) {
+          openMenuByKeys();
+          event.preventDefault();
         } else onCanvasKey(event);
+      }}
+      onContextMenu={(event) => {
+        // The browser's own answer to the same key.
+        if (event.target === event.currentTarget) event.preventDefault();
       }}
       onPointerDownCapture={(event) => {
         useProjectStore.getState().setActiveTree(treeId);

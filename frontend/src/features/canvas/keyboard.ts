@@ -105,6 +105,10 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
   }
 }
 
+/** The key of the right mouse button's menu, and what keyboards without it have. */
+export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
+  key === 'ContextMenu' || (key === 'F10' && shiftKey);
+
 /** The canvas's own keys; those with Ctrl that the whole frame has are in the table of actions. */
 export function onCanvasKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;

@@ -2,6 +2,7 @@ import type { Diagnostic as Mark } from '@codemirror/lint';
 import type { Text } from '@codemirror/state';
 import type { Diagnostic } from '@/api/types';
 import type { Fault } from '@/generated/messages';
+import { findingText } from '@/ui/findingText';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
 
@@ -24,12 +25,15 @@ export function marksFor(
 ): Mark[] {
   const found = diagnostics
     .filter((item) => item.file === path && item.line)
-    .map((item): Mark => ({
-      ...spanAt(doc, item.line ?? 1, item.column ?? 0),
-      severity: SEVERITY[item.severity],
-      message: [item.message, item.hint].filter(Boolean).join('\n'),
-      source: item.code,
-    }));
+    .map((item): Mark => {
+      const { message, hint } = findingText(item);
+      return {
+        ...spanAt(doc, item.line ?? 1, item.column ?? 0),
+        severity: SEVERITY[item.severity],
+        message: [message, hint].filter(Boolean).join('\n'),
+        source: item.code,
+      };
+    });
   const raised = faults
     .filter((fault) => fault.file === path && fault.line > 0)
     .map((fault): Mark => ({

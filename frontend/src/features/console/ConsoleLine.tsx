@@ -1,5 +1,8 @@
 import { Fragment, memo } from 'react';
-import { openFile } from '@/store/project/navigation';
+import { useTranslation } from 'react-i18next';
+import type { TreeNode } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { openFile, openTree } from '@/store/project/navigation';
 import type { LogLine } from '@/store/session/types';
 import { parseAnsi } from './ansi';
 import classes from './console.module.css';
@@ -8,17 +11,37 @@ import { findLinks } from './links';
 interface ConsoleLineProps {
   readonly line: LogLine;
   readonly files: ReadonlySet<string>;
+  /** The block that said it, if the running tree has it. */
+  readonly node: TreeNode | undefined;
 }
 
-export const ConsoleLine = memo(function ConsoleLine({ line, files }: ConsoleLineProps) {
+function showBlock({ tree_id, node_id }: TreeNode): void {
+  openTree(tree_id);
+  useProjectStore.getState().reveal(tree_id, node_id);
+}
+
+export const ConsoleLine = memo(function ConsoleLine({ line, files, node }: ConsoleLineProps) {
+  const { t } = useTranslation('console');
   // The engine numbers nodes without a name of their own: `Forward::6`.
-  const node = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
+  const name = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
+  const said = name || line.launch_node || line.source;
   return (
     <div className={classes['line']} data-level={line.level} data-source={line.source}>
       <span className={classes['time']}>{line.time.toFixed(2)}</span>
-      <span className={classes['source']} title={line.node_path || line.source}>
-        {node || line.source}
-      </span>
+      {node?.node_id ? (
+        <button
+          type="button"
+          className={classes['block']}
+          title={t('showBlock', { path: line.node_path })}
+          onClick={() => showBlock(node)}
+        >
+          {said}
+        </button>
+      ) : (
+        <span className={classes['source']} title={line.node_path || said}>
+          {said}
+        </span>
+      )}
       <span className={classes['text']}>
         {parseAnsi(line.text).map((span, index) => (
           <span key={index} data-ansi={span.styles.join(' ') || undefined}>

@@ -9,7 +9,7 @@ import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import classes from './console.module.css';
 import { ConsoleLine } from './ConsoleLine';
-import { filterLines, LEVELS, type ConsoleFilter } from './filter';
+import { filterLines, LEVELS, useConsoleFilter, type ConsoleFilter } from './filter';
 
 const LINE_HEIGHT = 21;
 const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
@@ -20,7 +20,10 @@ export function ConsolePanel() {
   const logs = useSessionStore((state) => state.logs);
   const filePaths = useProjectStore(useShallow((state) => Object.keys(state.files)));
   const files = useMemo(() => new Set(filePaths), [filePaths]);
-  const [filter, setFilter] = useState<ConsoleFilter>({ source: 'all', level: 'info', search: '' });
+  const nodes = useSessionStore(({ tree }) => tree);
+  const nodeAt = useMemo(() => new Map(nodes.map((node) => [node.path, node])), [nodes]);
+  const filter = useConsoleFilter();
+  const sources = useSources(filter);
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);
@@ -57,15 +60,15 @@ export function ConsolePanel() {
           placeholder={t('search')}
           aria-label={t('search')}
           leftSection={<IconSearch size={14} />}
-          onChange={(event) => setFilter({ ...filter, search: event.currentTarget.value })}
+          onChange={(event) => useConsoleFilter.setState({ search: event.currentTarget.value })}
         />
         <NativeSelect
           size="xs"
           value={filter.source}
           aria-label={t('source')}
-          data={SOURCES.map((value) => ({ value, label: t(`sources.${value}`) }))}
+          data={sources}
           onChange={(event) =>
-            setFilter({ ...filter, source: event.currentTarget.value as ConsoleFilter['source'] })
+            useConsoleFilter.setState({ source: event.currentTarget.value as ConsoleFilter['source'] })
           }
         />
         <NativeSelect
@@ -73,7 +76,7 @@ export function ConsolePanel() {
           value={filter.level}
           aria-label={t('level')}
           data={LEVELS.map((value) => ({ value, label: t(`levels.${value}`) }))}
-          onChange={(event) => setFilter({ ...filter, level: event.currentTarget.value as LogLevel })}
+          onChange={(event) => useConsoleFilter.setState({ level: event.currentTarget.value as LogLevel })}
         />
         <span className={classes['spacer']} />
         {isFollowing ? null : (
@@ -117,7 +120,7 @@ export function ConsolePanel() {
                   className={classes['row']}
                   style={{ transform: `translateY(${row.start}px)` }}
                 >
-                  <ConsoleLine line={line} files={files} />
+                  <ConsoleLine line={line} files={files} node={nodeAt.get(line.node_path)} />
                 </div>
               ) : null;
             })}
@@ -126,4 +129,18 @@ export function ConsolePanel() {
       </div>
     </div>
   );
+}
+
+/** The sources to choose from, with each extra node of the run, and the chosen one also when it is gone. */
+function useSources({ source }: ConsoleFilter): { value: string; label: string }[] {
+  const { t } = useTranslation('console');
+  const launched = useSessionStore((state) => state.launchNodes);
+  return useMemo(() => {
+    const ids = new Set(launched.map(({ id }) => id));
+    if (source.startsWith('launch:')) ids.add(source.slice('launch:'.length));
+    return [
+      ...SOURCES.map((value) => ({ value: value as string, label: t(`sources.${value}`) })),
+      ...[...ids].map((id) => ({ value: `launch:${id}`, label: t('sourceNode', { id }) })),
+    ];
+  }, [t, launched, source]);
 }

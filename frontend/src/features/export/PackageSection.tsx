@@ -18,6 +18,7 @@ import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import type { Diagnostic } from '@/api/types';
+import { findingText } from '@/ui/findingText';
 import classes from './export.module.css';
 import { dependenciesOf, PACKAGE_NAME } from './manifest';
 
@@ -41,6 +42,11 @@ function ownFirst<File extends { readonly path: string }>(name: string, files: r
   return files.toSorted((a, b) => isOther(a) - isOther(b));
 }
 
+function sentences(found: Diagnostic): string {
+  const { message, hint } = findingText(found);
+  return `${message} ${hint}`.trim();
+}
+
 function Findings({ found }: { readonly found: readonly Diagnostic[] }) {
   const { t } = useTranslation('export');
   if (found.length === 0) return null;
@@ -48,9 +54,7 @@ function Findings({ found }: { readonly found: readonly Diagnostic[] }) {
     <Alert color="yellow" icon={<IconAlertTriangle />} title={t('warnings', { count: found.length })}>
       <ul className={classes['findings']}>
         {found.map((each, index) => (
-          <li key={index}>
-            {each.message} {each.hint}
-          </li>
+          <li key={index}>{sentences(each)}</li>
         ))}
       </ul>
     </Alert>
@@ -108,9 +112,7 @@ export function PackageSection({ projectId }: PackageSectionProps) {
         {refusals.length === 0 ? <Text size="sm">{error.message}</Text> : null}
         <ul className={classes['findings']}>
           {refusals.map((each, index) => (
-            <li key={index}>
-              {each.message} {each.hint}
-            </li>
+            <li key={index}>{sentences(each)}</li>
           ))}
         </ul>
       </Alert>

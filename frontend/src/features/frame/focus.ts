@@ -53,9 +53,9 @@ export function focusInspector(): void {
   const field =
     panel?.querySelector<HTMLElement>('[data-testid^="port-"]') ??
     panel?.querySelector<HTMLElement>('input, textarea, select, button');
-  const input = field?.matches('input, textarea, button')
+  const input = field?.matches('input, textarea, button, [contenteditable]')
     ? field
-    : field?.querySelector<HTMLElement>('input');
+    : (field?.querySelector<HTMLElement>('input:checked') ?? field?.querySelector<HTMLElement>('input'));
   input?.focus();
   if (input instanceof HTMLInputElement) input.select();
 }

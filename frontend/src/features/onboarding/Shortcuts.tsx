@@ -20,6 +20,7 @@ const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
   ['remove', 'Del'],
   ['unwrap', 'Shift+Del'],
   ['root', 'Home'],
+  ['menu', 'Shift+F10'],
 ];
 
 /** Every shortcut, from the table of user actions: none can be missing here. */

@@ -2,12 +2,14 @@ import { Menu, Tooltip, UnstyledButton } from '@mantine/core';
 import { IconChevronDown } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { setSpeed, setTickRate } from '@/store/run/commands';
+import { useRunStore } from '@/store/run/store';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 
 const TICK_RATES = [1, 2, 5, 10, 20, 50, 100];
-const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10];
+/** Zero is as fast as the machine can. */
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
 const DEFAULT_TICK_HZ = 20;
 
 interface RateSelectProps {
@@ -16,18 +18,21 @@ interface RateSelectProps {
   readonly options: readonly number[];
   readonly format: (value: number) => string;
   readonly testId: string;
+  /** Who reads along, or looks on, sees the rates and leaves them. */
+  readonly isDisabled: boolean;
   readonly onChoose: (value: number) => void;
 }
 
-function RateSelect({ label, value, options, format, testId, onChoose }: RateSelectProps) {
+function RateSelect({ label, value, options, format, testId, isDisabled, onChoose }: RateSelectProps) {
   return (
-    <Menu position="bottom">
+    <Menu position="bottom" disabled={isDisabled}>
       <Tooltip label={label}>
         <Menu.Target>
           <UnstyledButton
             className={classes['rate']}
             aria-label={`${label}: ${format(value)}`}
             data-testid={testId}
+            disabled={isDisabled}
           >
             {format(value)}
             <IconChevronDown size={13} aria-hidden="true" />
@@ -51,6 +56,7 @@ function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
   const speed = useSessionStore((state) => state.speed);
+  const isDisabled = useRunStore((state) => state.hindrance !== null);
   return [
     {
       label: t('tickRate'),
@@ -58,14 +64,16 @@ function useRates(): readonly RateSelectProps[] {
       options: TICK_RATES,
       format: (value) => `${value} Hz`,
       testId: 'tick-rate',
+      isDisabled,
       onChoose: setTickRate,
     },
     {
       label: t('simSpeed'),
       value: speed,
       options: SPEEDS,
-      format: (value) => `×${value}`,
+      format: (value) => (value === 0 ? t('fullSpeed') : `×${value}`),
       testId: 'sim-speed',
+      isDisabled,
       onChoose: setSpeed,
     },
   ];
@@ -77,12 +85,13 @@ export function RateSelects() {
 
 /** The same within a menu: where the window is too narrow for both. */
 export function RateMenus() {
-  return useRates().map(({ label, value, options, format, testId, onChoose }) => (
+  return useRates().map(({ label, value, options, format, testId, isDisabled, onChoose }) => (
     <Menu.Sub key={testId}>
       <Menu.Sub.Target>
         <Menu.Sub.Item
           leftSection={<span className={classes['unchecked']} />}
           data-testid={`menu-${testId}`}
+          disabled={isDisabled}
         >{`${label}: ${format(value)}`}</Menu.Sub.Item>
       </Menu.Sub.Target>
       <Menu.Sub.Dropdown>

@@ -1,6 +1,7 @@
 import type { Fault } from '@/generated/messages';
 import type { Connection } from '@/store/session/types';
 import type { LaunchFailure } from '@/store/run/store';
+import { findingText } from '@/ui/findingText';
 
 /** What the banner says: the most urgent of what is wrong. */
 export interface BannerContent {
@@ -79,13 +80,14 @@ function faultBanner(fault: Fault): BannerContent {
 function failureBanner(failure: LaunchFailure): BannerContent {
   const errors = failure.diagnostics.filter((item) => item.severity === 'error');
   const first = errors[0];
+  const words = first ? findingText(first) : { message: failure.message, hint: failure.hint };
   return {
     kind: 'failure',
     tone: 'error',
     titleKey: failure.code === 'command_refused' ? 'banner.refused' : `banner.failed.${failure.stage}`,
     values: { count: String(errors.length) },
-    text: first ? first.message : failure.message,
-    hint: (first ? first.hint : failure.hint) ?? '',
+    text: words.message,
+    hint: words.hint,
     link:
       first?.file && first.line
         ? { file: first.file, line: first.line }

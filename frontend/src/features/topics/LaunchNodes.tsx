@@ -3,6 +3,8 @@ import { notifications } from '@mantine/notifications';
 import { IconCircleCheck, IconCircleX, IconPlayerPlayFilled, IconRefresh } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { LaunchNode } from '@/generated/messages';
+import { useConsoleFilter } from '@/features/console/filter';
+import { showPanel } from '@/features/frame/tabs';
 import { openFile } from '@/store/project/navigation';
 import { restartNode } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
@@ -21,6 +23,12 @@ export function LaunchNodes({ nodes }: { readonly nodes: readonly LaunchNode[] }
       ))}
     </ul>
   );
+}
+
+/** All that a node said, in the console. */
+function showLog({ id }: LaunchNode): void {
+  useConsoleFilter.setState({ source: `launch:${id}`, level: 'debug', search: '' });
+  showPanel('console');
 }
 
 function NodeRow({ node }: { readonly node: LaunchNode }) {
@@ -51,6 +59,9 @@ function NodeRow({ node }: { readonly node: LaunchNode }) {
         </span>
         <span className={classes['nodeEnd']}>{node.end || lastLine}</span>
       </span>
+      <Button size="compact-xs" variant="subtle" onClick={() => showLog(node)}>
+        {t('log')}
+      </Button>
       <Button size="compact-xs" variant="subtle" onClick={() => openFile(node.file, node.line)}>
         {node.file.split('/').at(-1)}:{node.line}
       </Button>

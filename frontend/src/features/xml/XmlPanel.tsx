@@ -4,6 +4,7 @@ import { useEffect, useState, useSyncExternalStore } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useProjectStore } from '@/store/project';
 import { XmlLink, type XmlSnapshot, type XmlState } from '@/store/xml/link';
+import { findingText } from '@/ui/findingText';
 import { XmlEditor } from './XmlEditor';
 import editor from '@/features/code/editorFrame.module.css';
 import classes from './xml.module.css';
@@ -107,7 +108,7 @@ function sayState({ state, isRestored }: XmlSnapshot, t: Say): string {
     case 'broken': {
       const [first] = state.findings;
       const line = first?.line ?? 1;
-      return `${back}${t('state.broken', { line, message: first?.message ?? '' })}`;
+      return `${back}${t('state.broken', { line, message: first ? findingText(first).message : '' })}`;
     }
     case 'failed':
       return t('state.failed', { reason: state.reason });

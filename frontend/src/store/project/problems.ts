@@ -14,6 +14,7 @@ export type ShownProblem =
       readonly code: string;
       readonly message: string;
       readonly hint: string;
+      readonly values?: Readonly<Record<string, string>> | undefined;
     };
 
 const placeOf = (code: string, node: NodeId | null, port: string | undefined): string =>
@@ -53,6 +54,7 @@ export function problemsOf(
       code: each.code,
       message: each.message,
       hint: each.hint ?? '',
+      values: each.values,
     }));
   return [...own, ...server];
 }
@@ -68,8 +70,8 @@ export function inOwnWords(
     CODES[kind].some((code) => placeOf(code, node, port) === place),
   );
   if (own) return { source: 'editor', ...own };
-  const { severity, code, message, hint } = item;
-  return { source: 'server', severity, node: item.node || null, code, message, hint: hint ?? '' };
+  const { severity, code, message, hint, values } = item;
+  return { source: 'server', severity, node: item.node || null, code, message, hint: hint ?? '', values };
 }
 
 /** The worst finding of each node. */

@@ -19,6 +19,7 @@ async function reported(doing: Promise<unknown>): Promise<void> {
 export const isRunning = () => useSessionStore.getState().executor === 'application_running';
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
+const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
 export const hasSession = () => useSessionStore.getState().connection !== 'off';
 
 export const pause = () => reported(send('pause', {}));
@@ -48,9 +49,8 @@ export function setTickRate(tickHz: number): void {
   if (hasApplication()) void reported(send('set_tick_rate', { tick_hz: tickHz }));
 }
 
+/** How many seconds pass in one; 0 is as fast as the machine can. A world that is not up yet begins with it. */
 export function setSpeed(speed: number): void {
   useSessionStore.setState({ speed });
-  if (useSessionStore.getState().connection === 'open' && useSessionStore.getState().executor !== 'idle') {
-    void reported(send('set_speed', { speed }));
-  }
+  if (isWorldUp()) void reported(send('set_speed', { speed }));
 }

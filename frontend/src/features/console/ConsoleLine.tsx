@@ -13,6 +13,8 @@ interface ConsoleLineProps {
   readonly files: ReadonlySet<string>;
   /** The block that said it, if the running tree has it. */
   readonly node: TreeNode | undefined;
+  /** The extra node that said it, by name. */
+  readonly launched: string | undefined;
 }
 
 function showBlock({ tree_id, node_id }: TreeNode): void {
@@ -20,11 +22,11 @@ function showBlock({ tree_id, node_id }: TreeNode): void {
   useProjectStore.getState().reveal(tree_id, node_id);
 }
 
-export const ConsoleLine = memo(function ConsoleLine({ line, files, node }: ConsoleLineProps) {
+export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launched }: ConsoleLineProps) {
   const { t } = useTranslation('console');
   // The engine numbers nodes without a name of their own: `Forward::6`.
   const name = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
-  const said = name || line.launch_node || line.source;
+  const said = name || launched || line.source;
   return (
     <div className={classes['line']} data-level={line.level} data-source={line.source}>
       <span className={classes['time']}>{line.time.toFixed(2)}</span>

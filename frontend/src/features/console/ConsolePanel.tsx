@@ -23,7 +23,9 @@ export function ConsolePanel() {
   const nodes = useSessionStore(({ tree }) => tree);
   const nodeAt = useMemo(() => new Map(nodes.map((node) => [node.path, node])), [nodes]);
   const filter = useConsoleFilter();
-  const sources = useSources(filter);
+  const launched = useSessionStore((state) => state.launchNodes);
+  const names = useMemo(() => new Map(launched.map(({ id, name }) => [id, name])), [launched]);
+  const sources = useSources(names, filter.source);
   const lines = useMemo(() => filterLines(logs, filter), [logs, filter]);
   const [isFollowing, setFollowing] = useState(true);
   const scroller = useRef<HTMLDivElement>(null);
@@ -120,7 +122,12 @@ export function ConsolePanel() {
                   className={classes['row']}
                   style={{ transform: `translateY(${row.start}px)` }}
                 >
-                  <ConsoleLine line={line} files={files} node={nodeAt.get(line.node_path)} />
+                  <ConsoleLine
+                    line={line}
+                    files={files}
+                    node={nodeAt.get(line.node_path)}
+                    launched={names.get(line.launch_node)}
+                  />
                 </div>
               ) : null;
             })}
@@ -132,15 +139,13 @@ export function ConsolePanel() {
 }
 
 /** The sources to choose from, with each extra node of the run, and the chosen one also when it is gone. */
-function useSources({ source }: ConsoleFilter): { value: string; label: string }[] {
+function useSources(names: ReadonlyMap<string, string>, chosen: string): { value: string; label: string }[] {
   const { t } = useTranslation('console');
-  const launched = useSessionStore((state) => state.launchNodes);
   return useMemo(() => {
-    const ids = new Set(launched.map(({ id }) => id));
-    if (source.startsWith('launch:')) ids.add(source.slice('launch:'.length));
-    return [
-      ...SOURCES.map((value) => ({ value: value as string, label: t(`sources.${value}`) })),
-      ...[...ids].map((id) => ({ value: `launch:${id}`, label: t('sourceNode', { id }) })),
-    ];
-  }, [t, launched, source]);
+    const nodes = [...names].map(([id, name]) => ({ value: `launch:${id}`, label: t('sourceNode', { name }) }));
+    const isGone = chosen.startsWith('launch:') && !nodes.some(({ value }) => value === chosen);
+    const gone = { value: chosen, label: chosen.slice('launch:'.length) };
+    const sources = SOURCES.map((value) => ({ value: value as string, label: t(`sources.${value}`) }));
+    return [...sources, ...nodes, ...(isGone ? [gone] : [])];
+  }, [t, names, chosen]);
 }

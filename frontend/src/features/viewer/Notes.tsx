@@ -1,4 +1,5 @@
 import { Button, CloseButton } from '@mantine/core';
+import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
 import { perform } from '@/actions/registry';
@@ -43,6 +44,10 @@ function Moved() {
   const canMove = useSessionStore(({ executor }) =>
     ['universe_ready', 'visualization_ready', 'paused'].includes(executor),
   );
+  // Once time goes on, where it was is no place to put it back to.
+  useEffect(() => {
+    if (!canMove) useMoves.setState({ last: null });
+  }, [canMove]);
   if (!last || !canMove) return null;
   return (
     <div className={classes['note']} role="status" data-testid="moved">

@@ -2,6 +2,7 @@ import { api } from '@/api/client';
 import { ApiError } from '@/api/errors';
 import { socketUrl } from '@/api/http';
 import type { SessionInfo } from '@/api/types';
+import { t } from '@/i18n';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { ControlSocket } from './control';
 import { forgetRun, rememberRun } from './memory';
@@ -164,16 +165,52 @@ function onLost(reason: string): void {
   attempt += 1;
 }
 
+const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
+
+/** Why there is no connection, in the user's words where the browser has only its own. */
+function reasonOf(error: unknown): string {
+  if (isOffline(error)) return t('run:banner.unreachable');
+  return error instanceof Error ? error.message : String(error);
+}
+
+let isRetrying = false;
+
 async function retry(): Promise<void> {
-  if (!session) return;
+  if (!session || isRetrying) return;
+  isRetrying = true;
   try {
     await api.getSession(session.id);
     await openSocket(session);
   } catch (error) {
     if (error instanceof ApiError && error.status === 404) return onEnded();
-    onLost(error instanceof Error ? error.message : String(error));
+    onLost(reasonOf(error));
+  } finally {
+    isRetrying = false;
   }
 }
+
+/** A network that goes away closes no socket: whether the server can be reached without it is asked. */
+async function onOffline(): Promise<void> {
+  const asked = socket;
+  if (!session || !asked?.isOpen) return;
+  try {
+    await api.getSession(session.id);
+  } catch (error) {
+    if (!isOffline(error) || asked !== socket) return;
+    asked.close();
+    onLost(reasonOf(error));
+  }
+}
+
+/** Back in the network: there is nothing more to wait for. */
+function onOnline(): void {
+  if (useSessionStore.getState().connection !== 'reconnecting') return;
+  clearTimeout(retryTimer);
+  void retry();
+}
+
+window.addEventListener('offline', () => void onOffline());
+window.addEventListener('online', onOnline);
 
 /** The session is gone: its processes ended, and another Run starts a new one. */
 function onEnded(): void {

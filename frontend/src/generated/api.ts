@@ -1030,6 +1030,9 @@ export interface components {
             severity: components["schemas"]["DiagnosticSeverityEnum"];
             message: string;
             hint: string;
+            values: {
+                [key: string]: string;
+            };
             tree: string;
             node: string;
             port: string;

@@ -30,6 +30,7 @@ interface Field {
   readonly boxOf: (id: NodeId) => Box | undefined;
   readonly accepts: (id: NodeId) => boolean;
   readonly siblings: (id: NodeId) => readonly NodeId[];
+  readonly parentOf: ReadonlyMap<NodeId, NodeId>;
   readonly ids: readonly NodeId[];
   readonly rows: readonly Row[];
   readonly diagram: Diagram;
@@ -116,8 +117,7 @@ function findSlot(field: Field, x: number, y: number): Slot | null {
   for (const id of field.ids) {
     const box = field.boxOf(id);
     if (box && inside(box, x, y)) {
-      const parent = field.rows.find((row) => field.siblings(row.parent).includes(id))?.parent;
-      return slotOnBlock(field, id, parent, x);
+      return slotOnBlock(field, id, field.parentOf.get(id), x);
     }
   }
   let best: NodeId | null = null;
@@ -148,6 +148,7 @@ function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
       ? children.filter((child) => !hidden.has(child))
       : children;
   };
+  const parentOf = new Map(ids.flatMap((id) => siblings(id).map((child) => [child, id] as const)));
   const rows = ids.flatMap((id) => {
     const boxes = siblings(id)
       .map(boxOf)
@@ -155,7 +156,7 @@ function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
     return boxes.length > 0 ? [rowOf(id, boxes)] : [];
   });
   const accepts = (id: NodeId) => acceptsChild(diagram, id, vocabulary, moving);
-  return { boxOf, siblings, diagram, accepts, ids, rows };
+  return { boxOf, siblings, parentOf, diagram, accepts, ids, rows };
 }
 
 /** Finds where a block that is dragged to a point would be put, or null for nowhere in the tree. */

@@ -29,6 +29,7 @@ import { SlotMark } from './SlotMark';
 import { TreeEdge } from './TreeEdge';
 import { useConnecting } from './useConnecting';
 import { useDragging } from './useDragging';
+import { useKnownSizes } from './useKnownSizes';
 import { usePaletteDrop } from './usePaletteDrop';
 import { useReveal } from './useReveal';
 import { useTree } from './useTree';
@@ -39,12 +40,14 @@ const nodeTypes = { block: Block };
 const edgeTypes = { tree: TreeEdge };
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
+const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const root = useRef<HTMLDivElement>(null);
   const tree = useTree(treeId);
   const flow = useReactFlow<BlockNode, TreeEdgeType>();
+  useKnownSizes();
   const isFar = useStore((state) => state.transform[2] < FAR);
   const quickAdd = useEditorStore((state) => (state.quickAdd?.tree === treeId ? state.quickAdd : null));
   const find = useEditorStore((state) => state.find);
@@ -114,6 +117,21 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     setMenu({ ...pointOf(first), onBlock: first !== undefined });
   };
 
+  // React Flow renders the frame of every block again when one of its listeners is another function.
+  const onPaneContextMenu = useCallback(
+    (event: MouseEvent | globalThis.MouseEvent) => {
+      openMenu(event, null);
+    },
+    [openMenu],
+  );
+  const onNodeDoubleClick = useCallback(
+    (_event: MouseEvent, node: BlockNode) => {
+      if (node.data.inside) enterInside(node.data.inside);
+      else openBlock(diagram, node.id);
+    },
+    [diagram],
+  );
+
   return (
     // The canvas is one stop of the Tab key: arrows walk inside, as in a tree widget.
     // eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions
@@ -169,14 +187,9 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         onEdgesChange={onEdgesChange}
         onNodeDrag={onDrag}
         onNodeDragStop={onDrop}
-        onNodeDoubleClick={(_event, node) => {
-          if (node.data.inside) enterInside(node.data.inside);
-          else openBlock(diagram, node.id);
-        }}
+        onNodeDoubleClick={onNodeDoubleClick}
         onNodeContextMenu={openMenu}
-        onPaneContextMenu={(event) => {
-          openMenu(event, null);
-        }}
+        onPaneContextMenu={onPaneContextMenu}
         isValidConnection={connecting.isValidConnection}
         onConnect={connecting.onConnect}
         onConnectEnd={connecting.onConnectEnd}
@@ -191,7 +204,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         disableKeyboardA11y
         deleteKeyCode={DELETE_KEYS}
         selectionKeyCode="Shift"
-        multiSelectionKeyCode={['Meta', 'Control', 'Shift']}
+        multiSelectionKeyCode={MULTI_KEYS}
         selectionMode={SelectionMode.Partial}
         panOnScroll
         zoomOnDoubleClick={false}

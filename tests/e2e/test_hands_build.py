@@ -173,6 +173,9 @@ def the_tree_is_changed_by_hand(studio: Studio) -> None:
     whole = children(studio)
     blocks_are_dragged(studio, whole)
     menu_and_keys(studio, whole)
+    comment_and_menu_by_keys(studio, whole)
+    several_blocks_at_once(studio, whole)
+    a_piece_goes_to_another_project(studio)
 
     block(studio, "Turn").click()
     keys.press("Control+f")
@@ -270,6 +273,105 @@ def menu_and_keys(studio: Studio, whole: list[str]) -> None:
     call.click(button="right")
     studio.page.get_by_role("menuitem", name="Inline").click()
     wait_until(lambda: children(studio) == whole, "the piece is back in the tree")
+
+
+def selected(studio: Studio) -> list[str]:
+    """The types of the selected blocks."""
+    shown = studio.at("canvas").locator("[data-selected][data-type]")
+    return sorted(str(each.get_attribute("data-type")) for each in shown.all())
+
+
+def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
+    """`/` writes a comment, Shift+Delete takes a block from round its child, Shift+F10 opens the menu."""
+    keys = studio.page.keyboard
+    forward = block(studio, "Forward")
+    forward.click()
+    keys.press("/")
+    keys.type("as long as the way is free")
+    keys.press("Enter")
+    expect(forward.get_by_title("as long as the way is free")).to_be_visible()
+    focused(studio, "canvas")
+    studio.at("undo").click()
+    block(studio, "Inverter").click()
+    keys.press("Shift+Delete")
+    expect(block(studio, "Inverter")).to_have_count(0)
+    expect(block(studio, "CheckObstacle")).to_be_visible()
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click()
+    keys.press("Shift+F10")
+    expect(studio.at("menu-addChild")).to_be_visible()
+    keys.press("ArrowDown")
+    expect(studio.at("menu-addChild")).to_be_focused()
+    assert selected(studio) == ["ReactiveFallback"], "the menu's keys are not the tree's"
+    keys.press("Escape")
+    focused(studio, "canvas")
+    assert selected(studio) == ["ReactiveFallback"]
+
+
+def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
+    """Chosen by a frame or by Ctrl: deleted, wrapped, made a tree, which the crumbs lead out of."""
+    page, keys = studio.page, studio.page.keyboard
+    inverter, turn = block(studio, "Inverter"), block(studio, "Turn")
+    start, end = inverter.bounding_box(), turn.bounding_box()
+    assert start
+    assert end
+    keys.down("Shift")
+    page.mouse.move(start["x"] - 25, start["y"] - 15)
+    page.mouse.down()
+    page.mouse.move(end["x"] + 20, end["y"] + 20, steps=6)
+    page.mouse.up()
+    keys.up("Shift")
+    wait_until(lambda: selected(studio) == ["Inverter", "Turn"], "the frame selects what it touches")
+    keys.press("Delete")
+    expect(turn).to_have_count(0)
+    expect(block(studio, "CheckObstacle")).to_have_count(0)
+    takes_back(studio, whole)
+
+    turn.click()
+    wait_until(lambda: selected(studio) == ["Turn"], "a press means one")
+    inverter.click(modifiers=["Control"])
+    keys.press("Control+g")
+    keys.type("Sequence")
+    keys.press("Enter")
+    expect(block(studio, "Sequence")).to_be_visible()
+    takes_back(studio, whole)
+    inverter.click()
+    turn.click(modifiers=["Control"])
+    turn.click(button="right")
+    page.get_by_role("menuitem", name="Extract").click()
+    expect(turn).to_have_count(0)
+    keys.press("Enter")
+    inside = page.locator("[data-testid=canvas]:visible")
+    expect(inside.locator("[data-type=ReactiveFallback]")).to_be_visible()
+    inside.locator("[data-type=Turn]").click()
+    way = inside.get_by_role("navigation").get_by_role("button")
+    expect(way).to_have_text(["MainTree", "TurnTree", "ReactiveFallback", "Turn"])
+    way.nth(2).click()
+    expect(inside.locator("[data-selected][data-type]")).to_have_attribute("data-type", "ReactiveFallback")
+    expect(inside).to_be_focused()
+    way.first.click()
+    expect(block(studio, "SubTree")).to_be_visible()
+    takes_back(studio, whole)
+    expect(page.get_by_role("tab", name="TurnTree")).to_have_count(0)
+
+
+def a_piece_goes_to_another_project(studio: Studio) -> None:
+    """Copied here, pasted there, where its action is missing: the lamp on the block writes it."""
+    block(studio, "Inverter").click()
+    studio.page.keyboard.press("Control+c")
+    page = studio.page.context.new_page()
+    page.goto(studio.server.origin)
+    page.get_by_test_id("new-from-empty").click()
+    canvas = page.get_by_test_id("canvas")
+    canvas.locator("[data-type=Sequence]").click()
+    page.keyboard.press("Control+v")
+    check = canvas.locator("[data-type=CheckObstacle]")
+    expect(check).to_have_attribute("data-problem", "error")
+    check.get_by_test_id("problem-mark").click()
+    page.get_by_test_id("fix-box").get_by_role("button", name="Write the action").click()
+    expect(check).not_to_have_attribute("data-problem", "error")
+    expect(page.get_by_test_id("file-actions/CheckObstacle.py")).to_be_visible()
+    page.close()
 
 
 def new_action(studio: Studio, action: str) -> None:

@@ -21,6 +21,5 @@ function ownText(problem: ShownProblem & { source: 'editor' }, t: TFunction<'edi
 /** The words of a finding, of the editor's own checks or of the server's. */
 export function useProblemText(): (problem: ShownProblem) => ProblemText {
   const { t } = useTranslation('editor');
-  return (problem) =>
-    problem.source === 'server' ? findingText(problem) : ownText(problem, t);
+  return (problem) => (problem.source === 'server' ? findingText(problem) : ownText(problem, t));
 }

@@ -41,6 +41,8 @@ const edgeTypes = { tree: TreeEdge };
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
+/** A press on a tool or on the way up leaves the keyboard with the blocks. */
+const isTool = (target: HTMLElement): boolean => target.closest('[role="toolbar"], nav') !== null;
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
@@ -54,7 +56,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const fixing = useEditorStore((state) => state.fixing);
   const minimap = useEditorStore((state) => state.minimap);
   const [menu, setMenu] = useState<MenuPoint | null>(null);
-  const [chosenEdge, setChosenEdge] = useState<string | null>(null);
+  const [pressedEdge, setChosenEdge] = useState<string | null>(null);
   const { held, onDrag, onDrop } = useDragging(tree, root);
   const connecting = useConnecting(tree);
   const palette = usePaletteDrop(tree);
@@ -63,6 +65,8 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const [projection] = useState(() => new FlowProjection());
   const { diagram, shown, layout, vocabulary, problems, selection } = tree;
+  // A frame that is drawn round blocks holds their connections, too: then the blocks are meant.
+  const chosenEdge = selection.size === 0 ? pressedEdge : null;
   const { nodes: resting, edges } = useMemo(
     () => projection.project({ diagram, shown, layout, vocabulary, problems, selection }),
     [projection, diagram, shown, layout, vocabulary, problems, selection],
@@ -114,7 +118,10 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const openMenuByKeys = (): void => {
     const [first] = useProjectStore.getState().selection;
-    setMenu({ ...pointOf(first), onBlock: first !== undefined });
+    // A menu closes at any key beside it, also at the one that opens it.
+    setTimeout(() => {
+      setMenu({ ...pointOf(first), onBlock: first !== undefined });
+    });
   };
 
   // React Flow renders the frame of every block again when one of its listeners is another function.
@@ -123,6 +130,15 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       openMenu(event, null);
     },
     [openMenu],
+  );
+  const onNodeClick = useCallback(
+    (event: MouseEvent, node: BlockNode) => {
+      const { selection: chosen, select } = useProjectStore.getState();
+      // A press on one of several means that one, unless it begins to carry them.
+      if (chosen.length < 2 || node.data.inside || event.shiftKey || event.ctrlKey || event.metaKey) return;
+      select(treeId, [node.id]);
+    },
+    [treeId],
   );
   const onNodeDoubleClick = useCallback(
     (_event: MouseEvent, node: BlockNode) => {
@@ -162,7 +178,11 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       }}
       onPointerDownCapture={(event) => {
         useProjectStore.getState().setActiveTree(treeId);
-        if (!(event.target as HTMLElement).closest('input, button, [role="dialog"], [role="menu"]')) focus();
+        const target = event.target as HTMLElement;
+        if (isTool(target) || !target.closest('input, button, [role="dialog"], [role="menu"]')) focus();
+      }}
+      onMouseDown={(event) => {
+        if (isTool(event.target as HTMLElement)) event.preventDefault();
       }}
       {...clipboardHandlers}
       onDragOver={palette.onDragOver}
@@ -187,6 +207,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         onEdgesChange={onEdgesChange}
         onNodeDrag={onDrag}
         onNodeDragStop={onDrop}
+        onNodeClick={onNodeClick}
         onNodeDoubleClick={onNodeDoubleClick}
         onNodeContextMenu={openMenu}
         onPaneContextMenu={onPaneContextMenu}

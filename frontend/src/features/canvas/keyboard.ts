@@ -17,6 +17,9 @@ import { openAction, openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import { openQuickAddHere } from './quickAdd/open';
 
+/** What presses a button that has the focus, or leaves it. */
+const PRESSES: ReadonlySet<string> = new Set(['Enter', ' ', 'Tab']);
+
 type Direction = 'up' | 'down' | 'before' | 'after';
 
 /** Arrow keys as the eye sees them: in a left-right layout a parent is to the left. */
@@ -112,7 +115,10 @@ export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
 /** The canvas's own keys; those with Ctrl that the whole frame has are in the table of actions. */
 export function onCanvasKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
+  // A menu stands elsewhere in the page, though React tells of its keys here, too.
+  if (!event.currentTarget.contains(target)) return;
   if (target.matches('input, textarea, select, [contenteditable=true]')) return;
+  if (target.matches('button') && PRESSES.has(event.key)) return;
   const diagram = activeDiagram();
   if (!diagram) return;
   const { selection, select } = useProjectStore.getState();

@@ -31,7 +31,7 @@ import classes from './frame.module.css';
 import { loadLayout } from './layoutModel';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
-import { aimAt, followFront, openTab, reopen, showPanel, useTabs } from './tabs';
+import { aimAt, closeGone, followFront, openTab, reopen, showPanel, useTabs } from './tabs';
 import { TopBar } from './TopBar';
 import { useProject } from './useProject';
 import { Waiting } from './Waiting';
@@ -90,7 +90,12 @@ function Workbench({ projectId }: StudioProps) {
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
+    const unwatch = useProjectStore.subscribe(({ projectId: id, diagrams, files }, before) => {
+      if (id !== before.projectId) return;
+      if (diagrams !== before.diagrams || files !== before.files) closeGone();
+    });
     return () => {
+      unwatch();
       window.removeEventListener('keydown', leaveInspector);
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });

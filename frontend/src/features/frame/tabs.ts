@@ -79,6 +79,19 @@ export function closeTab(tab: DocumentTab): void {
   if (model?.getNodeById(tabId(tab))) model.doAction(Actions.deleteTab(tabId(tab)));
 }
 
+function exists(tab: DocumentTab): boolean {
+  const { files, diagrams } = useProjectStore.getState();
+  return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
+}
+
+/** Closes what shows a document that is no more: undone, deleted elsewhere, or called otherwise. */
+export function closeGone(): void {
+  const { model } = useTabs.getState();
+  for (const tab of model ? openDocuments(model) : []) {
+    if (tab.kind !== 'compare' && !exists(tab)) closeTab(tab);
+  }
+}
+
 /** Brings a panel to the front, if the user has not closed it. */
 export function showPanel(panel: PanelId): void {
   const { model } = useTabs.getState();
@@ -134,9 +147,6 @@ export function keepOpen(projectId: string, model: Model): void {
 
 /** Opens what was open in this project the last time, and at least its main tree. */
 export function reopen(projectId: string, mainTree: string): void {
-  const { files, diagrams } = useProjectStore.getState();
-  const exists = (tab: DocumentTab) =>
-    tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
   let kept: { tabs?: DocumentTab[]; front?: DocumentTab | null } = {};
   try {
     kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;

@@ -157,6 +157,20 @@ describe('fields', () => {
 });
 
 describe('subtrees', () => {
+  it.each([
+    ['ReactiveFallback', 'ReactiveFallback'],
+    ['SequenceWithMemory', 'SequenceWithMemory'],
+    ['Parallel', 'Parallel'],
+    ['IfThenElse', 'Sequence'],
+  ])('extracts children of a %s as a %s, which goes through them as before', (parent, root) => {
+    const diagram = edit(tree(), (draft) => {
+      draft.nodes['r']!.type = parent;
+    }).diagram;
+    const names = ['s1', 's2'];
+    const extracted = extractSubtree(diagram, ['a', 'b'], 'Sub', () => names.shift() ?? 'n');
+    expect(extracted?.tree.nodes['s1']).toMatchObject({ type: root, children: ['a', 'b'] });
+  });
+
   it('extracts siblings with the keys they use, and inlines them back', () => {
     const diagram = tree();
     const names = ['s1', 's2'];

@@ -26,7 +26,7 @@ function keysIn(fragment: Fragment): string[] {
 
 /**
  * Takes siblings out into a tree of their own, with a SubTree in their place that passes each key
- * they use. Several siblings get a Sequence above them, unless their parent is a Fallback.
+ * they use. Several siblings get a block above them that goes through them as their parent did.
  */
 export function extractSubtree(
   diagram: Diagram,
@@ -43,7 +43,9 @@ export function extractSubtree(
   if (tops.length > 1) {
     root = fresh();
     const parent = Object.values(diagram.nodes).find((node) => node.children?.includes(first));
-    nodes[root] = { type: parent?.type.includes('Fallback') ? 'Fallback' : 'Sequence', children: [...tops] };
+    // Of other parents, such as IfThenElse, each child has a part of its own.
+    const type = parent && /Sequence|Fallback|Parallel/.test(parent.type) ? parent.type : 'Sequence';
+    nodes[root] = { type, children: [...tops] };
   }
   const tree: Diagram = { ...emptyDiagram(treeId), root, nodes, layout: diagram.layout };
   const ports = Object.fromEntries(keysIn(fragment).map((key) => [key, `{${key}}`]));

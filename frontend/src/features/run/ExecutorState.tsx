@@ -23,7 +23,9 @@ export function ExecutorState() {
       >
         <span className={classes['dot']} aria-hidden="true" />
         {t(`state.${shown}`)}
-        {finished && executor === 'visualization_ready' ? ` · ${t(`status.${finished.status}`)}` : null}
+        {finished && finished.status !== 'IDLE' && executor === 'visualization_ready'
+          ? ` · ${t(`status.${finished.status}`)}`
+          : null}
       </span>
     </Tooltip>
   );

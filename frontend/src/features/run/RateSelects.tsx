@@ -1,5 +1,6 @@
 import { Menu, Tooltip, UnstyledButton } from '@mantine/core';
-import { IconChevronDown } from '@tabler/icons-react';
+import { IconCheck, IconChevronDown } from '@tabler/icons-react';
+import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
@@ -24,9 +25,10 @@ interface RateSelectProps {
 }
 
 function RateSelect({ label, value, options, format, testId, isDisabled, onChoose }: RateSelectProps) {
+  const [isOpen, setOpen] = useState(false);
   return (
-    <Menu position="bottom" disabled={isDisabled}>
-      <Tooltip label={label}>
+    <Menu position="bottom" disabled={isDisabled} opened={isOpen} onChange={setOpen}>
+      <Tooltip label={label} disabled={isOpen}>
         <Menu.Target>
           <UnstyledButton
             className={classes['rate']}
@@ -41,13 +43,28 @@ function RateSelect({ label, value, options, format, testId, isDisabled, onChoos
       </Tooltip>
       <Menu.Dropdown>
         <Menu.Label>{label}</Menu.Label>
-        {options.map((option) => (
-          <Menu.Item key={option} fw={option === value ? 600 : 400} onClick={() => onChoose(option)}>
-            {format(option)}
-          </Menu.Item>
-        ))}
+        <Choices value={value} options={options} format={format} onChoose={onChoose} />
       </Menu.Dropdown>
     </Menu>
+  );
+}
+
+type ChoicesProps = Pick<RateSelectProps, 'value' | 'options' | 'format' | 'onChoose'>;
+
+function Choices({ value, options, format, onChoose }: ChoicesProps) {
+  return (
+    <Menu.RadioGroup value={String(value)} onChange={(chosen) => onChoose(Number(chosen))}>
+      {options.map((option) => (
+        <Menu.RadioItem
+          key={option}
+          closeMenuOnClick
+          value={String(option)}
+          checkIcon={<IconCheck size={15} />}
+        >
+          {format(option)}
+        </Menu.RadioItem>
+      ))}
+    </Menu.RadioGroup>
   );
 }
 
@@ -95,17 +112,7 @@ export function RateMenus() {
         >{`${label}: ${format(value)}`}</Menu.Sub.Item>
       </Menu.Sub.Target>
       <Menu.Sub.Dropdown>
-        {options.map((option) => (
-          <Menu.Item
-            key={option}
-            role="menuitemradio"
-            aria-checked={option === value}
-            fw={option === value ? 600 : 400}
-            onClick={() => onChoose(option)}
-          >
-            {format(option)}
-          </Menu.Item>
-        ))}
+        <Choices value={value} options={options} format={format} onChoose={onChoose} />
       </Menu.Sub.Dropdown>
     </Menu.Sub>
   ));

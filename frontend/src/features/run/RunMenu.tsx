@@ -1,12 +1,12 @@
 import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconCheck, IconChevronDown } from '@tabler/icons-react';
+import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useActionTable } from '@/actions/registry';
 import { shortcutLabel } from '@/actions/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
 import { RateMenus } from './RateSelects';
 import { useFollowing } from './following';
-import classes from './run.module.css';
 
 const COMMANDS = ['run.step10', 'run.restart', 'run.resetWorld', 'run.teleop', 'run.connectRos'];
 
@@ -16,9 +16,10 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
   const table = useActionTable((state) => state.actions);
   const isFollowing = useFollowing((state) => state.isOn);
   const hz = useStatusRate((state) => state.hz);
+  const [isOpen, setOpen] = useState(false);
   return (
-    <Menu position="bottom-start" width={300}>
-      <Tooltip label={t('moreRun')}>
+    <Menu position="bottom-start" width={300} opened={isOpen} onChange={setOpen}>
+      <Tooltip label={t('moreRun')} disabled={isOpen}>
         <Menu.Target>
           <ActionIcon size="md" aria-label={t('moreRun')} data-testid="run-menu">
             <IconChevronDown size={15} />
@@ -43,32 +44,28 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
           );
         })}
         <Menu.Divider />
-        <Menu.Item
-          role="menuitemcheckbox"
-          aria-checked={isFollowing}
-          leftSection={<Check isOn={isFollowing} />}
-          onClick={() => perform('run.followRunning')}
+        <Menu.CheckboxItem
+          closeMenuOnClick
+          checked={isFollowing}
+          onChange={() => perform('run.followRunning')}
         >
           {t('action.followRunning')}
-        </Menu.Item>
+        </Menu.CheckboxItem>
         <RateMenus />
         <Menu.Label>{t('statusRate')}</Menu.Label>
-        {STATUS_RATES.map((rate) => (
-          <Menu.Item
-            key={rate}
-            role="menuitemradio"
-            aria-checked={rate === hz}
-            leftSection={<Check isOn={rate === hz} />}
-            onClick={() => setStatusRate(rate)}
-          >
-            {rate === 0 ? t('everyFrame') : t('hz', { hz: rate })}
-          </Menu.Item>
-        ))}
+        <Menu.RadioGroup value={String(hz)} onChange={(rate) => setStatusRate(Number(rate))}>
+          {STATUS_RATES.map((rate) => (
+            <Menu.RadioItem
+              key={rate}
+              closeMenuOnClick
+              value={String(rate)}
+              checkIcon={<IconCheck size={15} />}
+            >
+              {rate === 0 ? t('everyFrame') : t('hz', { hz: rate })}
+            </Menu.RadioItem>
+          ))}
+        </Menu.RadioGroup>
       </Menu.Dropdown>
     </Menu>
   );
-}
-
-function Check({ isOn }: { readonly isOn: boolean }) {
-  return isOn ? <IconCheck size={15} /> : <span className={classes['unchecked']} />;
 }

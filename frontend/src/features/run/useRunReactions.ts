@@ -27,7 +27,8 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
   }, [failure]);
 
   useEffect(() => {
-    if (!fault?.file || fault.line <= 0) return;
+    // An extra node that ended ends no run, and takes nobody away from what is being looked at.
+    if (!fault?.file || fault.line <= 0 || fault.kind === 'process') return;
     if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, [fault]);

@@ -1,6 +1,5 @@
 import { ActionIcon, Menu, Tooltip } from '@mantine/core';
 import {
-  IconCheck,
   IconCurrentLocation,
   IconDeviceGamepad2,
   IconEye,
@@ -40,15 +39,13 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
         </Tooltip>
         <Menu.Dropdown>
           {SHOWN.map((key) => (
-            <Menu.Item
+            <Menu.CheckboxItem
               key={key}
-              role="menuitemcheckbox"
-              aria-checked={options[key]}
-              leftSection={options[key] ? <IconCheck size={15} /> : <span className={classes['unchecked']} />}
-              onClick={() => onChange({ [key]: !options[key] })}
+              checked={options[key]}
+              onChange={(isShown) => onChange({ [key]: isShown })}
             >
               {t(key)}
-            </Menu.Item>
+            </Menu.CheckboxItem>
           ))}
         </Menu.Dropdown>
       </Menu>

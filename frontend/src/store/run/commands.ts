@@ -1,5 +1,6 @@
 import { useProjectStore } from '@/store/project';
 import { endSession, send } from '@/store/session/connection';
+import { isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
@@ -8,6 +9,7 @@ async function reported(doing: Promise<unknown>): Promise<void> {
   try {
     await doing;
   } catch (error) {
+    if (isUnconnected(error)) return;
     const message = error instanceof Error ? error.message : String(error);
     const hint = error instanceof Error && 'hint' in error ? String(error.hint) : '';
     useRunStore.setState({
@@ -44,9 +46,13 @@ export async function stepMany(count: number): Promise<void> {
 
 /** The rate belongs to the project, and takes effect at once in what runs. */
 export function setTickRate(tickHz: number): void {
+  const isSame = useRunStore.getState().ranAt === useProjectStore.getState().changeCounter;
   useProjectStore.getState().setSettings({ tick_hz: tickHz });
   useSessionStore.setState({ tickHz });
-  if (hasApplication()) void reported(send('set_tick_rate', { tick_hz: tickHz }));
+  if (!hasApplication()) return;
+  // What runs has it too, so that nothing has to be started again for it.
+  if (isSame) useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
+  void reported(send('set_tick_rate', { tick_hz: tickHz }));
 }
 
 /** How many seconds pass in one; 0 is as fast as the machine can. A world that is not up yet begins with it. */

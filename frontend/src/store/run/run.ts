@@ -5,7 +5,7 @@ import type { Commands } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { saveNow } from '@/store/saving/autosave';
 import { ensureConnected, send } from '@/store/session/connection';
-import { CommandError } from '@/store/session/control';
+import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenWorld, useWorldChoice } from './world';
@@ -38,7 +38,8 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    useRunStore.setState({ failure: failureOf(error) });
+    // The session goes on with it, and tells how it went once it can be reached again.
+    if (!isUnconnected(error)) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
     useRunStore.setState({ stage: null });

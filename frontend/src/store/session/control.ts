@@ -12,6 +12,10 @@ export class CommandError extends Error {
   }
 }
 
+/** It was the connection that failed, not the command; the banner speaks of it as long as it is gone. */
+export const isUnconnected = (error: unknown) =>
+  error instanceof CommandError && ['not_connected', 'connection_lost'].includes(error.code);
+
 interface Waiting {
   resolve: () => void;
   reject: (error: Error) => void;

@@ -55,6 +55,12 @@ describe('reduce', () => {
     expect(state).toMatchObject({ tick: 7, simTime: 3.5, lastSeq: seq });
   });
 
+  it('keeps the speed that was chosen before there is a world', () => {
+    const chosen = { ...initialSession, speed: 2 };
+    expect(reduce(chosen, message('snapshot', snapshot({ state: 'connected', speed: 1 }))).speed).toBe(2);
+    expect(reduce(chosen, message('snapshot', snapshot({ state: 'paused', speed: 1 }))).speed).toBe(1);
+  });
+
   it('lets deltas after a snapshot give what a fresh snapshot gives', () => {
     const first = snapshot({ blackboard: [entry('a', 1), entry('b', 2)], logs: [log('one')] });
     const deltas = [

@@ -45,8 +45,17 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
   }),
   progress: (_, data) => ({ progress: data }),
-  // A new tree is a new run: what the last one said about itself no longer holds.
-  tree: (_, data) => ({ tree: data.nodes, blackboard: {}, faults: [], finished: null, tick: 0 }),
+  // A new tree is a new run: what the last one said about itself no longer holds. Its extra nodes were started
+  // before it, and one may have ended already.
+  tree: ({ faults, launchNodes }, data) => ({
+    tree: data.nodes,
+    blackboard: {},
+    faults: faults.filter(({ file, line }) =>
+      launchNodes.some((node) => node.state === 'failed' && node.file === file && node.line === line),
+    ),
+    finished: null,
+    tick: 0,
+  }),
   tick: (_, data) => ({ tick: data.n }),
   blackboard: (state, data, { seq }) => ({
     blackboard: mergeBlackboard(state.blackboard, data.entries, seq),
@@ -65,8 +74,10 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     blackboard: mergeBlackboard({}, data.blackboard, seq),
     faults: data.faults,
     launchNodes: data.launch_nodes,
-    tickHz: data.tick_hz,
-    speed: data.speed,
+    // Before there is a world, what was chosen here is what the first run begins with.
+    ...(data.state === 'idle' || data.state === 'connected'
+      ? {}
+      : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
     ...appendLogs({ ...state, logs: [] }, data.logs),
   }),

@@ -34,12 +34,17 @@ def block(studio: Studio, type_: str) -> Locator:
 
 def children(studio: Studio) -> list[str]:
     """The types of the tree's blocks from left to right, row by row, as the eye reads them."""
-    shown = studio.at("canvas").locator("[data-type]").all()
-    boxes = [
-        (box["y"], box["x"], each.get_attribute("data-type"))
-        for each in shown
-        if (box := each.bounding_box())
-    ]
+    # All in one look: the view may still be on its way to a block.
+    boxes = (
+        studio.at("canvas")
+        .locator("[data-type]")
+        .evaluate_all(
+            """(blocks) => blocks.map((block) => {
+          const { x, y } = block.getBoundingClientRect();
+          return [y, x, block.dataset.type];
+        })"""
+        )
+    )
     return [str(type_) for _, _, type_ in sorted(boxes)]
 
 

@@ -105,6 +105,7 @@ def test_by_keyboard_alone(shared_studio: Studio) -> None:
     ]
     studio.saved()
     ports_names_and_order_by_keys(studio)
+    dialogues_by_keys(studio)
 
     keys.press("F5")
     studio.expect_state("application_running")
@@ -133,6 +134,27 @@ def ports_names_and_order_by_keys(studio: Studio) -> None:
     keys.press("Control+z")
     wait_until(lambda: children(studio)[1] == "ReactiveFallback", "undo brings it back")
     studio.saved()
+
+
+def dialogues_by_keys(studio: Studio) -> None:
+    """Each opens with the focus in it, at what is wanted first; Escape gives it back to the tree."""
+    page, keys = studio.page, studio.page.keyboard
+    dialogue = page.get_by_role("dialog")
+    wanted = {
+        "new action": dialogue.get_by_role("textbox"),
+        "new universe": page.get_by_test_id("new-universe-name"),
+        "universe and robot": dialogue.get_by_role("radio", checked=True).first,
+        "keyboard shortcuts": dialogue.get_by_role("button", name="Close"),
+    }
+    for name, first in wanted.items():
+        keys.press("Control+k")
+        expect(studio.at("command-palette").get_by_role("combobox")).to_be_focused()
+        keys.type(name)
+        keys.press("Enter")
+        expect(first).to_be_focused()
+        keys.press("Escape")
+        expect(dialogue).to_have_count(0)
+        focused(studio, "canvas")
 
 
 def test_by_mouse(shared_studio: Studio) -> None:

@@ -1,5 +1,5 @@
 import { Button, Group, Stack, Switch, Text, TextInput } from '@mantine/core';
-import { useState, type FormEvent } from 'react';
+import { useEffect, useRef, useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { UniverseInfo } from '@/api/types';
 import { ChoiceCards } from '@/features/universe/ChoiceCards';
@@ -38,6 +38,12 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
   const [base, setBase] = useState(first);
   const [name, setName] = useState<string | null>(null);
   const [isUsed, setUsed] = useState(true);
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    // What comes late finds the focus on the dialogue's first button.
+    const timer = setTimeout(() => field.current?.focus());
+    return () => clearTimeout(timer);
+  }, []);
   const [state, setState] = useState<{ isBusy: boolean; error: string | null }>({
     isBusy: false,
     error: null,
@@ -59,6 +65,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
         <ChoiceCards label={t('copy.base')} items={items} chosen={base} onChoose={setBase} />
         <TextInput
           data-autofocus
+          ref={field}
           label={t('copy.name')}
           data-testid={`${testId}-name`}
           value={shown}

@@ -9,10 +9,12 @@ interface ChoiceCardsProps {
   readonly items: readonly UniverseInfo[];
   readonly chosen: string;
   readonly onChoose: (id: string) => void;
+  /** A dialogue begins at the chosen one. */
+  readonly isFirst?: boolean;
 }
 
 /** Pictures to choose one of; to the keyboard and to screen readers they are radio buttons. */
-export function ChoiceCards({ label, items, chosen, onChoose }: ChoiceCardsProps) {
+export function ChoiceCards({ label, items, chosen, onChoose, isFirst = false }: ChoiceCardsProps) {
   const name = useId();
   return (
     <div className={classes['cards']} role="radiogroup" aria-label={label}>
@@ -25,6 +27,7 @@ export function ChoiceCards({ label, items, chosen, onChoose }: ChoiceCardsProps
               name={name}
               value={id}
               checked={id === chosen}
+              {...(isFirst && id === chosen ? { 'data-autofocus': true } : {})}
               onChange={() => onChoose(id)}
               className={classes['radio']}
             />

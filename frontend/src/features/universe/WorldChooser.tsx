@@ -1,7 +1,7 @@
 import { Alert, Button, Group, Loader, NumberInput, SegmentedControl, Stack, Text } from '@mantine/core';
 import { IconInfoCircle } from '@tabler/icons-react';
 import { useQuery } from '@tanstack/react-query';
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import type { UniverseInfo } from '@/api/types';
@@ -33,6 +33,13 @@ export function WorldChooser() {
   const [universe, setUniverse] = useState(once.universe ?? settings?.universe ?? '');
   const [robot, setRobot] = useState(once.robot ?? settings?.robot ?? OF_UNIVERSE);
   const [seed, setSeed] = useState(once.seed);
+  const root = useRef<HTMLDivElement>(null);
+  const isReady = !universes.isPending && !robots.isPending;
+  useEffect(() => {
+    // After the dialogue has given the focus to its first button: arrows choose from here.
+    const timer = setTimeout(() => root.current?.querySelector<HTMLElement>('input:checked')?.focus());
+    return () => clearTimeout(timer);
+  }, [isReady]);
 
   const own = Object.keys(paths)
     .map((path) => OWN.exec(path)?.[1])
@@ -72,13 +79,13 @@ export function WorldChooser() {
     else openNewRobot(robot);
   };
 
-  if (universes.isPending || robots.isPending) return <Loader size="sm" aria-label={t('loading')} />;
+  if (!isReady) return <Loader size="sm" aria-label={t('loading')} />;
   return (
-    <Stack gap="md" data-testid="worlds">
+    <Stack ref={root} gap="md" data-testid="worlds">
       <Text size="sm" fw={600}>
         {t('universe')}
       </Text>
-      <ChoiceCards label={t('universe')} items={places} chosen={universe} onChoose={setUniverse} />
+      <ChoiceCards label={t('universe')} items={places} chosen={universe} onChoose={setUniverse} isFirst />
       {isOutside ? (
         <Alert variant="light" icon={<IconInfoCircle size={18} />} title={t('outside')} data-testid="outside">
           {t('outsideHint')}

@@ -90,9 +90,8 @@ function Workbench({ projectId }: StudioProps) {
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
-    const unwatch = useProjectStore.subscribe(({ projectId: id, diagrams, files }, before) => {
-      if (id !== before.projectId) return;
-      if (diagrams !== before.diagrams || files !== before.files) closeGone();
+    const unwatch = useProjectStore.subscribe(({ projectId: id, diagrams }, before) => {
+      if (id === before.projectId && diagrams !== before.diagrams) closeGone();
     });
     return () => {
       unwatch();

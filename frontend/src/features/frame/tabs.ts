@@ -84,11 +84,11 @@ function exists(tab: DocumentTab): boolean {
   return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
 }
 
-/** Closes what shows a document that is no more: undone, deleted elsewhere, or called otherwise. */
+/** Closes what shows a tree that is no more: undone, or called otherwise. An editor of text says so itself. */
 export function closeGone(): void {
   const { model } = useTabs.getState();
   for (const tab of model ? openDocuments(model) : []) {
-    if (tab.kind !== 'compare' && !exists(tab)) closeTab(tab);
+    if (tab.kind === 'tree' && !exists(tab)) closeTab(tab);
   }
 }
 

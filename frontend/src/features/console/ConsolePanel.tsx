@@ -142,7 +142,10 @@ export function ConsolePanel() {
 function useSources(names: ReadonlyMap<string, string>, chosen: string): { value: string; label: string }[] {
   const { t } = useTranslation('console');
   return useMemo(() => {
-    const nodes = [...names].map(([id, name]) => ({ value: `launch:${id}`, label: t('sourceNode', { name }) }));
+    const nodes = [...names].map(([id, name]) => ({
+      value: `launch:${id}`,
+      label: t('sourceNode', { name }),
+    }));
     const isGone = chosen.startsWith('launch:') && !nodes.some(({ value }) => value === chosen);
     const gone = { value: chosen, label: chosen.slice('launch:'.length) };
     const sources = SOURCES.map((value) => ({ value: value as string, label: t(`sources.${value}`) }));

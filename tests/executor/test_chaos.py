@@ -107,6 +107,8 @@ class Storm:
             needed.add("application")
         living = {process.pid for process in supervised()}
         pids = {key: child.pid for key, child in self.manager._supervisor._children.items()}
+        if not set(pids.values()) <= living:
+            return False  # one that waits to be used has died, and the manager has yet to hear of it
         children = self.session.children
         alive = {kind for kind in started if pids.get((kind, children[kind].number)) in living}
         return needed <= alive and len(living) <= len(children)

@@ -27,8 +27,13 @@ PROGRAMS = {FAKE, "executor.world.process", "executor.application.process"}
 
 def supervised():
     """The living children that a manager in this process has."""
-    living = [p for p in psutil.Process().children() if p.status() != psutil.STATUS_ZOMBIE]
-    return [p for p in living if PROGRAMS & set(p.cmdline())]
+    return [p for p in psutil.Process().children() if _is_living(p)]
+
+
+def _is_living(process):
+    with contextlib.suppress(psutil.Error):  # it ends while one looks
+        return process.status() != psutil.STATUS_ZOMBIE and bool(PROGRAMS & set(process.cmdline()))
+    return False
 
 
 def segments_of(processes):

@@ -1,0 +1,245 @@
+"""What a hand does to the blocks of a canvas, with undo after each of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from playwright.sync_api import expect
+
+from tests.e2e.server import wait_until
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
+    from tests.e2e.studio import Studio
+
+
+def block(studio: Studio, type_: str) -> Locator:
+    return studio.at("canvas").locator(f"[data-type={type_}]")
+
+
+def children(studio: Studio) -> list[str]:
+    """The types of the tree's blocks from left to right, row by row, as the eye reads them."""
+    # All in one look: the view may still be on its way to a block.
+    boxes = (
+        studio.at("canvas")
+        .locator("[data-type]")
+        .evaluate_all(
+            """(blocks) => blocks.map((block) => {
+          const { x, y } = block.getBoundingClientRect();
+          return [y, x, block.dataset.type];
+        })"""
+        )
+    )
+    return [str(type_) for _, _, type_ in sorted(boxes)]
+
+
+def focused(studio: Studio, test_id: str) -> None:
+    expect(studio.at(test_id)).to_be_focused()
+
+
+def the_tree_is_changed_by_hand(studio: Studio) -> None:
+    """Everything that the canvas does to blocks; undo takes each of it back."""
+    page, keys = studio.page, studio.page.keyboard
+    whole = children(studio)
+    blocks_are_dragged(studio, whole)
+    menu_and_keys(studio, whole)
+    comment_and_menu_by_keys(studio, whole)
+    several_blocks_at_once(studio, whole)
+    a_piece_goes_to_another_project(studio)
+
+    block(studio, "Turn").click()
+    keys.press("Control+f")
+    keys.type("forw")
+    keys.press("Enter")
+    expect(page.locator("#canvas-announcer")).to_contain_text("Forward")
+    keys.press("Escape")
+    for _ in range(6):
+        page.get_by_role("button", name="Zoom out").click()
+    expect(studio.at("canvas")).to_have_attribute("data-far", "true")
+    studio.at("canvas").focus()
+    keys.press("Shift+Digit1")
+    expect(studio.at("canvas")).not_to_have_attribute("data-far", "true")
+    studio.saved()
+
+
+def takes_back(studio: Studio, whole: list[str]) -> None:
+    studio.at("undo").click()
+    wait_until(lambda: children(studio) == whole, "undo brings the tree back")
+
+
+def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
+    """Before a sibling, onto a parent, as a copy, and a connection that ends nowhere."""
+    mouse = studio.page.mouse
+
+    def middle(locator: Locator) -> tuple[float, float]:
+        box = locator.bounding_box()
+        assert box
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def drag(start: Locator, x: float, y: float) -> None:
+        at = middle(start)
+        mouse.move(*at)
+        mouse.down()
+        mouse.move(at[0] + 20, at[1] + 5, steps=3)
+        mouse.move(x, y, steps=6)
+        mouse.up()
+
+    forward, fallback = block(studio, "Forward"), block(studio, "ReactiveFallback")
+    x, y = middle(fallback)
+    drag(forward, x - 110, y)
+    wait_until(lambda: children(studio)[1:3] == ["Forward", "ReactiveFallback"], "it goes before its sibling")
+    takes_back(studio, whole)
+    drag(forward, x, y)
+    wait_until(lambda: children(studio)[2:5] == ["Inverter", "Turn", "Forward"], "it goes below the other")
+    takes_back(studio, whole)
+    x, y = middle(forward)
+    studio.page.keyboard.down("Alt")
+    drag(forward, x + 40, y + 150)
+    studio.page.keyboard.up("Alt")
+    expect(forward).to_have_count(2)
+    takes_back(studio, whole)
+    node = studio.page.locator(".react-flow__node:has([data-type=ReactiveFallback])")
+    drag(node.locator(".react-flow__handle.source"), x, y + 150)
+    expect(studio.at("quick-add")).to_be_visible()
+    studio.page.keyboard.type("AlwaysFailure")
+    studio.page.keyboard.press("Enter")
+    expect(block(studio, "AlwaysFailure")).to_be_visible()
+    takes_back(studio, whole)
+
+
+def menu_and_keys(studio: Studio, whole: list[str]) -> None:
+    """Wrap, disable, comment, cut and paste; a piece becomes a tree, is looked into, and comes back."""
+    keys = studio.page.keyboard
+    forward = block(studio, "Forward")
+    forward.click()
+    keys.press("Control+g")
+    keys.type("Repeat")
+    keys.press("Enter")
+    expect(block(studio, "Repeat")).to_be_visible()
+    takes_back(studio, whole)
+    forward.click()
+    keys.press("Control+e")
+    expect(forward).to_have_attribute("data-disabled", "true")
+    takes_back(studio, whole)
+    forward.click()
+    keys.press("Control+x")
+    expect(forward).to_have_count(0)
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click()
+    keys.type("sleep")  # a letter on a block opens the box with it
+    expect(studio.at("quick-add")).to_be_visible()
+    keys.press("Enter")
+    expect(block(studio, "Sleep")).to_be_visible()
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click(button="right")
+    studio.page.get_by_role("menuitem", name="Extract").click()
+    call = block(studio, "SubTree")
+    expect(block(studio, "Turn")).to_have_count(0)
+    call.click()
+    keys.press("Space")
+    expect(block(studio, "Turn")).to_be_visible()
+    keys.press("Space")
+    expect(block(studio, "Turn")).to_have_count(0)
+    call.click(button="right")
+    studio.page.get_by_role("menuitem", name="Inline").click()
+    wait_until(lambda: children(studio) == whole, "the piece is back in the tree")
+
+
+def selected(studio: Studio) -> list[str]:
+    """The types of the selected blocks."""
+    shown = studio.at("canvas").locator("[data-selected][data-type]")
+    return sorted(str(each.get_attribute("data-type")) for each in shown.all())
+
+
+def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
+    """`/` writes a comment, Shift+Delete takes a block from round its child, Shift+F10 opens the menu."""
+    keys = studio.page.keyboard
+    forward = block(studio, "Forward")
+    forward.click()
+    keys.press("/")
+    keys.type("as long as the way is free")
+    keys.press("Enter")
+    expect(forward.get_by_title("as long as the way is free")).to_be_visible()
+    focused(studio, "canvas")
+    studio.at("undo").click()
+    block(studio, "Inverter").click()
+    keys.press("Shift+Delete")
+    expect(block(studio, "Inverter")).to_have_count(0)
+    expect(block(studio, "CheckObstacle")).to_be_visible()
+    takes_back(studio, whole)
+    block(studio, "ReactiveFallback").click()
+    keys.press("Shift+F10")
+    expect(studio.at("menu-addChild")).to_be_visible()
+    keys.press("ArrowDown")
+    expect(studio.at("menu-addChild")).to_be_focused()
+    assert selected(studio) == ["ReactiveFallback"], "the menu's keys are not the tree's"
+    keys.press("Escape")
+    focused(studio, "canvas")
+    assert selected(studio) == ["ReactiveFallback"]
+
+
+def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
+    """Chosen by a frame or by Ctrl: deleted, wrapped, made a tree, which the crumbs lead out of."""
+    page, keys = studio.page, studio.page.keyboard
+    inverter, turn = block(studio, "Inverter"), block(studio, "Turn")
+    start, end = inverter.bounding_box(), turn.bounding_box()
+    assert start
+    assert end
+    keys.down("Shift")
+    page.mouse.move(start["x"] - 25, start["y"] - 15)
+    page.mouse.down()
+    page.mouse.move(end["x"] + 20, end["y"] + 20, steps=6)
+    page.mouse.up()
+    keys.up("Shift")
+    wait_until(lambda: selected(studio) == ["Inverter", "Turn"], "the frame selects what it touches")
+    keys.press("Delete")
+    expect(turn).to_have_count(0)
+    expect(block(studio, "CheckObstacle")).to_have_count(0)
+    takes_back(studio, whole)
+
+    turn.click()
+    wait_until(lambda: selected(studio) == ["Turn"], "a press means one")
+    inverter.click(modifiers=["Control"])
+    keys.press("Control+g")
+    keys.type("Sequence")
+    keys.press("Enter")
+    expect(block(studio, "Sequence")).to_be_visible()
+    takes_back(studio, whole)
+    inverter.click()
+    turn.click(modifiers=["Control"])
+    turn.click(button="right")
+    page.get_by_role("menuitem", name="Extract").click()
+    expect(turn).to_have_count(0)
+    keys.press("Enter")
+    inside = page.locator("[data-testid=canvas]:visible")
+    expect(inside.locator("[data-type=ReactiveFallback]")).to_be_visible()
+    inside.locator("[data-type=Turn]").click()
+    way = inside.get_by_role("navigation").get_by_role("button")
+    expect(way).to_have_text(["MainTree", "TurnTree", "ReactiveFallback", "Turn"])
+    way.nth(2).click()
+    expect(inside.locator("[data-selected][data-type]")).to_have_attribute("data-type", "ReactiveFallback")
+    expect(inside).to_be_focused()
+    way.first.click()
+    expect(block(studio, "SubTree")).to_be_visible()
+    takes_back(studio, whole)
+    expect(page.get_by_role("tab", name="TurnTree")).to_have_count(0)
+
+
+def a_piece_goes_to_another_project(studio: Studio) -> None:
+    """Copied here, pasted there, where its action is missing: the lamp on the block writes it."""
+    block(studio, "Inverter").click()
+    studio.page.keyboard.press("Control+c")
+    page = studio.page.context.new_page()
+    page.goto(studio.server.origin)
+    page.get_by_test_id("new-from-empty").click()
+    canvas = page.get_by_test_id("canvas")
+    canvas.locator("[data-type=Sequence]").click()
+    page.keyboard.press("Control+v")
+    check = canvas.locator("[data-type=CheckObstacle]")
+    expect(check).to_have_attribute("data-problem", "error")
+    check.get_by_test_id("problem-mark").click()
+    page.get_by_test_id("fix-box").get_by_role("button", name="Write the action").click()
+    expect(check).not_to_have_attribute("data-problem", "error")
+    expect(page.get_by_test_id("file-actions/CheckObstacle.py")).to_be_visible()
+    page.close()

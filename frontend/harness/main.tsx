@@ -24,6 +24,7 @@ setNavigator({
   },
   openFile: () => undefined,
   aimAt: () => undefined,
+  renamed: () => undefined,
 });
 Object.assign(window, { project: useProjectStore, live: useLiveStore });
 

@@ -1,7 +1,7 @@
 import type { ComponentType } from 'react';
 import { create } from 'zustand';
 
-export type ActionGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go';
+export type ActionGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go' | 'rates';
 
 /** Something that a user can do: the same row feeds toolbar, shortcuts and command palette. */
 export interface UserAction {
@@ -9,9 +9,13 @@ export interface UserAction {
   group: ActionGroup;
   /** i18n key with its namespace: `frame:action.run`. */
   labelKey: string;
+  /** What the label is filled with. */
+  labelValues?: Readonly<Record<string, string | number>>;
   icon?: ComponentType<{ size?: number | string }>;
   /** In tinykeys' words: `$mod+KeyK`, `F5`. */
   shortcut?: string;
+  /** Keys that another listener has, in the same words: shown, and not bound. */
+  keys?: string;
   enabled?: () => boolean;
   /** `page` is the one on which it was asked for: a panel may have a window of its own. */
   run: (page?: Document) => void;

@@ -4,10 +4,14 @@ import { useActionTable, type UserAction } from './registry';
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
 
+/** Inputs that nobody types into: after a press on one, the keys are the frame's again. */
+const NO_TEXT = ['checkbox', 'radio', 'button', 'submit', 'color', 'file'];
+
 function isTextField(target: EventTarget | null): boolean {
   // No `instanceof`: a panel in another window has that window's classes.
-  const { isContentEditable = false, tagName = '' } = (target ?? {}) as Partial<HTMLElement>;
-  return isContentEditable || ['INPUT', 'TEXTAREA', 'SELECT'].includes(tagName);
+  const { isContentEditable = false, tagName = '', type } = (target ?? {}) as Partial<HTMLInputElement>;
+  if (tagName === 'INPUT') return !NO_TEXT.includes(type ?? '');
+  return isContentEditable || ['TEXTAREA', 'SELECT'].includes(tagName);
 }
 
 function handler(action: UserAction) {
@@ -66,8 +70,17 @@ const KEY_NAMES: Record<string, string> = {
   $mod: isMac ? '⌘' : 'Ctrl',
   Shift: isMac ? '⇧' : 'Shift',
   Period: '.',
+  Comma: ',',
   Slash: '/',
+  Backquote: '`',
+  Delete: 'Del',
 };
+
+/** The keys of an action as people write them; null of one that has none. */
+export function keysOf({ shortcut, keys }: UserAction): string | null {
+  const known = shortcut ?? keys;
+  return known === undefined ? null : shortcutLabel(known);
+}
 
 /** A shortcut as people write it: `Ctrl+Shift+P`. */
 export function shortcutLabel(shortcut: string): string {

@@ -161,7 +161,9 @@ export interface Error {
 }
 
 /**
- * First message on a connection. `client_id` names this client when it opens the stream socket.
+ * First message on a connection, sent again when the client's role changes.
+ *
+ * `client_id` names this client when it opens the stream socket.
  *
  * With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
  * empty where the session is closed off.
@@ -520,6 +522,7 @@ export interface Commands {
   publish_topic: PublishTopic;
   describe_type: DescribeType;
   restart_node: RestartNode;
+  take_over: Empty;
 }
 
 /** Payload by `command`. */

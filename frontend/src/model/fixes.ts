@@ -5,6 +5,7 @@ import type { PortSpec } from './ports';
 import type { Problem } from './problems';
 import { fit, partRead } from './values';
 import { wouldRecurse, type Vocabulary } from './vocabulary';
+import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
 /** What a fix does besides changing the tree: makes a file. */
@@ -50,7 +51,7 @@ function typeFixes(id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Fix[]
   );
   const isLeaf = (node.children?.length ?? 0) === 0;
   const made =
-    isLeaf && /^[A-Za-z_]\w*$/.test(node.type)
+    isLeaf && isPythonName(node.type)
       ? [
           fix(
             'make-action',

@@ -1,5 +1,10 @@
 import { applyPatches, type Patch } from 'immer';
 
+export interface Renaming {
+  readonly from: string;
+  readonly to: string;
+}
+
 /** One undoable step of one tree: a name for the menu, and how to go both ways. */
 export interface HistoryEntry {
   readonly label: string;
@@ -7,6 +12,8 @@ export interface HistoryEntry {
   readonly mergeKey: string | null;
   readonly patches: readonly Patch[];
   readonly inverse: readonly Patch[];
+  /** An action that got another name, with its file. */
+  readonly renamed?: Renaming | undefined;
   /** What was selected before and after, so that undo shows where it happened. */
   readonly before: readonly string[];
   readonly after: readonly string[];

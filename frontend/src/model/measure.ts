@@ -13,6 +13,7 @@ export const BLOCK = {
   portRow: 22,
   portsPadding: 8,
   maxPorts: 6,
+  valueLetters: 16,
 } as const;
 
 export interface Size {
@@ -62,10 +63,10 @@ export function emWidth(text: string): number {
   return width;
 }
 
-/** A value is cut beyond some 16 letters; `required` is the word for a missing one. */
+/** Only values of more letters than this are cut; `required` is the word for a missing one. */
 function valueWidth(line: PortLine): number {
   const text = line.value ?? line.default ?? (line.required ? 'required' : '—');
-  return Math.min(16, text.length) * 7;
+  return Math.min(BLOCK.valueLetters, text.length) * 7;
 }
 
 const known = new WeakMap<DiagramNode, { readonly spec: NodeSpec | undefined; readonly size: Size }>();

@@ -14,6 +14,10 @@ export interface PortSpec {
   readonly description: string;
 }
 
+/** Whether it can name a port: in XML a port is an attribute, beside those that mean something of their own. */
+export const canBePort = (name: string): boolean =>
+  /^[A-Za-z][\w.-]*$/.test(name) && name !== 'name' && name !== 'ID';
+
 export type PortText =
   | { readonly kind: 'empty' }
   | { readonly kind: 'literal'; readonly text: string }

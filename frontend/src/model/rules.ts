@@ -14,11 +14,24 @@ function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number 
   return specOf(vocabulary, node)?.maxChildren ?? childrenOf(diagram, id).length;
 }
 
+const NONE: ReadonlySet<NodeId> = new Set();
+
+/** Whether so many more children may hang under `id`, once those that are `leaving` have left it. */
+export function hasRoom(
+  diagram: Diagram,
+  id: NodeId,
+  vocabulary: Vocabulary,
+  count: number,
+  leaving: ReadonlySet<NodeId> = NONE,
+): boolean {
+  const children = childrenOf(diagram, id);
+  const staying = leaving.size === 0 ? children : children.filter((child) => !leaving.has(child));
+  return staying.length + count <= capacity(diagram, id, vocabulary);
+}
+
 /** Whether `id` may have one more child; `moving` is a child that is only changing its place. */
 export function acceptsChild(diagram: Diagram, id: NodeId, vocabulary: Vocabulary, moving?: NodeId): boolean {
-  const children = childrenOf(diagram, id);
-  const count = moving !== undefined && children.includes(moving) ? children.length - 1 : children.length;
-  return count < capacity(diagram, id, vocabulary);
+  return hasRoom(diagram, id, vocabulary, 1, moving === undefined ? NONE : new Set([moving]));
 }
 
 /** Whether `id` with all below it may hang under `parent`. */

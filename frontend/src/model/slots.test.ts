@@ -23,7 +23,7 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
   const tree = diagram(orientation);
   const layout = layoutTree(tree, vocabulary);
   const at = (id: string) => layout.positions[id]!;
-  const find = (x: number, y: number, moving?: string) =>
+  const find = (x: number, y: number, ...moving: string[]) =>
     slotFinder({ diagram: tree, layout, vocabulary, moving })(x, y);
 
   it('are between two siblings', () => {
@@ -53,15 +53,32 @@ describe.each(['vertical', 'horizontal'] as const)('slots in a %s layout', (orie
     expect(slot?.parent).not.toBe('i');
     expect(slot?.parent).not.toBe('c');
   });
+
+  it('never are below any of several blocks that are moved, nor where only one of them has room', () => {
+    expect(find(...centre(at('b')), 'a', 'b')?.parent).not.toBe('b');
+    const freed = { ...tree, nodes: { ...tree.nodes, i: { type: 'Inverter' } }, drafts: ['c'] };
+    const drawn = layoutTree(freed, vocabulary);
+    const onto = (...moving: string[]) =>
+      slotFinder({ diagram: freed, layout: drawn, vocabulary, moving })(...centre(drawn.positions['i']!));
+    expect(onto('a')).toMatchObject({ parent: 'i', kind: 'onto' });
+    expect(onto('a', 'c')).toMatchObject({ parent: 'r', kind: 'between' });
+  });
 });
 
 it('knows the place that a block already has', () => {
   const slot = { parent: 'r', kind: 'between', mark: { x: 0, y: 0, width: 0, height: 0 } } as const;
   const tree = diagram('vertical');
-  expect([0, 1, 2, 3].map((index) => isSamePlace(tree, 'b', { ...slot, index }))).toEqual([
+  expect([0, 1, 2, 3].map((index) => isSamePlace(tree, ['b'], { ...slot, index }))).toEqual([
     false,
     true,
     true,
     false,
   ]);
+  expect([0, 1, 2, 3].map((index) => isSamePlace(tree, ['a', 'b'], { ...slot, index }))).toEqual([
+    true,
+    true,
+    true,
+    false,
+  ]);
+  expect(isSamePlace(tree, ['a', 'i'], { ...slot, index: 1 })).toBe(false);
 });

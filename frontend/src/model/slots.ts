@@ -1,6 +1,6 @@
 import { childrenOf, subtreeOf, type Diagram, type NodeId } from './diagram';
 import { visibleChildren, type Box, type Layout } from './layout';
-import { acceptsChild } from './rules';
+import { hasRoom } from './rules';
 import type { Vocabulary } from './vocabulary';
 
 /** A place under a parent where a dragged block may be dropped, and the mark that shows it. */
@@ -21,8 +21,8 @@ interface Query {
   readonly diagram: Diagram;
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
-  /** The block that is moved with all below it; absent for a new one. */
-  readonly moving?: NodeId | undefined;
+  /** The blocks that are moved, each with all below it; absent for a new one. */
+  readonly moving?: readonly NodeId[] | undefined;
 }
 
 /** The work is done for a top-down layout; left-right is the same with the axes exchanged. */
@@ -135,8 +135,9 @@ function findSlot(field: Field, x: number, y: number): Slot | null {
   return null;
 }
 
-function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
-  const hidden = new Set(moving === undefined ? [] : subtreeOf(diagram, moving));
+function fieldOf({ diagram, layout, vocabulary, moving = [] }: Query): Field {
+  const hidden = new Set(moving.flatMap((top) => subtreeOf(diagram, top)));
+  const leaving = new Set(moving);
   const ids = Object.keys(layout.positions).filter((id) => id in diagram.nodes && !hidden.has(id));
   const boxOf = (id: NodeId): Box | undefined => {
     const box = layout.positions[id];
@@ -155,7 +156,7 @@ function fieldOf({ diagram, layout, vocabulary, moving }: Query): Field {
       .filter((box) => box !== undefined);
     return boxes.length > 0 ? [rowOf(id, boxes)] : [];
   });
-  const accepts = (id: NodeId) => acceptsChild(diagram, id, vocabulary, moving);
+  const accepts = (id: NodeId) => hasRoom(diagram, id, vocabulary, Math.max(1, moving.length), leaving);
   return { boxOf, siblings, parentOf, diagram, accepts, ids, rows };
 }
 
@@ -172,8 +173,10 @@ export function slotFinder(query: Query): SlotFinder {
   };
 }
 
-/** Whether dropping the block into the slot would leave it where it is. */
-export function isSamePlace(diagram: Diagram, moving: NodeId, slot: Slot): boolean {
-  const at = childrenOf(diagram, slot.parent).indexOf(moving);
-  return at >= 0 && (slot.index === at || slot.index === at + 1);
+/** Whether dropping the blocks, in this order, into the slot would leave them where they are. */
+export function isSamePlace(diagram: Diagram, moving: readonly NodeId[], slot: Slot): boolean {
+  const children = childrenOf(diagram, slot.parent);
+  const at = children.indexOf(moving[0] ?? '');
+  if (at < 0 || moving.some((id, offset) => children[at + offset] !== id)) return false;
+  return slot.index >= at && slot.index <= at + moving.length;
 }

@@ -87,7 +87,7 @@ export function legalStep(diagram: Diagram, what: number, where: number, which: 
         : null;
     }
     case 4:
-      return reorder(id, (which % 5) - 2);
+      return reorder([id], (which % 5) - 2);
     case 5:
       return which % 3 === 0 ? removeSubtrees([id]) : null;
     case 6:

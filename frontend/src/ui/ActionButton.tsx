@@ -1,7 +1,7 @@
 import { ActionIcon, Tooltip, type ActionIconProps } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { perform, useActionTable } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
+import { keysOf } from '@/actions/shortcuts';
 
 interface ActionButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
   readonly action: string;
@@ -15,9 +15,10 @@ export function ActionButton({ action: id, isDisabled = false, testId, ...look }
   const action = useActionTable((table) => table.actions[id]);
   if (!action) return null;
   const label = t(action.labelKey);
+  const keys = keysOf(action);
   const Icon = action.icon;
   return (
-    <Tooltip label={action.shortcut ? `${label} (${shortcutLabel(action.shortcut)})` : label}>
+    <Tooltip label={keys ? `${label} (${keys})` : label}>
       <ActionIcon
         size="lg"
         aria-label={label}

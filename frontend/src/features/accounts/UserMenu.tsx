@@ -1,16 +1,42 @@
 import { Avatar, Button, Menu, Text, UnstyledButton, VisuallyHidden } from '@mantine/core';
 import { IconChartPie, IconLogout, IconSettings, IconShield, IconUsers } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { registerActions, type UserAction } from '@/actions/registry';
 import { DataDialog } from './DataDialog';
 import { GroupsDialog } from './GroupsDialog';
 import { useMe } from './useMe';
+
+type Opened = 'groups' | 'data';
+
+/** What the menu does, for the command palette. */
+function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): UserAction[] {
+  const row = (id: string, icon: typeof IconUsers, run: () => void): UserAction => {
+    return { id: `account.${id}`, group: 'go', labelKey: `accounts:${id}`, icon, run };
+  };
+  const goTo = (address: string) => () => {
+    window.location.assign(address);
+  };
+  return [
+    row('groups.title', IconUsers, () => open('groups')),
+    row('data.title', IconChartPie, () => open('data')),
+    row('account', IconSettings, goTo('/accounts/password/change/')),
+    ...(isAdministrator ? [row('administration', IconShield, goTo('/admin/'))] : []),
+    row('signOut', IconLogout, goTo('/accounts/logout/')),
+  ];
+}
 
 /** Who is signed in, and what is theirs; nothing on localhost, where there are no accounts. */
 export function UserMenu() {
   const { t } = useTranslation('accounts');
   const me = useMe();
-  const [open, setOpen] = useState<'groups' | 'data' | null>(null);
+  const [open, setOpen] = useState<Opened | null>(null);
+  const hasAccount = me !== undefined && me.mode !== 'local' && me.role !== 'guest';
+  const isAdministrator = hasAccount && me.role === 'administrator';
+  useEffect(
+    () => (hasAccount ? registerActions(rowsFor(isAdministrator, setOpen)) : undefined),
+    [hasAccount, isAdministrator],
+  );
   if (!me || me.mode === 'local') return null;
   if (me.role === 'guest') {
     const back = encodeURIComponent(window.location.pathname);

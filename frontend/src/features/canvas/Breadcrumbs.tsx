@@ -14,6 +14,11 @@ function pathTo(diagram: Diagram | undefined, id: NodeId | undefined): NodeId[] 
   return path;
 }
 
+function nameOf(diagram: Diagram | undefined, id: NodeId): string {
+  const node = diagram?.nodes[id];
+  return node ? displayName(node) : id;
+}
+
 /** A tree that uses this one, up to the main tree: the way back. */
 function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, main: string): string[] {
   const owners: string[] = [];
@@ -25,6 +30,23 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
     tree = user.id;
   }
   return owners;
+}
+
+/** As many blocks of a long path are named: its top, and the nearest to the block at its end. */
+const NEAREST = 4;
+
+interface PartOfPath {
+  readonly id: NodeId;
+  /** Blocks that are passed over before this one. */
+  readonly passed: readonly NodeId[];
+}
+
+function shortened(path: readonly NodeId[]): PartOfPath[] {
+  const first = path.length - NEAREST;
+  return path.flatMap((id, at) => {
+    if (at > 0 && at < first) return [];
+    return { id, passed: at === first && first > 1 ? path.slice(1, first) : [] };
+  });
 }
 
 /** Where one is: the trees that lead here, and the path from the root to the selected block. */
@@ -61,11 +83,16 @@ export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly tree
       >
         {treeId}
       </button>
-      {path.map((id) => {
-        const node = diagram?.nodes[id];
+      {shortened(path).map(({ id, passed }) => {
         return (
           <Fragment key={id}>
             <IconChevronRight size={13} aria-hidden="true" />
+            {passed.length > 0 && (
+              <>
+                <span title={passed.map((each) => nameOf(diagram, each)).join(' › ')}>…</span>
+                <IconChevronRight size={13} aria-hidden="true" />
+              </>
+            )}
             <button
               type="button"
               aria-current={id === first ? 'true' : undefined}
@@ -73,7 +100,7 @@ export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly tree
                 select(treeId, [id]);
               }}
             >
-              {node ? displayName(node) : id}
+              {nameOf(diagram, id)}
             </button>
           </Fragment>
         );

@@ -21,7 +21,8 @@ import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
-import { enterInside, isMenuKey, onCanvasKey, openBlock } from './keyboard';
+import { openBlock } from './blockCommands';
+import { enterInside, isMenuKey, onCanvasKey } from './keyboard';
 import { Overview } from './Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd, pointOf } from './quickAdd/open';
@@ -111,7 +112,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       if (node?.data.inside) return;
       const { selection: chosen, select } = useProjectStore.getState();
       if (node && !chosen.includes(node.id)) select(treeId, [node.id]);
-      setMenu({ x: event.clientX, y: event.clientY, onBlock: node !== null });
+      setMenu({ x: event.clientX, y: event.clientY, isOnBlock: node !== null });
     },
     [treeId],
   );
@@ -120,7 +121,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
     const [first] = useProjectStore.getState().selection;
     // A menu closes at any key beside it, also at the one that opens it.
     setTimeout(() => {
-      setMenu({ ...pointOf(first), onBlock: first !== undefined });
+      setMenu({ ...pointOf(first), isOnBlock: first !== undefined });
     });
   };
 

@@ -3,39 +3,21 @@ import { registerActions, type UserAction } from '@/actions/registry';
 import {
   IconArrowBackUp,
   IconArrowForwardUp,
-  IconArrowsExchange,
-  IconBan,
-  IconBinaryTree,
-  IconBox,
-  IconBoxOff,
-  IconBulb,
-  IconClipboard,
-  IconCopy,
-  IconCopyPlus,
-  IconCut,
+  IconArrowsHorizontal,
+  IconArrowsVertical,
   IconFocusCentered,
   IconLayoutDistributeHorizontal,
   IconMap2,
   IconMaximize,
-  IconPlus,
   IconSearch,
   IconZoomIn,
   IconZoomOut,
 } from '@tabler/icons-react';
 import { setLayout, tidy } from '@/model/edits';
-import { copySelection, cutSelection, paste } from '@/store/project/clipboard';
-import {
-  activeDiagram,
-  change,
-  duplicateSelection,
-  hasProblem,
-  toggleDisabled,
-  unwrapSelection,
-} from '@/store/project/commands';
-import { isMinimapShown, setEditor, toggleExpanded } from '@/store/project/editor';
-import { extractSelection, inlineSelection } from '@/store/project/subtrees';
+import { activeDiagram, change } from '@/store/project/commands';
+import { isMinimapShown, setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { openQuickAddHere } from './quickAdd/open';
+import { blockActions, isOnCanvas, isTreeInFront } from './blockActions';
 import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from './views';
 
 const state = () => useProjectStore.getState();
@@ -45,12 +27,7 @@ const canRedo = () => undoTarget()?.canRedo ?? (history()?.future.length ?? 0) >
 const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
 const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;
-const selectedNode = () => activeDiagram()?.nodes[state().selection[0] ?? ''];
 const hasSelection = () => state().selection.length > 0;
-
-/** Keys for blocks count only while the canvas has the focus: elsewhere they belong to text. */
-const onCanvas = () => document.activeElement?.closest('[data-testid="canvas"]') !== null;
-const selectedOnCanvas = () => onCanvas() && hasSelection();
 
 const rows: readonly UserAction[] = [
   {
@@ -81,135 +58,15 @@ const rows: readonly UserAction[] = [
     run: redoInFront,
   },
   {
-    id: 'edit.copy',
-    group: 'edit',
-    labelKey: 'canvas:menu.copy',
-    icon: IconCopy,
-    enabled: selectedOnCanvas,
-    run: () => void copySelection(),
-  },
-  {
-    id: 'edit.cut',
-    group: 'edit',
-    labelKey: 'canvas:menu.cut',
-    icon: IconCut,
-    enabled: selectedOnCanvas,
-    run: () => void cutSelection(),
-  },
-  {
-    id: 'edit.paste',
-    group: 'edit',
-    labelKey: 'canvas:menu.paste',
-    icon: IconClipboard,
-    enabled: onCanvas,
-    run: () => void paste(),
-  },
-  {
-    id: 'edit.duplicate',
-    group: 'edit',
-    labelKey: 'canvas:menu.duplicate',
-    icon: IconCopyPlus,
-    shortcut: '$mod+KeyD',
-    enabled: selectedOnCanvas,
-    run: duplicateSelection,
-  },
-  {
     id: 'edit.selectAll',
     group: 'edit',
     labelKey: 'canvas:action.selectAll',
     shortcut: '$mod+KeyA',
-    enabled: onCanvas,
+    enabled: isOnCanvas,
     run: () => {
       const diagram = activeDiagram();
       if (diagram) state().select(diagram.id, Object.keys(diagram.nodes));
     },
-  },
-  {
-    id: 'canvas.add',
-    group: 'canvas',
-    labelKey: 'canvas:menu.addBlock',
-    icon: IconPlus,
-    enabled: hasTree,
-    run: () => {
-      openQuickAddHere('child');
-    },
-  },
-  {
-    id: 'canvas.wrap',
-    group: 'canvas',
-    labelKey: 'canvas:menu.wrap',
-    icon: IconBox,
-    shortcut: '$mod+KeyG',
-    enabled: hasSelection,
-    run: () => {
-      openQuickAddHere('wrap');
-    },
-  },
-  {
-    id: 'canvas.unwrap',
-    group: 'canvas',
-    labelKey: 'canvas:menu.unwrap',
-    icon: IconBoxOff,
-    shortcut: '$mod+Shift+KeyG',
-    enabled: hasSelection,
-    run: unwrapSelection,
-  },
-  {
-    id: 'canvas.morph',
-    group: 'canvas',
-    labelKey: 'canvas:menu.morph',
-    icon: IconArrowsExchange,
-    shortcut: '$mod+KeyM',
-    enabled: hasSelection,
-    run: () => {
-      openQuickAddHere('morph');
-    },
-  },
-  {
-    id: 'canvas.disable',
-    group: 'canvas',
-    labelKey: 'canvas:menu.disable',
-    icon: IconBan,
-    shortcut: '$mod+KeyE',
-    enabled: hasSelection,
-    run: toggleDisabled,
-  },
-  {
-    id: 'canvas.fix',
-    group: 'canvas',
-    labelKey: 'canvas:menu.fix',
-    icon: IconBulb,
-    shortcut: '$mod+Period',
-    enabled: () => hasProblem(state().selection[0]),
-    run: () => {
-      setEditor({ fixing: state().selection[0] ?? null });
-    },
-  },
-  {
-    id: 'canvas.extract',
-    group: 'canvas',
-    labelKey: 'canvas:menu.extract',
-    icon: IconBinaryTree,
-    enabled: hasSelection,
-    run: extractSelection,
-  },
-  {
-    id: 'canvas.look',
-    group: 'canvas',
-    labelKey: 'canvas:menu.lookInside',
-    enabled: () => selectedNode()?.type === 'SubTree',
-    run: () => {
-      const { activeTree, selection } = state();
-      if (activeTree !== null && selection[0] !== undefined) toggleExpanded(activeTree, selection[0]);
-    },
-  },
-  {
-    id: 'canvas.inline',
-    group: 'canvas',
-    labelKey: 'canvas:menu.inline',
-    icon: IconBoxOff,
-    enabled: hasSelection,
-    run: inlineSelection,
   },
   {
     id: 'canvas.find',
@@ -217,7 +74,7 @@ const rows: readonly UserAction[] = [
     labelKey: 'canvas:action.find',
     icon: IconSearch,
     shortcut: '$mod+KeyF',
-    enabled: onCanvas,
+    enabled: isTreeInFront,
     run: () => {
       setEditor({ find: true });
     },
@@ -232,17 +89,16 @@ const rows: readonly UserAction[] = [
       change('tidy', [tidy()]);
     },
   },
-  {
-    id: 'canvas.orientation',
+  ...(['vertical', 'horizontal'] as const).map((layout): UserAction => ({
+    id: `canvas.${layout}`,
     group: 'canvas',
-    labelKey: 'canvas:action.orientation',
-    enabled: hasTree,
+    labelKey: `canvas:toolbar.${layout}`,
+    icon: layout === 'vertical' ? IconArrowsVertical : IconArrowsHorizontal,
+    enabled: () => hasTree() && activeDiagram()?.layout !== layout,
     run: () => {
-      const diagram = activeDiagram();
-      if (diagram)
-        change('orientation', [setLayout(diagram.layout === 'vertical' ? 'horizontal' : 'vertical')]);
+      change('orientation', [setLayout(layout)]);
     },
-  },
+  })),
 ];
 
 /** Figma's keys for the same. */
@@ -305,5 +161,5 @@ const views: readonly UserAction[] = [
 
 /** Adds the editor's commands to the table; the returned function takes them out again. */
 export function registerCanvasActions(): () => void {
-  return registerActions([...rows, ...views]);
+  return registerActions([...rows, ...blockActions, ...views]);
 }

@@ -1,5 +1,7 @@
+import { notifications } from '@mantine/notifications';
 import type { ClipboardEvent } from 'react';
-import { copiedText, pasteText } from '@/store/project/clipboard';
+import { t } from '@/i18n';
+import { clipboardText, copiedText, pasteText } from '@/store/project/clipboard';
 import { deleteSelection } from '@/store/project/commands';
 
 const isText = (target: EventTarget): boolean =>
@@ -13,6 +15,16 @@ function onCopy(event: ClipboardEvent): boolean {
   return true;
 }
 
+/** Pastes what was copied here or elsewhere; a text that holds no blocks is said to be none. */
+function pasteOrTell(text: string): void {
+  if (!pasteText(text)) notifications.show({ color: 'yellow', message: t('canvas:pastesNothing') });
+}
+
+/** The same from a menu, where no event brings the text. */
+export async function pasteHere(): Promise<void> {
+  pasteOrTell(await clipboardText());
+}
+
 /** Copy, cut and paste by the browser's own events: they need no permission, unlike reading at will. */
 export const clipboardHandlers = {
   onCopy: (event: ClipboardEvent): void => {
@@ -22,6 +34,8 @@ export const clipboardHandlers = {
     if (onCopy(event)) deleteSelection();
   },
   onPaste: (event: ClipboardEvent): void => {
-    if (!isText(event.target) && pasteText(event.clipboardData.getData('text/plain'))) event.preventDefault();
+    if (isText(event.target)) return;
+    event.preventDefault();
+    pasteOrTell(event.clipboardData.getData('text/plain'));
   },
 };

@@ -1,20 +1,18 @@
 import type { KeyboardEvent } from 'react';
 import { childrenOf, parentOf, topsOf, type Diagram, type NodeId } from '@/model/diagram';
-import { setCollapsed } from '@/model/edits';
 import type { Inside } from '@/model/expand';
 import { visibleChildren } from '@/model/layout';
 import {
   activeDiagram,
-  change,
   deleteSelection,
   moveIn,
   moveOut,
   reorderSelection,
   unwrapSelection,
 } from '@/store/project/commands';
-import { setEditor, toggleExpanded } from '@/store/project/editor';
-import { openAction, openTree } from '@/store/project/navigation';
+import { openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
+import { editSelected, openBlock, toggleFolded, toggleInside } from './blockCommands';
 import { openQuickAddHere } from './quickAdd/open';
 
 /** What presses a button that has the focus, or leaves it. */
@@ -64,16 +62,6 @@ export function enterInside({ tree, node }: Inside): void {
   useProjectStore.getState().reveal(tree, node);
 }
 
-/** Opens what a block stands for: the code of an action, the tree of a subtree, else its name. */
-export function openBlock(diagram: Diagram, id: NodeId): void {
-  const node = diagram.nodes[id];
-  if (!node) return;
-  const spec = useProjectStore.getState().vocabulary.specs.get(node.type);
-  if (node.type === 'SubTree' && node.tree) openTree(node.tree);
-  else if (spec?.source === 'action') openAction(node.type);
-  else setEditor({ editing: { node: id, field: 'name' } });
-}
-
 /** Keys on a selected block; true when the key was one of ours. */
 function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean {
   switch (event.key) {
@@ -86,10 +74,10 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
       else openBlock(diagram, id);
       return true;
     case 'F2':
-      setEditor({ editing: { node: id, field: 'name' } });
+      editSelected('name');
       return true;
     case '/':
-      setEditor({ editing: { node: id, field: 'comment' } });
+      editSelected('comment');
       return true;
     case 'Delete':
     case 'Backspace':
@@ -97,11 +85,8 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
       else deleteSelection();
       return true;
     case ' ':
-      if (diagram.nodes[id]?.type === 'SubTree') toggleExpanded(diagram.id, id);
-      else if (childrenOf(diagram, id).length > 0) {
-        const folded = diagram.nodes[id]?.collapsed === true;
-        change(folded ? 'unfold' : 'fold', [setCollapsed(id, !folded)]);
-      }
+      if (diagram.nodes[id]?.type === 'SubTree') toggleInside();
+      else toggleFolded();
       return true;
     default:
       return false;

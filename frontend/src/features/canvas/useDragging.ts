@@ -1,9 +1,9 @@
 import { useReactFlow } from '@xyflow/react';
 import { useCallback, useEffect, useRef, useState, type RefObject } from 'react';
-import { subtreeOf, topmost } from '@/model/diagram';
-import { insertFragment, fragmentOf, moveNode, setPosition, withFreshIds } from '@/model/edits';
-import { freshId } from '@/model/diagram';
-import { isSamePlace, slotFinder, type SlotFinder } from '@/model/slots';
+import { freshId, subtreeOf, topmost, type NodeId } from '@/model/diagram';
+import { insertFragment, fragmentOf, moveNodes, setPosition, withFreshIds } from '@/model/edits';
+import { hasRoom } from '@/model/rules';
+import { isSamePlace, slotFinder, type Slot, type SlotFinder } from '@/model/slots';
 import { change } from '@/store/project/commands';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
@@ -14,14 +14,16 @@ import type { TreeOnCanvas } from './useTree';
 /** Below this a press is a click: hands tremble. */
 const DEAD_ZONE = 6;
 
-/** What is worked out once when a block is taken, for all steps of the hand. */
+/** What is worked out once when blocks are taken, for all steps of the hand. */
 interface Grip {
   readonly hand: Hand;
+  /** The blocks in the hand that are below none of the others, in execution order. */
+  readonly tops: readonly NodeId[];
   readonly layout: unknown;
   readonly findSlot: SlotFinder;
 }
 
-/** Moving blocks by hand: into a slot of the tree, or to a position of its own. Alt copies. */
+/** Moving blocks by hand: into a slot of the tree, or to a position of their own. Alt copies. */
 export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
   const flow = useReactFlow();
   const grip = useRef<Grip | null>(null);
@@ -39,9 +41,9 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
         selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
       const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
       const hand = new Hand(canvas.current, node.id, new Set(tops), ids);
-      const findSlot = slotFinder({ diagram, layout, vocabulary, moving: node.id });
+      const findSlot = slotFinder({ diagram, layout, vocabulary, moving: tops });
       setHeld(node.id);
-      return (grip.current = { hand, layout, findSlot });
+      return (grip.current = { hand, tops, layout, findSlot });
     },
     [diagram, shown, layout, vocabulary, canvas],
   );
@@ -51,6 +53,13 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
     grip.current = null;
   }, []);
   useEffect(() => letGo, [letGo]);
+
+  /** Copies come in addition to what hangs there; what is moved leaves its place first. */
+  const allows = useCallback(
+    (slot: Slot, tops: readonly NodeId[], isCopy: boolean): boolean =>
+      isCopy ? hasRoom(diagram, slot.parent, vocabulary, tops.length) : !isSamePlace(diagram, tops, slot),
+    [diagram, vocabulary],
+  );
 
   const onDrag = useCallback(
     (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
@@ -63,42 +72,37 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
       const pointer = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
       const far = Math.hypot(dx, dy) > DEAD_ZONE;
       const slot = far ? taken.findSlot(pointer.x, pointer.y) : null;
-      const stays = slot !== null && !event.altKey && isSamePlace(diagram, node.id, slot);
-      const next = stays ? null : slot;
+      const next = slot && allows(slot, taken.tops, event.altKey) ? slot : null;
       const shown = useEditorStore.getState().slot;
       const same =
         next?.parent === shown?.parent && next?.index === shown?.index && next?.kind === shown?.kind;
       if (!same) setEditor({ slot: next });
     },
-    [diagram, layout, take, flow],
+    [layout, take, allows, flow],
   );
 
   const onDrop = useCallback(
     (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
-      const { slot } = useEditorStore.getState();
+      const found = useEditorStore.getState().slot;
       const origin = layout.positions[node.id];
+      const tops = grip.current?.tops ?? [node.id];
       letGo();
       setHeld(null);
       setEditor({ slot: null });
       if (!origin) return;
-      const { selection } = useProjectStore.getState();
-      const tops = selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
       if (Math.hypot(dx, dy) <= DEAD_ZONE) return;
+      // The key may have been let go, or pressed, since the last step of the hand.
+      const slot = found && allows(found, tops, event.altKey) ? found : null;
+      const place = slot && ({ at: 'child', parent: slot.parent, index: slot.index } as const);
       if (event.altKey) {
         const copy = withFreshIds(fragmentOf(diagram, tops), (taken) =>
           freshId({ ...diagram.nodes, ...taken }),
         );
-        const place = slot
-          ? ({ at: 'child', parent: slot.parent, index: slot.index } as const)
-          : ({ at: 'draft', position: [node.position.x, node.position.y] } as const);
-        change('duplicate', [insertFragment(copy, place)], { select: copy.tops });
-      } else if (slot) {
-        const recipes = tops.map((top) =>
-          moveNode(top, { at: 'child', parent: slot.parent, index: slot.index }),
-        );
-        // Each goes before the one that was put there first: from the last to the first.
-        change('move', recipes.reverse(), { select: tops });
+        const free = { at: 'draft', position: [node.position.x, node.position.y] } as const;
+        change('duplicate', [insertFragment(copy, place ?? free)], { select: copy.tops });
+      } else if (place) {
+        change('move', [moveNodes(tops, place)], { select: tops });
       } else {
         const recipes = tops.map((top) => {
           const box = layout.positions[top];
@@ -107,7 +111,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
         change('place', recipes, { select: tops });
       }
     },
-    [diagram, layout, letGo],
+    [diagram, layout, letGo, allows],
   );
 
   return { held, onDrag, onDrop };

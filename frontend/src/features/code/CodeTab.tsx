@@ -1,5 +1,6 @@
+import { historyField } from '@codemirror/commands';
 import { setDiagnostics } from '@codemirror/lint';
-import { Annotation, EditorState, Transaction } from '@codemirror/state';
+import { Annotation, EditorState, Transaction, type StateEffect } from '@codemirror/state';
 import { EditorView } from '@codemirror/view';
 import { Center, Text } from '@mantine/core';
 import { useEffect, useRef } from 'react';
@@ -11,9 +12,11 @@ import { useTabs } from '@/features/frame/tabs';
 import frame from './editorFrame.module.css';
 import { marksFor } from './diagnostics';
 import { extensionsFor } from './extensions';
-import { isOurs, lintMarks, servedMark } from './findings';
+import { isToldBetter, lintMarks, servedMark } from './findings';
 import { applyKeptFontSize } from './fontSize';
+import { changesBetween } from './language/ruff';
 import { LanguageStatus } from './LanguageStatus';
+import { textMarks, useTextErrors, type TextErrors } from './textErrors';
 import { useFindings, type Linted } from './useFindings';
 
 interface CodeTabProps {
@@ -23,11 +26,21 @@ interface CodeTabProps {
 /** Marks changes that came from the store, so that they are not sent back as edits. */
 const fromStore = Annotation.define<boolean>();
 
+const KEPT = { history: historyField };
+
+/** What the editor had before it was made anew: its file was given another name, or the page another language. */
+interface Left {
+  readonly state: unknown;
+  readonly scroll: StateEffect<unknown>;
+  readonly hadFocus: boolean;
+}
+
 /** One file of the project, editable. */
 export function CodeTab({ path }: CodeTabProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);
+  const left = useRef<Left | null>(null);
   const text = useProjectStore((state) => state.currentText(path));
   const isMissing = text === null;
   const label = t('editorOf', { path });
@@ -35,31 +48,42 @@ export function CodeTab({ path }: CodeTabProps) {
   useEffect(() => {
     if (!host.current || isMissing) return;
     applyKeptFontSize();
+    const extensions = [
+      extensionsFor(path, label),
+      EditorView.updateListener.of((update) => {
+        const isOurs = update.transactions.some((change) => change.annotation(fromStore));
+        if (update.docChanged && !isOurs) {
+          useProjectStore.getState().setFileText(path, update.state.doc.toString());
+        }
+      }),
+    ];
+    const before = left.current;
     const editor = new EditorView({
       parent: host.current,
-      state: EditorState.create({
-        doc: useProjectStore.getState().currentText(path) ?? '',
-        extensions: [
-          extensionsFor(path, label),
-          EditorView.updateListener.of((update) => {
-            const isOurs = update.transactions.some((change) => change.annotation(fromStore));
-            if (update.docChanged && !isOurs) {
-              useProjectStore.getState().setFileText(path, update.state.doc.toString());
-            }
-          }),
-        ],
-      }),
+      state: before
+        ? EditorState.fromJSON(before.state, { extensions }, KEPT)
+        : EditorState.create({ doc: useProjectStore.getState().currentText(path) ?? '', extensions }),
+      ...(before ? { scrollTo: before.scroll } : {}),
     });
+    if (before) follow(editor, useProjectStore.getState().currentText(path) ?? '');
+    if (before?.hadFocus) editor.focus();
     view.current = editor;
     return () => {
       view.current = null;
+      const { hasFocus: hadFocus } = editor;
+      left.current = {
+        state: editor.state.toJSON(KEPT) as unknown,
+        scroll: editor.scrollSnapshot(),
+        hadFocus,
+      };
       editor.destroy();
     };
   }, [path, label, isMissing]);
 
   useExternalText(view, text);
-  const findings = useFindings(path, text);
-  useMarks(view, path, text, findings);
+  const linted = useFindings(path, text);
+  const errors = useTextErrors(path, text);
+  useMarks(view, path, text, { linted, errors, label });
   useLineTarget(view, path, text);
 
   if (isMissing) {
@@ -82,16 +106,30 @@ type ViewRef = { readonly current: EditorView | null };
 /** Follows changes made elsewhere: a merge, a rename, another tab's save. */
 function useExternalText(view: ViewRef, text: string | null): void {
   useEffect(() => {
-    const editor = view.current;
-    if (!editor || text === null || editor.state.doc.toString() === text) return;
-    editor.dispatch({
-      changes: { from: 0, to: editor.state.doc.length, insert: text },
-      annotations: [fromStore.of(true), Transaction.addToHistory.of(true)],
-    });
+    if (view.current && text !== null) follow(view.current, text);
   }, [view, text]);
 }
 
-function useMarks(view: ViewRef, path: string, text: string | null, linted: Linted | null): void {
+/** Has an editor show a text; what is the same in both stays as it is, with cursors and marks in it. */
+function follow(editor: EditorView, text: string): void {
+  const before = editor.state.doc.toString();
+  // The editor counts a line's end as one character, whatever a file has there.
+  const after = text.replace(/\r\n?/g, '\n');
+  if (before === after) return;
+  editor.dispatch({
+    changes: changesBetween(before, after),
+    annotations: [fromStore.of(true), Transaction.addToHistory.of(true)],
+  });
+}
+
+interface Found {
+  readonly linted: Linted | null;
+  readonly errors: TextErrors | null;
+  /** With another one the editor is another. */
+  readonly label: string;
+}
+
+function useMarks(view: ViewRef, path: string, text: string | null, { linted, errors, label }: Found): void {
   const served = useLanguageStore((state) => state.findings[path]);
   const isServed = useLanguageStore((state) => state.state.kind === 'ready');
   const diagnostics = useProjectStore((state) => state.diagnostics);
@@ -101,13 +139,19 @@ function useMarks(view: ViewRef, path: string, text: string | null, linted: Lint
     if (!editor) return;
     const { doc } = editor.state;
     const marks = [
-      ...marksFor(doc, path, isServed ? diagnostics.filter(isOurs) : diagnostics, faults),
+      ...marksFor(
+        doc,
+        path,
+        diagnostics.filter((item) => !isToldBetter(item, isServed)),
+        faults,
+      ),
       ...(served ?? []).map((finding) => servedMark(doc, finding)),
       ...lintMarks(doc, linted, isServed),
+      ...textMarks(doc, errors),
     ];
     editor.dispatch(setDiagnostics(editor.state, marks));
     // A text that came with the marks moves them: they are set again for it.
-  }, [view, path, diagnostics, faults, text, served, isServed, linted]);
+  }, [view, path, diagnostics, faults, text, served, isServed, linted, errors, label]);
 }
 
 function useLineTarget(view: ViewRef, path: string, text: string | null): void {

@@ -9,7 +9,7 @@ import { treeIdOf } from '@/store/project/state';
 import { nameProblem, pathFor } from './names';
 import { closeFileDialog, useFileDialog, type FileDialog as Dialog, type NamedKind } from './newFile';
 import { renameDocument } from './renaming';
-import { actionSource, type ActionTemplate } from './templates';
+import { ACTION_TEMPLATES, actionSource, type ActionTemplate } from './templates';
 
 /** Asks for a new file's name (and kind of action), or for another name of one that there is. */
 export function FileDialog() {
@@ -98,7 +98,7 @@ function Form({ dialog }: { readonly dialog: NonNullable<Dialog> }) {
             onChange={(value) => setTemplate(value as ActionTemplate)}
           >
             <Stack gap="xs" mt="xs">
-              {(['action', 'condition', 'service'] as const).map((each) => (
+              {ACTION_TEMPLATES.map((each) => (
                 <Radio
                   key={each}
                   value={each}

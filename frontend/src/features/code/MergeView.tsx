@@ -6,6 +6,7 @@ import { useTranslation } from 'react-i18next';
 import classes from './code.module.css';
 import { editorTheme } from './editorTheme';
 import { languageOf } from './modes';
+import { phrases } from './phrases';
 
 interface MergeViewProps {
   readonly path: string;
@@ -24,7 +25,7 @@ export function MergeView({ path, theirs, mine, onChange }: MergeViewProps) {
   });
   useEffect(() => {
     if (!host.current) return;
-    const shared = [lineNumbers(), languageOf(path), editorTheme];
+    const shared = [lineNumbers(), languageOf(path), editorTheme, phrases()];
     const merge = new CodeMirrorMerge({
       parent: host.current,
       revertControls: 'a-to-b',

@@ -20,6 +20,7 @@ import {
 import { useProjectStore } from '@/store/project';
 import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
+import { phrases } from './phrases';
 
 /** What every editor of a project's text has: of files, and of a tree's XML; `keys` come before its own. */
 export function basics(label: string, keys: readonly KeyBinding[] = []): Extension {
@@ -37,6 +38,7 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     search({ top: true }),
     lintGutter(),
     editorTheme,
+    phrases(),
     // What is edited takes the focus anyhow; that it is said lets what scrolls be known as reachable by keyboard.
     EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
     keymap.of([

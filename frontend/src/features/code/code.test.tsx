@@ -11,7 +11,8 @@ import { marksFor } from './diagnostics';
 import { FileDialog } from './FileDialog';
 import { nameProblem } from './names';
 import { openNewFile, useFileDialog } from './newFile';
-import { actionSource } from './templates';
+import { textErrors, textMarks } from './textErrors';
+import { ACTION_TEMPLATES, actionSource } from './templates';
 
 const doc = Text.of(['class Go:', '    def update(self)', '        return 1']);
 const PATH = 'actions/Go.py';
@@ -75,9 +76,36 @@ describe('nameProblem', () => {
 
 describe('actionSource', () => {
   it('names the class as its file', () => {
-    for (const kind of ['action', 'condition', 'service'] as const) {
+    for (const kind of ACTION_TEMPLATES) {
       expect(actionSource('FollowWall', kind)).toContain('class FollowWall(py_trees.behaviour.Behaviour):');
     }
+  });
+});
+
+describe('textErrors', () => {
+  it.each([
+    ['a.json', '{"a": 1}', null, ''],
+    ['a.json', '{"a": 1,}', 8, 'Something else than JSON'],
+    ['a.json', '{"a": 01}', 7, 'Something else than JSON'],
+    ['a.json', '{"a": [1, 2', 11, 'Something else than JSON'],
+    ['a.json', '\n', 1, 'The file is empty'],
+    ['a.yaml', 'a: 1\nb: [1, 2\n', 14, 'This is no YAML'],
+    ['a.yml', 'a: 1\na: 2\n', 5, 'unique'],
+    ['a.launch', '<launch>\n<node/>\n</lunch>', 17, '</lunch>'],
+    ['a.md', '{', null, ''],
+    ['a.json', `[${'1,'.repeat(300_000)}`, null, ''],
+  ] as const)('%s', (path, text, offset, words) => {
+    const [error] = textErrors(path, text);
+    expect(error?.offset ?? null).toBe(offset);
+    expect(error?.message ?? '').toContain(words);
+  });
+
+  it('are marked while they are about the text that is there', () => {
+    const text = Text.of(['{"a": oh}']);
+    const errors = textErrors('a.json', text.toString());
+    const [mark] = textMarks(text, { doc: text, errors });
+    expect(text.sliceString(mark!.from, mark!.to)).toBe('oh');
+    expect(textMarks(Text.of(['{}']), { doc: text, errors })).toEqual([]);
   });
 });
 
@@ -89,7 +117,7 @@ describe('FileDialog', () => {
 
   it('makes an action from a template and opens it', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), openFile });
+    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), renamed: vi.fn(), openFile });
     openNewFile('action');
     render(
       <MantineProvider env="test">

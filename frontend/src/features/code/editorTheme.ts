@@ -55,6 +55,11 @@ const look = EditorView.theme({
     textDecoration: 'underline wavy var(--bts-running-bright)',
     textUnderlineOffset: '3px',
   },
+  '.cm-collapsedLines': {
+    color: 'var(--bts-muted)',
+    background: 'var(--bts-surface-2)',
+    '&:before, &:after': { content: '"⋯"' },
+  },
   '.cm-faultLine': { backgroundColor: 'var(--bts-failure-soft)' },
 });
 

@@ -23,8 +23,9 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
   };
 }
 
-/** The language server tells syntax errors better than the checks of the project do. */
-export const isOurs = (item: Diagnostic): boolean => item.code !== 'BT0601';
+/** The editor tells what is no JSON as one types, and the language server what is no Python. */
+export const isToldBetter = (item: Diagnostic, isServed: boolean): boolean =>
+  item.code === 'BT0001' || (isServed && item.code === 'BT0601');
 
 /** Findings of ruff, each with a button that mends it; none while they are about an older text. */
 export function lintMarks(doc: Text, linted: Linted | null, isServed: boolean): Mark[] {

@@ -6,11 +6,13 @@ import { markdown } from '@codemirror/lang-markdown';
 import { indentUnit } from '@codemirror/language';
 import type { Extension } from '@codemirror/state';
 
+export const isXml = (path: string): boolean => /\.(xml|urdf|sdf|launch)$/.test(path);
+
 /** How a file's text is coloured and indented, by its name. */
 export function languageOf(path: string): Extension {
   if (path.endsWith('.py')) return [python(), indentUnit.of('    ')];
   if (path.endsWith('.json')) return [json(), indentUnit.of('  ')];
-  if (/\.(xml|urdf|sdf|launch)$/.test(path)) return [xml(), indentUnit.of('  ')];
+  if (isXml(path)) return [xml(), indentUnit.of('  ')];
   if (/\.ya?ml$/.test(path)) return [yaml(), indentUnit.of('  ')];
   if (/\.(md|markdown)$/.test(path)) return [markdown(), indentUnit.of('  ')];
   return indentUnit.of('  ');

@@ -1,11 +1,6 @@
 import { OUTSIDE } from '@/features/universe/titles';
+import { isPythonName } from '@/model/pythonNames';
 import type { NamedKind } from './newFile';
-
-const PYTHON_KEYWORDS = new Set(
-  'False None True and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not or pass raise return try while with yield'.split(
-    ' ',
-  ),
-);
 
 export type NameProblem = 'empty' | 'notIdentifier' | 'notPath' | 'taken' | 'builtin' | 'notId' | 'meansNone';
 
@@ -25,8 +20,7 @@ interface Taken {
 /** Why a file cannot be called so; null when it can. */
 export function nameProblem(kind: NamedKind, name: string, { paths, types }: Taken): NameProblem | null {
   if (name.trim() === '') return 'empty';
-  if (kind === 'action' && (!/^[A-Za-z_]\w*$/.test(name) || PYTHON_KEYWORDS.has(name)))
-    return 'notIdentifier';
+  if (kind === 'action' && !isPythonName(name)) return 'notIdentifier';
   if (kind === 'tree' && !/^[\w.-]+$/.test(name)) return 'notIdentifier';
   if (kind === 'file' && (!/^[\w][\w./-]*$/.test(name) || name.includes('..'))) return 'notPath';
   if ((kind === 'universe' || kind === 'robot') && !/^[A-Za-z_][A-Za-z0-9_-]*$/.test(name)) return 'notId';

@@ -1,6 +1,6 @@
 import { useProjectStore } from '@/store/project';
 import { filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
-import { openFile } from '@/store/project/navigation';
+import { openFile, renamed } from '@/store/project/navigation';
 import { useWorldChoice } from '@/store/run/world';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 
@@ -21,6 +21,9 @@ export async function renameDocument(path: string, name: string): Promise<void> 
     useWorldChoice.setState({ universe: null, robot: null });
   // The new ones are saved before the old ones go.
   await putBinaries(binaries.map(({ path: file, data }) => ({ path: moved(file), data })));
-  for (const file of files) project.deleteFile(file);
+  for (const file of files) {
+    renamed('file', file, moved(file));
+    project.deleteFile(file);
+  }
   openFile(to);
 }

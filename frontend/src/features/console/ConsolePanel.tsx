@@ -1,7 +1,7 @@
 import { ActionIcon, NativeSelect, TextInput, Tooltip } from '@mantine/core';
 import { IconArrowDown, IconEraser, IconSearch } from '@tabler/icons-react';
 import { useVirtualizer } from '@tanstack/react-virtual';
-import { useEffect, useMemo, useRef, useState } from 'react';
+import { useEffect, useMemo, useRef, useState, type PointerEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { LogLevel } from '@/generated/messages';
 import { useShallow } from 'zustand/react/shallow';
@@ -40,15 +40,22 @@ export function ConsolePanel() {
     initialRect: { width: 600, height: 200 },
   });
 
+  const size = rows.getTotalSize();
+  const top = useRef(0);
+  const { isHeld, hold } = useHold();
   useEffect(() => {
     const element = scroller.current;
-    if (isFollowing && element) element.scrollTop = element.scrollHeight;
-  }, [lines, isFollowing]);
+    if (isFollowing && !isHeld && element) element.scrollTop = element.scrollHeight;
+  }, [lines, size, isFollowing, isHeld]);
 
   const onScroll = () => {
     const element = scroller.current;
     if (!element) return;
-    setFollowing(element.scrollHeight - element.scrollTop - element.clientHeight < LINE_HEIGHT * 2);
+    const { scrollTop, scrollHeight, clientHeight } = element;
+    const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
+    // Only who goes up wants to stay: lines that come or are measured, and a panel that shrinks, scroll too.
+    if (isAtEnd || scrollTop < top.current) setFollowing(isAtEnd);
+    top.current = scrollTop;
   };
 
   return (
@@ -102,6 +109,7 @@ export function ConsolePanel() {
         ref={scroller}
         className={classes['scroller']}
         onScroll={onScroll}
+        onPointerDown={hold}
         role="log"
         aria-label={t('label')}
         // A region that scrolls has to be reachable by keyboard.
@@ -111,7 +119,7 @@ export function ConsolePanel() {
         {lines.length === 0 ? (
           <p className={classes['empty']}>{t(logs.length === 0 ? 'empty' : 'nothingMatches')}</p>
         ) : (
-          <div className={classes['lines']} style={{ height: rows.getTotalSize() }}>
+          <div className={classes['lines']} style={{ height: size }}>
             {rows.getVirtualItems().map((row) => {
               const line = lines[row.index];
               return line ? (
@@ -136,6 +144,19 @@ export function ConsolePanel() {
       </div>
     </div>
   );
+}
+
+/** Whether a finger or a button of the mouse is down: what it is on must not run away before it is up again. */
+function useHold() {
+  const [isHeld, setHeld] = useState(false);
+  const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
+    // The click comes after it, and has to find what was pressed.
+    const release = () => setTimeout(() => setHeld(false));
+    setHeld(true);
+    for (const end of ['pointerup', 'pointercancel'])
+      ownerDocument.addEventListener(end, release, { once: true });
+  };
+  return { isHeld, hold };
 }
 
 /** The sources to choose from, with each extra node of the run, and the chosen one also when it is gone. */

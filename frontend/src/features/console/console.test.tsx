@@ -1,5 +1,5 @@
 import { MantineProvider } from '@mantine/core';
-import { act, render, screen } from '@testing-library/react';
+import { act, fireEvent, render, screen, waitFor } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import '@/i18n';
@@ -103,12 +103,51 @@ describe('ConsolePanel', () => {
 
   it('opens the line that a link names', async () => {
     const openFile = vi.fn();
-    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), openFile });
+    setNavigator({ openTree: vi.fn(), aimAt: vi.fn(), renamed: vi.fn(), openFile });
     act(() => {
       useSessionStore.setState(appendLogs(initialSession, [log('see Forward.py:12')]));
     });
     show();
     await userEvent.click(await screen.findByRole('button', { name: 'Forward.py:12' }));
     expect(openFile).toHaveBeenCalledWith('actions/Forward.py', 12);
+  });
+
+  it('follows the end until one goes up, whatever else scrolls', () => {
+    useSessionStore.setState(appendLogs(initialSession, [log('one'), log('two')]));
+    show();
+    const scroller = screen.getByRole('log');
+    const scroll = (top: number, height: number) => {
+      Object.defineProperties(scroller, {
+        scrollHeight: { value: height, configurable: true },
+        clientHeight: { value: 100, configurable: true },
+        scrollTop: { value: top, configurable: true, writable: true },
+      });
+      fireEvent.scroll(scroller);
+    };
+    const toEnd = () => screen.queryByRole('button', { name: 'Follow the end' });
+    scroll(400, 500);
+    scroll(410, 900);
+    expect(toEnd()).toBeNull();
+    scroll(300, 900);
+    expect(toEnd()).not.toBeNull();
+    scroll(790, 900);
+    expect(toEnd()).toBeNull();
+  });
+
+  it('stands still while something in it is pressed', async () => {
+    useSessionStore.setState(appendLogs(initialSession, [log('one')]));
+    show();
+    const scroller = screen.getByRole('log');
+    Object.defineProperties(scroller, {
+      scrollHeight: { value: 900, configurable: true },
+      scrollTop: { value: 100, configurable: true, writable: true },
+    });
+    fireEvent.pointerDown(scroller);
+    act(() => useSessionStore.setState((state) => appendLogs(state, [log('two')])));
+    expect(scroller.scrollTop).toBe(100);
+    fireEvent.pointerUp(scroller);
+    await waitFor(() => {
+      expect(scroller.scrollTop).toBe(900);
+    });
   });
 });

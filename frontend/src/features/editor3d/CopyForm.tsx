@@ -3,6 +3,7 @@ import { useEffect, useRef, useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { UniverseInfo } from '@/api/types';
 import { ChoiceCards } from '@/features/universe/ChoiceCards';
+import universe from '@/features/universe/universe.module.css';
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
@@ -63,38 +64,40 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
       <Stack gap="md" data-testid={`${testId}-form`}>
         <Text size="sm">{words.hint}</Text>
         <ChoiceCards label={t('copy.base')} items={items} chosen={base} onChoose={setBase} />
-        <TextInput
-          data-autofocus
-          ref={field}
-          label={t('copy.name')}
-          data-testid={`${testId}-name`}
-          value={shown}
-          error={problem}
-          onChange={(event) => setName(event.currentTarget.value)}
-        />
-        <Switch
-          label={words.use}
-          checked={isUsed}
-          onChange={(event) => setUsed(event.currentTarget.checked)}
-        />
-        {state.error ? (
-          <Text size="sm" c="var(--bts-failure)" role="alert">
-            {state.error}
-          </Text>
-        ) : null}
-        <Group justify="flex-end">
-          <Button variant="default" onClick={onCancel}>
-            {t('copy.cancel')}
-          </Button>
-          <Button
-            type="submit"
-            loading={state.isBusy}
-            disabled={problem !== null}
-            data-testid={`${testId}-ok`}
-          >
-            {t('copy.create')}
-          </Button>
-        </Group>
+        <Stack gap="sm" className={universe['decision'] ?? ''}>
+          <TextInput
+            data-autofocus
+            ref={field}
+            label={t('copy.name')}
+            data-testid={`${testId}-name`}
+            value={shown}
+            error={problem}
+            onChange={(event) => setName(event.currentTarget.value)}
+          />
+          <Switch
+            label={words.use}
+            checked={isUsed}
+            onChange={(event) => setUsed(event.currentTarget.checked)}
+          />
+          {state.error ? (
+            <Text size="sm" c="var(--bts-failure)" role="alert">
+              {state.error}
+            </Text>
+          ) : null}
+          <Group justify="flex-end">
+            <Button variant="default" onClick={onCancel}>
+              {t('copy.cancel')}
+            </Button>
+            <Button
+              type="submit"
+              loading={state.isBusy}
+              disabled={problem !== null}
+              data-testid={`${testId}-ok`}
+            >
+              {t('copy.create')}
+            </Button>
+          </Group>
+        </Stack>
       </Stack>
     </form>
   );

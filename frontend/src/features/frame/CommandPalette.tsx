@@ -5,20 +5,22 @@ import { createPortal } from 'react-dom';
 import { useTranslation } from 'react-i18next';
 import { closePalette, usePalette } from '@/actions/palette';
 import { perform, useActionTable, type ActionGroup } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
+import { keysOf } from '@/actions/shortcuts';
 import { matchScore } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
 import classes from './commands.module.css';
-import { openTab } from './tabs';
+import { openTab, useTabs, type DocumentTab } from './tabs';
 
 /** What is wanted most often comes first. */
-const GROUPS: ActionGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go'];
+const GROUPS: ActionGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
 
 interface Command {
   readonly id: string;
   readonly label: string;
   readonly icon: ComponentType<{ size?: number | string }> | undefined;
-  readonly shortcut?: string | undefined;
+  readonly keys?: string | null;
+  /** It can be done now; what cannot is shown all the same, so that it is known to be there. */
+  readonly isReady: boolean;
   readonly run: () => void;
 }
 
@@ -26,42 +28,58 @@ interface Command {
 function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
   const table = useActionTable((state) => state.actions);
+  // On the start page no document can be opened, though the store still knows those of the last project.
+  const hasDocuments = useTabs((state) => state.model !== null);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
+  // Asked once, before the palette has taken the focus from where it was.
+  const [ready] = useState(() => {
+    const rows = Object.values(table).filter((action) => action.enabled?.() !== false);
+    return new Set(rows.map(({ id }) => id));
+  });
   return useMemo(() => {
     const actions = Object.values(table)
       .filter((action) => !action.hidden)
       .sort((a, b) => GROUPS.indexOf(a.group) - GROUPS.indexOf(b.group))
-      .map(({ id, labelKey, icon, shortcut }): Command => {
-        return { id, label: t(labelKey), icon, shortcut, run: () => perform(id, page) };
+      .map((action): Command => {
+        const { id, labelKey, labelValues, icon } = action;
+        const label = t(labelKey, { ...labelValues });
+        return {
+          id,
+          label,
+          icon,
+          keys: keysOf(action),
+          isReady: ready.has(id),
+          run: () => perform(id, page),
+        };
       });
-    const trees = Object.keys(diagrams).map((id): Command => {
-      const label = t('palette.openTree', { name: id });
-      return { id: `tree:${id}`, label, icon: IconGitFork, run: () => openTab({ kind: 'tree', id }) };
-    });
+    const open = (id: string, label: string, icon: Command['icon'], tab: DocumentTab): Command => {
+      return { id, label, icon, isReady: true, run: () => openTab(tab) };
+    };
+    const trees = Object.keys(diagrams).map((id) =>
+      open(`tree:${id}`, t('palette.openTree', { name: id }), IconGitFork, { kind: 'tree', id }),
+    );
     const texts = Object.values(files)
       .filter((file) => file.kind === 'text')
-      .map(({ path }): Command => {
-        const label = t('palette.openFile', { name: path });
-        return { id: `file:${path}`, label, icon: IconFileCode, run: () => openTab({ kind: 'file', path }) };
-      });
-    return [...actions, ...trees, ...texts];
-  }, [table, files, diagrams, t, page]);
+      .map(({ path }) =>
+        open(`file:${path}`, t('palette.openFile', { name: path }), IconFileCode, { kind: 'file', path }),
+      );
+    return hasDocuments ? [...actions, ...trees, ...texts] : actions;
+  }, [table, files, diagrams, hasDocuments, t, page, ready]);
 }
 
-/** Those whose words fit best, first; among equals the order stays. */
+/** Those whose words fit best, first; among equals what can be done now, and else the order stays. */
 function matching(commands: readonly Command[], search: string): Command[] {
   const rated = commands.map((command) => ({ command, score: matchScore(command.label, search) }));
   return rated
     .filter(({ score }) => score > 0)
-    .sort((a, b) => b.score - a.score)
+    .sort((a, b) => b.score - a.score || Number(b.command.isReady) - Number(a.command.isReady))
     .map(({ command }) => command);
 }
 
 /** Everything that can be done, and every file, by name: in the window in which it is asked for. */
 export function CommandPalette() {
   const page = usePalette((state) => state.page);
-  useEffect(() => closePalette, []);
   return page && createPortal(<Palette page={page} />, page.body);
 }
 
@@ -87,6 +105,7 @@ function Palette({ page }: { readonly page: Document }) {
   }, [active, found]);
 
   const choose = (at: number): void => {
+    if (!found[at]?.isReady) return;
     closePalette();
     // What it does may move the focus: that comes after the palette has given it back.
     setTimeout(() => found[at]?.run());
@@ -154,7 +173,7 @@ function Palette({ page }: { readonly page: Document }) {
           role="listbox"
           aria-label={t('palette.list')}
         >
-          {found.map(({ id, label, icon: Icon, shortcut }, at) => (
+          {found.map(({ id, label, icon: Icon, keys, isReady }, at) => (
             // The field has the keyboard: a row is pointed at, or chosen with Enter.
             // eslint-disable-next-line jsx-a11y/click-events-have-key-events
             <div
@@ -164,6 +183,7 @@ function Palette({ page }: { readonly page: Document }) {
               role="option"
               tabIndex={-1}
               aria-selected={at === active}
+              aria-disabled={!isReady || undefined}
               onMouseDown={(event) => {
                 event.preventDefault();
               }}
@@ -173,7 +193,7 @@ function Palette({ page }: { readonly page: Document }) {
             >
               {Icon ? <Icon size={18} /> : null}
               <span className={classes['label']}>{label}</span>
-              {shortcut === undefined ? null : <Kbd size="xs">{shortcutLabel(shortcut)}</Kbd>}
+              {keys ? <Kbd size="xs">{keys}</Kbd> : null}
             </div>
           ))}
         </div>

@@ -2,21 +2,23 @@ import {
   I18nLabel,
   Layout,
   type Action,
+  type IIcons,
   type ITabRenderValues,
   type Model,
   type TabNode,
 } from 'flexlayout-react';
-import { IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
+import { IconChevronsDown, IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
 import { useEffect, useMemo, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
 import './dock.css';
+import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { forgetLayouts, keepLayout, type FrameWidth } from './layoutModel';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts } from './popouts';
-import { followFront, keepOpen, useTabs, type DocumentTab } from './tabs';
+import { documentOf, followFront, keepOpen, useTabs } from './tabs';
 
 interface DockProps {
   readonly model: Model;
@@ -24,8 +26,7 @@ interface DockProps {
 }
 
 function renderTabButton(node: TabNode, values: ITabRenderValues): void {
-  const config = node.getConfig() as { tab?: DocumentTab } | undefined;
-  const tab = config?.tab;
+  const tab = documentOf(node);
   if (tab?.kind === 'tree') values.leading = <IconGitFork size={15} aria-hidden="true" />;
   if (tab?.kind === 'compare') values.leading = <IconHistory size={15} aria-hidden="true" />;
   if (tab?.kind === 'file') {
@@ -37,6 +38,16 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   }
   if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
+
+/** The button of tabs that have no room: its name says what they are, and its picture how many. */
+const ICONS: IIcons = {
+  more: (_tabset, hidden) => (
+    <>
+      <IconChevronsDown size={14} aria-hidden="true" />
+      <span className="flexlayout__tab_button_overflow_count" data-count={hidden.length || ''} />
+    </>
+  ),
+};
 
 /** What the docking library says, by its own keys. */
 const WORDS: ReadonlyMap<string, string> = new Map([
@@ -55,9 +66,17 @@ const WORDS: ReadonlyMap<string, string> = new Map([
   [I18nLabel.Error_rendering_component_retry, 'dock.retry'],
 ]);
 
+/** In the language that the page has when it asks: the library keeps this function through a change of it. */
+function translated(key: string): string {
+  const word = WORDS.get(key) ?? key;
+  // Trees and files are called as their author wills, be it as one of our texts.
+  const isOurs = word !== key || key.startsWith('panel.');
+  return isOurs && translates(`frame:${word}`) ? t(`frame:${word}`) : word;
+}
+
 /** The panels, docked as the user likes them. */
 export function Dock({ model, width }: DockProps) {
-  const { t, i18n } = useTranslation('frame');
+  useTranslation('frame');
   const keeping = useRef<ReturnType<typeof setTimeout>>(undefined);
   useEffect(() => () => clearTimeout(keeping.current), []);
 
@@ -77,16 +96,14 @@ export function Dock({ model, width }: DockProps) {
     <Layout
       model={model}
       factory={renderTab}
+      icons={ICONS}
       onRenderTab={renderTabButton}
       onModelChange={onModelChange}
       onAction={popouts.onAction}
       onPopoutOpen={popouts.onOpen}
       onPopoutClose={popouts.onClose}
       popoutURL="/popout.html"
-      i18nTranslator={(key) => {
-        const word = WORDS.get(key) ?? key;
-        return i18n.exists(`frame:${word}`) ? t(word) : word;
-      }}
+      i18nTranslator={translated}
       invalidateTabContentOnParentRender={false}
       realtimeResize
     />

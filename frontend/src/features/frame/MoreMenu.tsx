@@ -2,7 +2,7 @@ import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconMenu2 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { perform, useActionTable } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
+import { keysOf } from '@/actions/shortcuts';
 import { currentLanguage, LANGUAGES, setLanguage, type Language } from '@/i18n';
 
 const ROWS = [
@@ -13,6 +13,7 @@ const ROWS = [
   'project.newUniverse',
   'project.newRobot',
   'project.worlds',
+  'project.settings',
   'project.takeAway',
   null,
   'run.resetWorld',
@@ -44,7 +45,7 @@ export function MoreMenu() {
               key={action.id}
               disabled={action.enabled?.() === false}
               leftSection={Icon ? <Icon size={16} /> : null}
-              rightSection={action.shortcut ? <Kbd size="xs">{shortcutLabel(action.shortcut)}</Kbd> : null}
+              rightSection={keysOf(action) ? <Kbd size="xs">{keysOf(action)}</Kbd> : null}
               onClick={() => perform(action.id)}
             >
               {t(action.labelKey)}

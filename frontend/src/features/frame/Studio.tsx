@@ -3,6 +3,7 @@ import { useMediaQuery } from '@mantine/hooks';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
+import { closePalette } from '@/actions/palette';
 import { useShortcuts } from '@/actions/shortcuts';
 import { registerCanvasActions } from '@/features/canvas/actions';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
@@ -10,14 +11,17 @@ import { FileDialog } from '@/features/code/FileDialog';
 import { TakeAway } from '@/features/export/TakeAway';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { Banner } from '@/features/run/Banner';
+import { LookingOn } from '@/features/run/LookingOn';
 import { RestartOffer } from '@/features/run/RestartOffer';
 import { RunProgress } from '@/features/run/RunProgress';
 import { registerRunActions } from '@/features/run/actions';
+import { registerRateActions } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
 import { registerTopicActions } from '@/features/topics/actions';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
 import { NewRobot } from '@/features/robotEditor/NewRobot';
+import { Settings } from '@/features/settings/Settings';
 import { Worlds } from '@/features/universe/Worlds';
 import { NewUniverse } from '@/features/worldEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
@@ -31,7 +35,7 @@ import classes from './frame.module.css';
 import { loadLayout } from './layoutModel';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
-import { aimAt, closeGone, followFront, openTab, reopen, showPanel, useTabs } from './tabs';
+import { aimAt, closeGone, followFront, followRename, openTab, reopen, showPanel, useTabs } from './tabs';
 import { TopBar } from './TopBar';
 import { useProject } from './useProject';
 import { Waiting } from './Waiting';
@@ -81,12 +85,17 @@ function Workbench({ projectId }: StudioProps) {
     const unregister = [
       registerCanvasActions(),
       registerRunActions(),
+      registerRateActions(),
       registerTopicActions(),
       registerFrameActions(),
     ];
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
       openFile: (path, line) => openTab({ kind: 'file', path }, line),
+      renamed: (kind, from, to) =>
+        kind === 'tree'
+          ? followRename({ kind, id: from }, { kind, id: to })
+          : followRename({ kind, path: from }, { kind, path: to }),
       aimAt,
     });
     window.addEventListener('keydown', leaveInspector);
@@ -96,6 +105,7 @@ function Workbench({ projectId }: StudioProps) {
     return () => {
       unwatch();
       window.removeEventListener('keydown', leaveInspector);
+      closePalette();
       unregister.forEach((undo) => undo?.());
       useTabs.setState({ model: null, target: null });
     };
@@ -114,6 +124,7 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunProgress />
       <Banner />
+      <LookingOn />
       <RestartOffer />
       <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
@@ -126,6 +137,7 @@ function Workbench({ projectId }: StudioProps) {
       <Worlds />
       <NewUniverse />
       <NewRobot />
+      <Settings />
       <Shortcuts />
       <PublishDialog />
       <ConnectDialog />

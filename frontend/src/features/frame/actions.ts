@@ -1,7 +1,6 @@
 import {
   IconAdjustments,
   IconCode,
-  IconCommand,
   IconDeviceFloppy,
   IconDownload,
   IconExternalLink,
@@ -9,17 +8,17 @@ import {
   IconHistory,
   IconHome,
   IconKeyboard,
-  IconLanguage,
   IconLayout,
   IconLayoutSidebar,
   IconPlus,
   IconTerminal2,
   IconWorld,
   IconRobot,
+  IconSettings,
   IconWorldPlus,
   IconAlertTriangle,
 } from '@tabler/icons-react';
-import { togglePalette } from '@/actions/palette';
+import { everywhere } from '@/actions/everywhere';
 import { registerActions, type UserAction } from '@/actions/registry';
 import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
@@ -27,13 +26,14 @@ import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/features/code/newFile';
 import { openTakeAway } from '@/features/export/takeAway';
 import { openShortcuts } from '@/features/onboarding/shortcutsDialog';
+import { openSettings } from '@/features/settings/settingsDialog';
 import { openWorlds } from '@/features/universe/worlds';
 import { openNewRobot } from '@/features/robotEditor/newRobot';
 import { openNewUniverse } from '@/features/worldEditor/newUniverse';
 import { resetLayout } from './Dock';
+import { fileActions } from './fileActions';
 import { focusInspector } from './focus';
-import { LANGUAGES, setLanguage, type Language } from '@/i18n';
-import type { PanelId } from './layoutModel';
+import { WINDOWED, type PanelId } from './layoutModel';
 import { popOut } from './popouts';
 import { openTab, showPanel, togglePanel } from './tabs';
 
@@ -58,16 +58,6 @@ export function leaveInspector(event: KeyboardEvent): void {
 }
 
 const rows: UserAction[] = [
-  {
-    id: 'frame.palette',
-    group: 'view',
-    labelKey: 'frame:action.commandPalette',
-    icon: IconCommand,
-    shortcut: '$mod+KeyK',
-    inTextFields: true,
-    hidden: true,
-    run: togglePalette,
-  },
   {
     id: 'project.save',
     group: 'project',
@@ -120,6 +110,15 @@ const rows: UserAction[] = [
     labelKey: 'frame:action.newRobot',
     icon: IconRobot,
     run: () => openNewRobot(),
+  },
+  {
+    id: 'project.settings',
+    group: 'project',
+    labelKey: 'frame:action.settings',
+    icon: IconSettings,
+    shortcut: '$mod+Comma',
+    inTextFields: true,
+    run: openSettings,
   },
   {
     id: 'project.worlds',
@@ -202,27 +201,6 @@ const rows: UserAction[] = [
     run: openShortcuts,
   },
   {
-    id: 'view.popOut3d',
-    group: 'view',
-    labelKey: 'frame:action.popOut3d',
-    icon: IconExternalLink,
-    run: () => popOut('viewer3d'),
-  },
-  {
-    id: 'view.popOutCamera',
-    group: 'view',
-    labelKey: 'frame:action.popOutCamera',
-    icon: IconExternalLink,
-    run: () => popOut('camera'),
-  },
-  {
-    id: 'view.popOutConsole',
-    group: 'view',
-    labelKey: 'frame:action.popOutConsole',
-    icon: IconExternalLink,
-    run: () => popOut('console'),
-  },
-  {
     id: 'view.resetLayout',
     group: 'view',
     labelKey: 'frame:action.resetLayout',
@@ -254,12 +232,13 @@ const panels = PANELS.map((id): UserAction => ({
   run: () => showPanel(id),
 }));
 
-const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserAction => ({
-  id: `view.language.${code}`,
+const windows = WINDOWED.map((id): UserAction => ({
+  id: `view.popOut.${id}`,
   group: 'view',
-  labelKey: `frame:languages.${code}`,
-  icon: IconLanguage,
-  run: () => setLanguage(code),
+  labelKey: `frame:ownWindow.${id}`,
+  icon: IconExternalLink,
+  run: () => popOut(id),
 }));
 
-export const registerFrameActions = () => registerActions([...rows, ...panels, ...languages]);
+export const registerFrameActions = () =>
+  registerActions([...everywhere, ...rows, ...fileActions, ...panels, ...windows]);

@@ -39,6 +39,8 @@ const LOOKING: readonly (readonly PanelId[])[] = [
   ['console', 'timeline', 'topics'],
   ['blackboard'],
 ];
+/** All of them. */
+export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
 
 /** Panels beside which another feels at home, the likest first. */
@@ -49,7 +51,7 @@ export const companionsOf = (id: PanelId): readonly PanelId[] => [
 
 /** What the docking library is told of a panel that may have a window. */
 const windowed = (id: PanelId): Partial<IJsonTabNode> =>
-  LOOKING.some((kind) => kind.includes(id))
+  WINDOWED.includes(id)
     ? // A drawing surface is made anew where it goes: it does not travel between documents.
       { enablePopout: true, enablePopoutIcon: true, enableWindowReMount: id === 'viewer3d' }
     : {};
@@ -220,7 +222,7 @@ function withNewPanels(model: Model): Model {
 
 /** A layout that was kept before panels could have windows. */
 function withWindows(model: Model): Model {
-  for (const id of LOOKING.flat()) {
+  for (const id of WINDOWED) {
     if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, windowed(id)));
   }
   return model;

@@ -19,7 +19,7 @@ import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from './Explorer';
 import type { PanelId } from './layoutModel';
 import { InItsWindow } from './popouts';
-import type { DocumentTab } from './tabs';
+import { documentOf, useTabs } from './tabs';
 import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
@@ -60,7 +60,10 @@ const panels: Record<PanelId, () => ReactNode> = {
   ),
 };
 
-function documentOf(tab: DocumentTab): ReactNode {
+/** What a document's tab shows; by another name it goes on in the same tab. */
+function Document({ node }: { readonly node: TabNode }) {
+  const tab = useTabs(() => documentOf(node));
+  if (!tab) return null;
   if (tab.kind === 'tree') return <Canvas treeId={tab.id} />;
   return (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
@@ -77,8 +80,7 @@ function FileTab({ path }: { readonly path: string }) {
 
 /** What a tab shows; one panel's mistake does not take the others down. */
 export function renderTab(node: TabNode): ReactNode {
-  const config = node.getConfig() as { tab?: DocumentTab } | undefined;
-  const content = config?.tab ? documentOf(config.tab) : panels[node.getComponent() as PanelId]();
+  const content = documentOf(node) ? <Document node={node} /> : panels[node.getComponent() as PanelId]();
   return (
     <InItsWindow node={node}>
       <ErrorBoundary>{content}</ErrorBoundary>

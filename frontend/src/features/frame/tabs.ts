@@ -25,9 +25,17 @@ interface TabsData {
   target: LineTarget | null;
   /** The tree or file that was in front last. */
   front: DocumentTab | null;
+  /** How often a tab was given another document: the docking library does not tell its content. */
+  renames: number;
 }
 
-export const useTabs = create<TabsData>(() => ({ model: null, width: null, target: null, front: null }));
+export const useTabs = create<TabsData>(() => ({
+  model: null,
+  width: null,
+  target: null,
+  front: null,
+  renames: 0,
+}));
 
 let requests = 0;
 
@@ -45,25 +53,36 @@ function nameOf(tab: DocumentTab): string {
   return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
-function jsonOf(tab: DocumentTab): IJsonTabNode {
+/** What a tab shows, and what it is called after it. */
+function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
-  return {
-    type: 'tab',
-    id: tabId(tab),
-    name,
-    component: tab.kind,
-    config: { document: true, tab },
-    helpText: tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '',
-  };
+  const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
+  return { name, config: { document: true, tab }, helpText };
+}
+
+export const documentOf = (node: TabNode): DocumentTab | undefined =>
+  (node.getConfig() as { tab?: DocumentTab } | undefined)?.tab;
+
+/** The tab of a document: it may have been opened when that was called otherwise. */
+function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
+  let found: TabNode | null = null;
+  model?.visitNodes((node) => {
+    const shown = node instanceof TabNode ? documentOf(node) : undefined;
+    if (shown && tabId(shown) === tabId(tab)) found = node as TabNode;
+  });
+  return found;
 }
 
 /** Opens a document, or brings its tab to the front. */
 export function openTab(tab: DocumentTab, line?: number): void {
   const { model } = useTabs.getState();
   if (!model) return;
-  const id = tabId(tab);
-  if (model.getNodeById(id)) model.doAction(Actions.selectTab(id));
-  else model.doAction(Actions.addTab(jsonOf(tab), EDITORS, DockLocation.CENTER, -1, true));
+  const open = nodeOf(model, tab);
+  if (open) model.doAction(Actions.selectTab(open.getId()));
+  else {
+    const json: IJsonTabNode = { type: 'tab', component: tab.kind, ...faceOf(tab) };
+    model.doAction(Actions.addTab(json, EDITORS, DockLocation.CENTER, -1, true));
+  }
   if (tab.kind === 'file' && line) aimAt(tab.path, line);
   focusDocument(tab);
 }
@@ -76,7 +95,17 @@ export function aimAt(path: string, line: number): void {
 
 export function closeTab(tab: DocumentTab): void {
   const { model } = useTabs.getState();
-  if (model?.getNodeById(tabId(tab))) model.doAction(Actions.deleteTab(tabId(tab)));
+  const open = nodeOf(model, tab);
+  if (open) model?.doAction(Actions.deleteTab(open.getId()));
+}
+
+/** Has the tab of a document show it under its new name, where it stands. */
+export function followRename(from: DocumentTab, to: DocumentTab): void {
+  const { model } = useTabs.getState();
+  const open = nodeOf(model, from);
+  if (!open || nodeOf(model, to)) return;
+  model?.doAction(Actions.updateNodeAttributes(open.getId(), faceOf(to)));
+  useTabs.setState(({ renames }) => ({ renames: renames + 1 }));
 }
 
 function exists(tab: DocumentTab): boolean {
@@ -108,9 +137,8 @@ export function togglePanel(panel: PanelId): void {
 export function openDocuments(model: Model): DocumentTab[] {
   const found: DocumentTab[] = [];
   model.visitNodes((node) => {
-    const config =
-      node instanceof TabNode ? (node.getConfig() as { tab?: DocumentTab } | undefined) : undefined;
-    if (config?.tab) found.push(config.tab);
+    const tab = node instanceof TabNode ? documentOf(node) : undefined;
+    if (tab) found.push(tab);
   });
   return found;
 }
@@ -120,9 +148,8 @@ export function frontDocument(model: Model): DocumentTab | null {
   const active = model.getActiveTabset();
   for (const tabset of [active, model.getNodeById(EDITORS)]) {
     const selected = tabset instanceof TabSetNode ? tabset.getSelectedNode() : undefined;
-    const config =
-      selected instanceof TabNode ? (selected.getConfig() as { tab?: DocumentTab } | undefined) : undefined;
-    if (config?.tab) return config.tab;
+    const tab = selected instanceof TabNode ? documentOf(selected) : undefined;
+    if (tab) return tab;
   }
   return null;
 }

@@ -6,6 +6,7 @@ import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { editorTheme } from '@/features/code/editorTheme';
 import { languageOf } from '@/features/code/modes';
+import { phrases } from '@/features/code/phrases';
 import { dimMetadata } from '@/features/xml/ranges';
 import classes from './history.module.css';
 
@@ -30,6 +31,7 @@ export function TextDifference({ path, before, after }: TextDifferenceProps) {
       languageOf(path),
       path.endsWith('.xml') ? dimMetadata : [],
       editorTheme,
+      phrases(),
       EditorView.lineWrapping,
       EditorState.readOnly.of(true),
       EditorView.contentAttributes.of({ 'aria-label': label }),

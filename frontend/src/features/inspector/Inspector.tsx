@@ -3,6 +3,8 @@ import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { useProjectStore } from '@/store/project';
+import { ActionButton } from '@/ui/ActionButton';
+import { ActionSource } from './ActionSource';
 import { CommentField } from './CommentField';
 import { ConditionList } from './ConditionList';
 import { LookFields } from './LookFields';
@@ -12,6 +14,9 @@ import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
+
+/** What is done with several blocks as with one. */
+const TOGETHER = ['canvas.wrap', 'canvas.extract', 'canvas.disable', 'edit.delete'] as const;
 
 interface Shown {
   readonly diagram: Diagram | undefined;
@@ -42,6 +47,13 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
       <section className={classes['empty']} aria-label={t('empty.title')} data-testid="inspector">
         <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
         {count === 0 && <p>{t('empty.text')}</p>}
+        {count > 1 && (
+          <div className={classes['together']}>
+            {TOGETHER.map((action) => (
+              <ActionButton key={action} action={action} />
+            ))}
+          </div>
+        )}
       </section>
     );
   }
@@ -58,6 +70,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
       <LookFields {...target} />
       <NodeStatistics tree={diagram.id} node={id} />
       <NodeDocs spec={spec} />
+      {spec?.source === 'action' && <ActionSource action={node.type} />}
     </section>
   );
 });

@@ -1,9 +1,10 @@
 import { ActionIcon, Tooltip } from '@mantine/core';
-import { IconArrowBackUp, IconBraces, IconTrash } from '@tabler/icons-react';
-import { useId } from 'react';
+import { IconArrowBackUp, IconBraces, IconPencil, IconTrash } from '@tabler/icons-react';
+import { useId, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { readPortText, type PortSpec } from '@/model/ports';
 import { KeyInput } from './KeyInput';
+import { PortNameInput } from './PortNameInput';
 import { ValueInput } from './ValueInput';
 import classes from './Inspector.module.css';
 
@@ -13,15 +14,22 @@ interface PortFieldProps {
   readonly value: string | null;
   readonly keys: readonly string[];
   readonly error: string | null;
-  /** Set on the node without being declared: it can be taken away. */
-  readonly isExtra: boolean;
   readonly onChange: (value: string | null) => void;
+  /** Of a port that is set without being declared. */
+  readonly onRemove?: (() => void) | undefined;
+  /** Of one that all blocks of the type share. */
+  readonly onRename?: ((name: string) => void) | undefined;
+  /** Names that other ports have. */
+  readonly taken: readonly string[];
 }
 
 /** One port: its value or its blackboard key, with the widget that its type asks for. */
-export function PortField({ port, value, keys, error, isExtra, onChange }: PortFieldProps) {
+export function PortField(props: PortFieldProps) {
+  const { port, value, keys, error, onChange, onRemove, onRename, taken } = props;
   const { t } = useTranslation('inspector');
   const label = useId();
+  const [isRenaming, setIsRenaming] = useState(false);
+  const isExtra = onRemove !== undefined;
   const kind = value === null ? 'empty' : readPortText(value).kind;
   const isKey =
     kind === 'key' ||
@@ -31,9 +39,20 @@ export function PortField({ port, value, keys, error, isExtra, onChange }: PortF
   return (
     <div className={classes['portField']}>
       <div className={classes['portHead']}>
-        <span className={classes['portLabel']} id={label}>
-          {port.name}
-        </span>
+        {isRenaming ? (
+          <PortNameInput
+            before={port.name}
+            taken={taken}
+            onDone={(name) => {
+              setIsRenaming(false);
+              if (name !== null) onRename?.(name);
+            }}
+          />
+        ) : (
+          <span className={classes['portLabel']} id={label}>
+            {port.name}
+          </span>
+        )}
         <span className={classes['portType']}>
           {port.type !== 'any' && port.type}
           {port.direction !== 'input' && !isExtra && ` · ${t(`directions.${port.direction}`)}`}
@@ -54,16 +73,25 @@ export function PortField({ port, value, keys, error, isExtra, onChange }: PortF
             </ActionIcon>
           </Tooltip>
         )}
-        {isExtra && (
-          <ActionIcon
-            size={20}
-            aria-label={t('remove', { name: port.name })}
-            onClick={() => {
-              onChange(null);
-            }}
-          >
-            <IconTrash size={14} aria-hidden="true" />
-          </ActionIcon>
+        {onRename && (
+          <Tooltip label={t('renameHint')}>
+            <ActionIcon
+              size={20}
+              aria-label={t('rename', { name: port.name })}
+              onClick={() => {
+                setIsRenaming(true);
+              }}
+            >
+              <IconPencil size={14} aria-hidden="true" />
+            </ActionIcon>
+          </Tooltip>
+        )}
+        {onRemove && (
+          <Tooltip label={t(onRename ? 'removeEverywhere' : 'remove', { name: port.name })}>
+            <ActionIcon size={20} aria-label={t('remove', { name: port.name })} onClick={onRemove}>
+              <IconTrash size={14} aria-hidden="true" />
+            </ActionIcon>
+          </Tooltip>
         )}
         {!isExtra && value !== null && !port.required && (
           <Tooltip label={t('reset')}>

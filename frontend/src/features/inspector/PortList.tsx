@@ -6,11 +6,12 @@ import { setPort } from '@/model/edits';
 import type { PortSpec } from '@/model/ports';
 import { blackboardKeys } from '@/model/vocabulary';
 import { change } from '@/store/project/commands';
+import { portsInUse, shared } from '@/store/project/ports';
 import { problemsOf } from '@/store/project/problems';
 import { useProjectStore } from '@/store/project';
 import { useProblemText } from '@/ui/useProblemText';
-import { AddPort } from './AddPort';
 import { PortField } from './PortField';
+import { PortNameInput } from './PortNameInput';
 import { Section } from './Section';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
@@ -24,8 +25,13 @@ const extraPort = (name: string): PortSpec => ({
   description: '',
 });
 
+/** Whether all blocks of a type have the same ports: of an action that declares none, or is not written yet. */
+const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
+  node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));
+
 /** Ports of the block, declared ones first; an open type takes any other. */
-export function PortList({ diagram, id, node, spec }: Target) {
+export function PortList(target: Target) {
+  const { diagram, id, node, spec } = target;
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);
@@ -34,7 +40,17 @@ export function PortList({ diagram, id, node, spec }: Target) {
   const keys = useMemo(() => [...blackboardKeys(diagram, vocabulary).keys()].sort(), [diagram, vocabulary]);
   const declared = spec?.ports ?? [];
   const known = new Set(declared.map((port) => port.name));
-  const extra = Object.keys(node.ports ?? {}).filter((name) => !known.has(name));
+  const areShared = isShared(target);
+  const inUse = areShared ? portsInUse(node.type) : Object.keys(node.ports ?? {});
+  const extra = inUse.filter((name) => !known.has(name));
+  const taken = [...known, ...extra];
+  const set = (name: string, value: string | null) => {
+    change('port', [setPort(id, name, value)], { mergeKey: `port ${id} ${name}` });
+  };
+  const remove = (name: string) => {
+    if (areShared) shared.remove(node.type, name);
+    else set(name, null);
+  };
   const problems = problemsOf(diagram, vocabulary, diagnostics).filter((each) => each.node === id);
   const errorOf = (name: string): string | null => {
     const problem = problems.find((each) => each.port === name);
@@ -70,17 +86,24 @@ export function PortList({ diagram, id, node, spec }: Target) {
           value={node.ports?.[port.name] ?? null}
           keys={keys}
           error={errorOf(port.name)}
-          isExtra={!known.has(port.name)}
+          taken={taken}
           onChange={(value) => {
-            change('port', [setPort(id, port.name, value)], { mergeKey: `port ${id} ${port.name}` });
+            set(port.name, value);
           }}
+          onRemove={known.has(port.name) ? undefined : () => remove(port.name)}
+          onRename={
+            known.has(port.name) || !areShared
+              ? undefined
+              : (name) => shared.rename(node.type, port.name, name)
+          }
         />
       ))}
       {isAdding && (
-        <AddPort
-          taken={[...known, ...extra]}
+        <PortNameInput
+          taken={taken}
           onDone={(name) => {
-            if (name !== null) change('port', [setPort(id, name, `{${name}}`)]);
+            if (name !== null && areShared) shared.add(node.type, name);
+            else if (name !== null) set(name, `{${name}}`);
             setIsAdding(false);
           }}
         />

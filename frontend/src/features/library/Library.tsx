@@ -1,4 +1,5 @@
 import { Loader, Select, Text, TextInput } from '@mantine/core';
+import { useDebouncedValue } from '@mantine/hooks';
 import { IconSearch } from '@tabler/icons-react';
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
@@ -10,15 +11,50 @@ import { useLibrary, useOtherProjects, useTreesOf } from './useReusables';
 
 const BUILT_IN = 'library';
 
+interface SourceProps {
+  readonly value: string;
+  readonly onChange: (source: string) => void;
+}
+
+/** Where the behaviours come from; of many projects the one is found by its name. */
+function Source({ value, onChange }: SourceProps) {
+  const { t } = useTranslation('library');
+  const projectId = useProjectStore((state) => state.projectId);
+  const [chosen, setChosen] = useState({ value: BUILT_IN, label: '' });
+  const [typed, setTyped] = useState('');
+  const builtIn = { value: BUILT_IN, label: t('builtIn') };
+  const label = chosen.value === BUILT_IN ? builtIn.label : chosen.label;
+  const [search] = useDebouncedValue(typed === label ? '' : typed, 200);
+  const projects = useOtherProjects(projectId, search);
+  const found = (projects.data ?? []).map(({ id, name }) => ({ value: id, label: name }));
+  const isAway = chosen.value !== BUILT_IN && !found.some((each) => each.value === chosen.value);
+  const data = [builtIn, ...found, ...(isAway ? [chosen] : [])];
+  return (
+    <Select
+      size="xs"
+      aria-label={t('source')}
+      data-testid="library-source"
+      allowDeselect={false}
+      searchable
+      nothingFoundMessage={t('noProject')}
+      value={value}
+      data={data}
+      onSearchChange={setTyped}
+      onChange={(next) => {
+        setChosen(data.find((each) => each.value === next) ?? builtIn);
+        onChange(next ?? BUILT_IN);
+      }}
+    />
+  );
+}
+
 /** Behaviours to reuse: the built-in library, and the trees of the user's other projects. */
 export function Library() {
   const { t, i18n } = useTranslation('library');
-  const projectId = useProjectStore((state) => state.projectId);
   const record = useProjectStore((state) => state.currentText('assets/library.json'));
   const [source, setSource] = useState(BUILT_IN);
   const [search, setSearch] = useState('');
   const library = useLibrary(i18n.language);
-  const projects = useOtherProjects(projectId);
   const trees = useTreesOf(source === BUILT_IN ? null : source);
   const taken = useMemo(() => takenIn(record), [record]);
   const { data, error, isPending } = source === BUILT_IN ? library : trees;
@@ -39,18 +75,7 @@ export function Library() {
           value={search}
           onChange={(event) => setSearch(event.currentTarget.value)}
         />
-        <Select
-          size="xs"
-          aria-label={t('source')}
-          data-testid="library-source"
-          allowDeselect={false}
-          value={source}
-          onChange={(value) => setSource(value ?? BUILT_IN)}
-          data={[
-            { value: BUILT_IN, label: t('builtIn') },
-            ...(projects.data ?? []).map(({ id, name }) => ({ value: id, label: name })),
-          ]}
-        />
+        <Source value={source} onChange={setSource} />
       </div>
       {isPending ? <Loader size="xs" m="md" aria-label={t('loading')} /> : null}
       {error ? (

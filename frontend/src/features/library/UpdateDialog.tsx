@@ -1,9 +1,12 @@
 import { MergeView } from '@codemirror/merge';
 import { EditorState } from '@codemirror/state';
-import { EditorView } from '@codemirror/view';
+import { EditorView, lineNumbers } from '@codemirror/view';
 import { Button, Group, Modal, Stack, Text } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { editorTheme } from '@/features/code/editorTheme';
+import { languageOf } from '@/features/code/modes';
+import { phrases } from '@/features/code/phrases';
 import { differencesOf, updateBehaviour, type Difference } from '@/store/project/library';
 import classes from './library.module.css';
 import type { Offer } from './useReusables';
@@ -18,6 +21,10 @@ function FileDifference({ difference }: { readonly difference: Difference }) {
     const side = (doc: string, label: string) => ({
       doc,
       extensions: [
+        lineNumbers(),
+        languageOf(path),
+        editorTheme,
+        phrases(),
         EditorState.readOnly.of(true),
         EditorView.lineWrapping,
         EditorView.contentAttributes.of({ 'aria-label': label }),

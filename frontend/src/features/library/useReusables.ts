@@ -1,4 +1,4 @@
-import { useQuery } from '@tanstack/react-query';
+import { keepPreviousData, useQuery } from '@tanstack/react-query';
 import { api } from '@/api/client';
 import type { BehaviourInfo } from '@/api/types';
 import { reusablesOf, type Reusable } from '@/store/project/library';
@@ -36,12 +36,13 @@ export function useLibrary(language: string) {
   });
 }
 
-/** The user's other projects, to take trees from. */
-export function useOtherProjects(projectId: string | null) {
+/** The user's other projects, to take trees from: the newest ones of those that a search finds. */
+export function useOtherProjects(projectId: string | null, search: string) {
   return useQuery({
-    queryKey: ['projects', 'to reuse'],
+    queryKey: ['projects', 'to reuse', search],
+    placeholderData: keepPreviousData,
     queryFn: ({ signal }) =>
-      api.listProjects({ search: '', sort: '-updated_at', shelf: 'current', offset: 0 }, signal),
+      api.listProjects({ search, sort: '-updated_at', shelf: 'current', offset: 0 }, signal),
     select: ({ items }) => items.filter(({ id }) => id !== projectId),
   });
 }

@@ -1,24 +1,17 @@
 import { Kbd, Modal, Table, Title } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { useActionTable, type ActionGroup } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
+import { keysOf, shortcutLabel } from '@/actions/shortcuts';
 import classes from './onboarding.module.css';
 import { closeShortcuts, useShortcutsDialog } from './shortcutsDialog';
 
 const GROUPS: readonly ActionGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
 
-/** Keys of the canvas itself, which count only while it has the focus; their texts are `key.<id>`. */
+/** Keys of the canvas that no command of the table has; their texts are `key.<id>`. */
 const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
   ['walk', '← ↑ → ↓'],
-  ['move', 'Ctrl+← ↑ → ↓'],
-  ['child', 'Tab'],
-  ['after', 'Ctrl+Enter'],
-  ['open', 'Enter'],
-  ['rename', 'F2'],
-  ['comment', '/'],
-  ['fold', 'Space'],
-  ['remove', 'Del'],
-  ['unwrap', 'Shift+Del'],
+  ['move', '$mod+← ↑ → ↓'],
+  ['unwrap', 'Shift+Delete'],
   ['root', 'Home'],
   ['menu', 'Shift+F10'],
 ];
@@ -30,13 +23,13 @@ export function Shortcuts() {
   const actions = useActionTable((state) => state.actions);
   const rowsOf = (group: ActionGroup) =>
     Object.values(actions)
-      .filter((action) => action.group === group && action.shortcut)
-      .map(({ id, labelKey, shortcut = '' }) => ({ id, label: t(labelKey), keys: shortcutLabel(shortcut) }));
+      .filter((action) => action.group === group && keysOf(action) !== null)
+      .map((action) => ({ id: action.id, label: t(action.labelKey), keys: keysOf(action) }));
   const sections = [
     ...GROUPS.map((group) => ({ id: group as string, rows: rowsOf(group) })),
     {
       id: 'onCanvas',
-      rows: CANVAS_KEYS.map(([id, keys]) => ({ id, label: t(`key.${id}`), keys })),
+      rows: CANVAS_KEYS.map(([id, keys]) => ({ id, label: t(`key.${id}`), keys: shortcutLabel(keys) })),
     },
   ];
   return (

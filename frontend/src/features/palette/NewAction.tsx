@@ -1,6 +1,7 @@
 import { Button, Group, SegmentedControl, TextInput } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { isPythonName } from '@/model/pythonNames';
 import { createAction, type ActionKind } from '@/store/project/actionTemplate';
 import { openAction } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
@@ -17,7 +18,7 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
   const [name, setName] = useState('');
   const [kind, setKind] = useState<ActionKind>('Action');
   const isTaken = vocabulary.specs.has(name);
-  const isValid = /^[A-Za-z_]\w*$/.test(name) && !isTaken;
+  const isValid = isPythonName(name) && !isTaken;
   return (
     <form
       className={classes['form']}

@@ -3,9 +3,11 @@ import { useState, type FocusEvent, type KeyboardEvent, type MouseEvent } from '
 import { useTranslation } from 'react-i18next';
 import type { ProjectShelf } from '@/api/client';
 import type { ProjectSummary } from '@/api/types';
+import { projectNameProblem } from '@/features/settings/names';
 import { navigate, projectPath } from '@/store/route';
 import { ProjectMenu } from './ProjectMenu';
 import classes from './projects.module.css';
+import { reasonOf } from './reason';
 import { timeAgo } from './timeAgo';
 import { TreePicture } from './TreePicture';
 import type { useProjectActions } from './useProjects';
@@ -26,6 +28,7 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   const { t, i18n } = useTranslation('projects');
   const [isRenaming, setRenaming] = useState(false);
   const [name, setName] = useState(project.name);
+  const [refusal, setRefusal] = useState<string | null>(null);
   const path = projectPath(project.id);
   const isDeleted = shelf === 'deleted';
 
@@ -35,10 +38,18 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
     if (!isDeleted) navigate(path);
   };
   const finish = (isKept: boolean) => {
-    setRenaming(false);
     const wanted = name.trim();
-    if (isKept && wanted && wanted !== project.name) actions.rename.mutate({ project, name: wanted });
-    else setName(project.name);
+    const problem = wanted ? projectNameProblem(wanted) : null;
+    setRefusal(isKept && problem ? t(`settings:problem.${problem}`) : null);
+    if (isKept && problem) return;
+    if (isKept && wanted && wanted !== project.name) {
+      // A name that is refused stays in its field, with the reason.
+      const onError = (error: Error) => setRefusal(reasonOf(error));
+      actions.rename.mutate({ project, name: wanted }, { onError });
+      return;
+    }
+    setRenaming(false);
+    setName(project.name);
   };
   const onBlur = (event: FocusEvent<HTMLInputElement>) => {
     const input = event.currentTarget;
@@ -63,6 +74,8 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
               size="xs"
               value={name}
               aria-label={t('rename')}
+              error={refusal}
+              disabled={actions.rename.isPending}
               ref={focusAll}
               onChange={(event) => setName(event.currentTarget.value)}
               onBlur={onBlur}

@@ -12,7 +12,7 @@ import {
 } from '@mantine/core';
 import { useDebouncedValue } from '@mantine/hooks';
 import { IconAlertTriangle, IconPlayerPlay, IconSearch } from '@tabler/icons-react';
-import { useState } from 'react';
+import { useState, type RefObject } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectShelf, ProjectSort } from '@/api/client';
 import { ProjectCard } from './ProjectCard';
@@ -21,12 +21,13 @@ import { useProjects, type useProjectActions } from './useProjects';
 
 interface ProjectListProps {
   readonly actions: ReturnType<typeof useProjectActions>;
+  readonly searchField: RefObject<HTMLInputElement | null>;
 }
 
 const SHELVES: readonly ProjectShelf[] = ['current', 'archived', 'deleted'];
 
 /** The user's projects, with search and order. */
-export function ProjectList({ actions }: ProjectListProps) {
+export function ProjectList({ actions, searchField }: ProjectListProps) {
   const { t } = useTranslation('projects');
   const [search, setSearch] = useState('');
   const [sort, setSort] = useState<ProjectSort>('-updated_at');
@@ -59,6 +60,7 @@ export function ProjectList({ actions }: ProjectListProps) {
           />
           <TextInput
             type="search"
+            ref={searchField}
             value={search}
             placeholder={t('search')}
             aria-label={t('search')}

@@ -1,16 +1,22 @@
 import { Button, FileButton, Group, Loader, Overlay, Text, Title, Tooltip } from '@mantine/core';
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { useEffect } from 'react';
+import { Suspense, useEffect, useRef } from 'react';
+import { closePalette, usePalette } from '@/actions/palette';
+import { useShortcuts } from '@/actions/shortcuts';
 import { UserMenu } from '@/features/accounts/UserMenu';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
+import { lazyPart } from '@/ui/parts';
 import { LanguageMenu } from './LanguageMenu';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
 import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
 import { useProjectActions } from './useProjects';
+import { useStartActions } from './useStartActions';
+
+const CommandPalette = lazyPart(async () => (await import('@/features/frame/CommandPalette')).CommandPalette);
 
 /** Project zips of ours and of JdeRobot, trees as XML, projects of Groot2. */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
@@ -23,8 +29,19 @@ export function StartPage() {
   const isDropping = useFileDrop(importFile);
   const pending = actions.create.isPending ? actions.create.variables : null;
 
+  const isPaletteOpen = usePalette((state) => state.page !== null);
+  const importButton = useRef<HTMLButtonElement>(null);
+  const searchField = useRef<HTMLInputElement>(null);
+  useShortcuts();
+  useStartActions({
+    create: (template) => actions.create.mutate(template),
+    chooseFile: () => importButton.current?.click(),
+    search: () => searchField.current?.focus(),
+  });
+
   useEffect(() => {
     document.title = 'BT Studio';
+    return closePalette;
   }, []);
 
   return (
@@ -67,6 +84,7 @@ export function StartPage() {
                   {(props) => (
                     <Button
                       {...props}
+                      ref={importButton}
                       variant="default"
                       data-testid="import"
                       loading={isImporting}
@@ -81,7 +99,7 @@ export function StartPage() {
           </Group>
           <TemplateCards onCreate={(template) => actions.create.mutate(template)} pending={pending} />
         </section>
-        <ProjectList actions={actions} />
+        <ProjectList actions={actions} searchField={searchField} />
         {isImporting ? (
           <Group gap="sm" role="status">
             <Loader size="xs" />
@@ -89,6 +107,11 @@ export function StartPage() {
           </Group>
         ) : null}
       </main>
+      {isPaletteOpen ? (
+        <Suspense fallback={null}>
+          <CommandPalette />
+        </Suspense>
+      ) : null}
     </div>
   );
 }

@@ -1,16 +1,10 @@
 import { notifications } from '@mantine/notifications';
-import {
-  useInfiniteQuery,
-  useMutation,
-  useQuery,
-  useQueryClient,
-  keepPreviousData,
-} from '@tanstack/react-query';
+import { useInfiniteQuery, useMutation, useQueryClient, keepPreviousData } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
-import { ApiError } from '@/api/errors';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
+import { reasonOf } from './reason';
 import { undoNotification } from './undoNotification';
 
 /** The projects of one shelf, page by page. */
@@ -24,10 +18,6 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
   });
 }
 
-export function useTemplates() {
-  return useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
-}
-
 /** What can be done with projects from the start page; failures are told in a notification. */
 export function useProjectActions() {
   const { t } = useTranslation('projects');
@@ -35,8 +25,7 @@ export function useProjectActions() {
   const refresh = () => queries.invalidateQueries({ queryKey: ['projects'] });
   const open = (project: ProjectDetail) => navigate(projectPath(project.id));
   const onError = (error: Error) => {
-    const hint = error instanceof ApiError ? error.hint : '';
-    notifications.show({ color: 'red', title: t('failed'), message: [error.message, hint].join(' ') });
+    notifications.show({ color: 'red', title: t('failed'), message: reasonOf(error) });
   };
 
   const create = useMutation({
@@ -54,7 +43,6 @@ export function useProjectActions() {
     mutationFn: ({ project, name }: { project: ProjectSummary; name: string }) =>
       api.patchProject(project.id, { name, base_revision: project.revision }),
     onSuccess: refresh,
-    onError,
   });
   const restore = useMutation({
     mutationFn: (project: ProjectSummary) => api.restoreProject(project.id),

@@ -22,10 +22,12 @@ export function ExecutorState() {
         aria-live="polite"
       >
         <span className={classes['dot']} aria-hidden="true" />
-        {t(`state.${shown}`)}
-        {finished && finished.status !== 'IDLE' && executor === 'visualization_ready'
-          ? ` · ${t(`status.${finished.status}`)}`
-          : null}
+        <span className={classes['stateText']}>
+          {t(`state.${shown}`)}
+          {finished && finished.status !== 'IDLE' && executor === 'visualization_ready'
+            ? ` · ${t(`status.${finished.status}`)}`
+            : null}
+        </span>
       </span>
     </Tooltip>
   );

@@ -6,11 +6,9 @@ import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
+import { SPEEDS, TICK_RATES } from './rates';
 import classes from './run.module.css';
 
-const TICK_RATES = [1, 2, 5, 10, 20, 50, 100];
-/** Zero is as fast as the machine can. */
-const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0];
 const DEFAULT_TICK_HZ = 20;
 
 interface RateSelectProps {

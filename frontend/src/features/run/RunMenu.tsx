@@ -3,7 +3,7 @@ import { IconCheck, IconChevronDown } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { perform, useActionTable } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
+import { keysOf } from '@/actions/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
 import { RateMenus } from './RateSelects';
 import { useFollowing } from './following';
@@ -36,7 +36,7 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
               key={id}
               disabled={isDisabled || action.enabled?.() === false}
               leftSection={Icon ? <Icon size={15} /> : null}
-              rightSection={action.shortcut ? <Kbd size="xs">{shortcutLabel(action.shortcut)}</Kbd> : null}
+              rightSection={keysOf(action) ? <Kbd size="xs">{keysOf(action)}</Kbd> : null}
               onClick={() => perform(id)}
             >
               {t(action.labelKey)}

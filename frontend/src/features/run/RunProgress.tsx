@@ -37,7 +37,7 @@ export function RunProgress() {
         <Text size="xs" c="dimmed" truncate="end">
           {stage === 'launching' || stage === 'starting' ? progress?.message : ''}
         </Text>
-        {stage === 'launching' ? (
+        {stage === 'launching' || stage === 'starting' ? (
           <Button size="compact-xs" variant="subtle" color="gray" onClick={cancelRun}>
             {t('cancel')}
           </Button>

@@ -9,11 +9,13 @@ import {
   IconPower,
   IconRefresh,
   IconRotateClockwise,
+  IconSteeringWheel,
 } from '@tabler/icons-react';
 import { registerActions, type UserAction } from '@/actions/registry';
 import {
   hasApplication,
   hasSession,
+  isLookingOn,
   isPaused,
   isRunning,
   pause,
@@ -23,6 +25,7 @@ import {
   step,
   stepMany,
   stop,
+  takeOver,
 } from '@/store/run/commands';
 import { toggleFollowing } from './following';
 import { restartProject, runProject } from '@/store/run/run';
@@ -122,6 +125,14 @@ const rows: UserAction[] = [
     icon: IconRefresh,
     enabled: () => !['idle', 'connected'].includes(useSessionStore.getState().executor),
     run: () => void resetWorld(),
+  },
+  {
+    id: 'run.takeOver',
+    group: 'run',
+    labelKey: 'run:action.takeOver',
+    icon: IconSteeringWheel,
+    enabled: isLookingOn,
+    run: () => void takeOver(),
   },
   {
     id: 'run.end',

@@ -1,8 +1,15 @@
-import { IconCheck, IconPlugConnected, IconRobot, IconWorld } from '@tabler/icons-react';
+import { IconCheck, IconPlugConnected, IconRobot, IconWorld, type Icon } from '@tabler/icons-react';
 import { useId } from 'react';
 import type { UniverseInfo } from '@/api/types';
 import { OUTSIDE } from './titles';
 import classes from './universe.module.css';
+
+/** The universe's own robot, our template of one, and no world of ours. */
+const WITHOUT_PICTURE: ReadonlyMap<string, Icon> = new Map([
+  ['', IconRobot],
+  ['template', IconRobot],
+  [OUTSIDE, IconPlugConnected],
+]);
 
 interface ChoiceCardsProps {
   readonly label: string;
@@ -19,7 +26,7 @@ export function ChoiceCards({ label, items, chosen, onChoose, isFirst = false }:
   return (
     <div className={classes['cards']} role="radiogroup" aria-label={label}>
       {items.map(({ id, name: title, description, preview }) => {
-        const Icon = id === '' ? IconRobot : id === OUTSIDE ? IconPlugConnected : IconWorld;
+        const Symbol = WITHOUT_PICTURE.get(id) ?? IconWorld;
         return (
           <label key={id} className={classes['card']} data-testid={`choice-${id || 'default'}`}>
             <input
@@ -35,7 +42,7 @@ export function ChoiceCards({ label, items, chosen, onChoose, isFirst = false }:
               {preview ? (
                 <img src={preview} alt="" loading="lazy" width={480} height={270} />
               ) : (
-                <Icon size={32} stroke={1.4} aria-hidden="true" />
+                <Symbol size={32} stroke={1.4} aria-hidden="true" />
               )}
               <IconCheck size={18} className={classes['check']} aria-hidden="true" />
             </span>

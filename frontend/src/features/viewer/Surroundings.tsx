@@ -62,6 +62,8 @@ export function Surroundings(props: SurroundingsProps) {
       <OrbitControls
         ref={controls}
         makeDefault
+        // Gliding on draws many pictures more, and each costs the simulation here.
+        enableDamping={!isSimple}
         maxPolarAngle={Math.PI / 2 - 0.02}
         minDistance={nearest}
         maxDistance={farthest}
@@ -115,9 +117,18 @@ export function look(
       : kind === 'selection'
         ? before.setLength(size * 1.6)
         : new THREE.Vector3(-0.62 * size, -0.42 * size, 0.58 * size);
+  if (controls) rest(controls);
   camera.position.copy(center).add(offset);
   controls?.target.copy(center);
   controls?.update();
+}
+
+/** Ends what a gesture left of its swing, which would carry the next view away. */
+function rest(controls: Orbit): void {
+  const { enableDamping } = controls;
+  controls.enableDamping = false;
+  controls.update();
+  controls.enableDamping = enableDamping;
 }
 
 /** Looks again whenever `request` is another object. */

@@ -1,4 +1,4 @@
-import { useEffect, useRef, type KeyboardEvent, type PointerEvent } from 'react';
+import { useEffect, useRef, type KeyboardEvent, type PointerEvent, type SyntheticEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
@@ -47,8 +47,13 @@ export function VideoPanel() {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, []);
 
+  /** What lies over the picture has gestures of its own. */
+  const isOnPicture = ({ target }: SyntheticEvent) => target === panel.current || target === canvas.current;
+  const onPress = (event: PointerEvent) => {
+    if (isOnPicture(event)) panel.current?.setPointerCapture(event.pointerId);
+  };
   const onDrag = (event: PointerEvent) => {
-    if (event.buttons === 0) return;
+    if (event.buttons === 0 || !isOnPicture(event)) return;
     const move = event.buttons === 1 && !event.shiftKey ? turned : panned;
     look(move(orbit.current, event.movementX, event.movementY));
   };
@@ -61,7 +66,7 @@ export function VideoPanel() {
       '+': () => zoomed(orbit.current, 0.85),
       '-': () => zoomed(orbit.current, 1.18),
     };
-    const next = moves[event.key]?.();
+    const next = isOnPicture(event) ? moves[event.key]?.() : undefined;
     if (!next) return;
     event.preventDefault();
     look(next);
@@ -81,7 +86,7 @@ export function VideoPanel() {
       role="application"
       aria-label={t('videoLabel')}
       onKeyDown={onKey}
-      onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+      onPointerDown={onPress}
       onPointerMove={onDrag}
       onContextMenu={(event) => event.preventDefault()}
     >

@@ -82,8 +82,14 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
 }
 
 /** The tools in the table of actions, for as long as there is a world to look at. */
-function useViewerActions({ follow }: ViewOptions, onChange: (part: Partial<ViewOptions>) => void): void {
+function useViewerActions(
+  options: ViewerToolbarProps['options'],
+  onChange: ViewerToolbarProps['onChange'],
+): void {
   const act = useEffectEvent(onChange);
+  const toggle = useEffectEvent((key: 'follow' | (typeof SHOWN)[number]) =>
+    onChange({ [key]: !options[key] }),
+  );
   useEffect(() => {
     const row = (id: string, labelKey: string, icon: typeof IconEye, run: () => void): UserAction => ({
       id: `view3d.${id}`,
@@ -93,12 +99,13 @@ function useViewerActions({ follow }: ViewOptions, onChange: (part: Partial<View
       run,
     });
     return registerActions([
-      row('follow', 'follow', IconCurrentLocation, () => act({ follow: !follow })),
+      row('follow', 'follow', IconCurrentLocation, () => toggle('follow')),
       row('top', 'top', IconFocusCentered, () => act({ viewpoint: { kind: 'top' } })),
       row('reset', 'reset', IconView360Arrow, () => act({ viewpoint: { kind: 'default' } })),
       row('measure', 'measure', IconRulerMeasure, () => setMeasuring(!useMeasuring.getState().isOn)),
+      ...SHOWN.map((key) => row(`show.${key}`, `toggle.${key}`, IconEye, () => toggle(key))),
     ]);
-  }, [follow]);
+  }, []);
 }
 
 interface ToolProps {

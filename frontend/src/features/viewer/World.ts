@@ -101,9 +101,14 @@ export class World {
     return [...this.moving.values()].filter((item) => item.body === body).map((item) => item.object);
   }
 
+  /** Of what it is made of; what its camera sees, and its axes, hang on it too and reach further. */
   boundsOf(body: string): THREE.Box3 {
     const bounds = new THREE.Box3();
-    for (const object of this.objectsOf(body)) bounds.expandByObject(object);
+    for (const object of this.objectsOf(body)) {
+      object.traverse((part) => {
+        if (part instanceof THREE.Mesh) bounds.expandByObject(part);
+      });
+    }
     return bounds;
   }
 

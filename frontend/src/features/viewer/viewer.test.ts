@@ -1,4 +1,4 @@
-import type * as THREE from 'three';
+import * as THREE from 'three';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Scan, Scene, Shape } from '@/generated/messages';
 import { currentPoses } from '@/store/session/poses';
@@ -101,6 +101,14 @@ describe('Carried', () => {
     expect(carriable(world, 1)).toBeNull();
     expect(carriable(world, 2)).toBe('robot');
     expect(carriable(world, null)).toBeNull();
+  });
+
+  it('are as large as what they are made of, not as what their cameras see', () => {
+    const world = new World(scene, true);
+    const sight = new THREE.LineSegments(pyramidOf({ fov: 1, range: 40 }));
+    world.object(2)?.add(sight);
+    expect(new THREE.Box3().setFromObject(sight).getSize(new THREE.Vector3()).length()).toBeGreaterThan(3);
+    expect(carriable(world, 2)).toBe('robot');
   });
 });
 

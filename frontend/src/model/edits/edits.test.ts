@@ -7,10 +7,13 @@ import { illegality, legalStep, steps } from '../testing';
 import { edit, type Recipe } from './core';
 import {
   addNode,
+  addPort,
   extractSubtree,
   inlineSubtree,
   moveNode,
+  moveNodes,
   removeSubtrees,
+  removePort,
   renamePort,
   renameUse,
   reorder,
@@ -90,9 +93,21 @@ describe('moving', () => {
     expect(moved.drafts).toEqual(['b']);
     expect(moved.nodes['b']).toEqual({ type: 'Fallback', children: ['d'], position: [10, 20] });
   });
+  it('keeps several blocks in their order, wherever each of them was', () => {
+    const to = (index: number) => ({ at: 'child', parent: 'r', index }) as const;
+    expect(childrenAfter('r', moveNodes(['a', 'b'], to(3)))).toEqual(['c', 'a', 'b']);
+    expect(childrenAfter('r', moveNodes(['b', 'c'], to(0)))).toEqual(['b', 'c', 'a']);
+    expect(childrenAfter('r', moveNodes(['a', 'c'], to(2)))).toEqual(['b', 'a', 'c']);
+    expect(childrenAfter('r', moveNodes(['a', 'd'], to(2)))).toEqual(['b', 'a', 'd', 'c']);
+  });
   it('stops reordering at the ends', () => {
-    expect(childrenAfter('r', reorder('a', -1))).toEqual(['a', 'b', 'c']);
-    expect(childrenAfter('r', reorder('a', 9))).toEqual(['b', 'c', 'a']);
+    expect(childrenAfter('r', reorder(['a'], -1))).toEqual(['a', 'b', 'c']);
+    expect(childrenAfter('r', reorder(['a'], 9))).toEqual(['b', 'c', 'a']);
+  });
+  it('reorders several siblings together, or none', () => {
+    expect(childrenAfter('r', reorder(['b', 'a'], 1))).toEqual(['c', 'a', 'b']);
+    expect(childrenAfter('r', reorder(['b', 'c'], -1))).toEqual(['b', 'c', 'a']);
+    expect(childrenAfter('r', reorder(['a', 'c'], 1))).toEqual(['a', 'b', 'c']);
   });
 });
 
@@ -148,6 +163,12 @@ describe('fields', () => {
     const renamed = after(renamePort('Turn', 'ang_speed', 'speed'), renameUse('action', 'Turn', 'Spin'));
     expect(renamed.nodes['a']).toEqual({ type: 'Spin', ports: { speed: '{speed}' } });
     expect(renamed.nodes['c']?.type).toBe('Spin');
+  });
+  it('gives a port to every block of a type, and takes it from all', () => {
+    const given = after(setPort('c', 'goal', 'door'), addPort('Turn', 'goal'));
+    expect(given.nodes['a']?.ports).toEqual({ ang_speed: '{speed}', goal: '{goal}' });
+    expect(given.nodes['c']?.ports?.['goal']).toBe('door');
+    expect(after(addPort('Turn', 'goal'), removePort('Turn', 'goal'))).toEqual(tree());
   });
   it('forgets manual positions when the layout is turned', () => {
     const turned = after(setPosition('a', [1.4, 2.6]), setLayout('horizontal'));

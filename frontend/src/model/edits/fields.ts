@@ -33,6 +33,24 @@ export const setPort = (id: NodeId, name: string, value: string | null): Recipe 
 export const setCondition = (id: NodeId, name: string, value: string | null): Recipe =>
   setEntry('conditions', id, name, value);
 
+/** Gives a port of an open action to every node of that type: the entry of the blackboard called as it. */
+export function addPort(type: string, name: string): Recipe {
+  return (draft) => {
+    for (const node of Object.values(draft.nodes)) {
+      if (node.type === type) node.ports = { [name]: `{${name}}`, ...node.ports };
+    }
+  };
+}
+
+/** Takes a port of an open action from every node of that type. */
+export function removePort(type: string, name: string): Recipe {
+  return (draft) => {
+    for (const [id, node] of Object.entries(draft.nodes)) {
+      if (node.type === type && node.ports?.[name] !== undefined) setPort(id, name, null)(draft);
+    }
+  };
+}
+
 /** Renames a port of an open action, or a remapping of a subtree, on every node of that type. */
 export function renamePort(type: string, from: string, to: string): Recipe {
   return (draft) => {

@@ -13,29 +13,39 @@ export function addNode(id: NodeId, node: DiagramNode, place: Placement): Recipe
 
 /** Moves a node with all below it. An index counts the children as they are before the move. */
 export function moveNode(id: NodeId, place: Placement): Recipe {
+  return moveNodes([id], place);
+}
+
+/** Moves nodes, none of which is below another, with all below them: they come side by side in this order. */
+export function moveNodes(ids: readonly NodeId[], place: Placement): Recipe {
   return (draft) => {
     let target = place;
     if (place.at === 'child') {
-      const from = placementOf(draft, id);
-      if (from.at === 'child' && from.parent === place.parent && from.index < place.index) {
-        target = { ...place, index: place.index - 1 };
-      }
+      const before = (nodeOf(draft, place.parent).children ?? []).slice(0, place.index);
+      target = { ...place, index: place.index - before.filter((child) => ids.includes(child)).length };
     }
-    detach(draft, id);
-    attach(draft, id, target);
+    for (const id of ids) detach(draft, id);
+    ids.forEach((id, offset) => {
+      attach(draft, id, target.at === 'child' ? { ...target, index: target.index + offset } : target);
+    });
   };
 }
 
-/** Moves a node among its siblings by so many places. */
-export function reorder(id: NodeId, by: number): Recipe {
+/** Moves siblings by so many places, each past those that stay; none moves when one cannot. */
+export function reorder(ids: readonly NodeId[], by: number): Recipe {
   return (draft) => {
-    const from = placementOf(draft, id);
-    if (from.at !== 'child') return;
-    const count = nodeOf(draft, from.parent).children?.length ?? 0;
-    const index = Math.max(0, Math.min(count - 1, from.index + by));
-    if (index === from.index) return;
-    detach(draft, id);
-    attach(draft, id, { ...from, index });
+    const [first] = ids;
+    const from = first === undefined ? null : placementOf(draft, first);
+    if (from?.at !== 'child') return;
+    const parent = nodeOf(draft, from.parent);
+    const children = [...(parent.children ?? [])];
+    const step = Math.sign(by);
+    for (let left = Math.abs(by); left > 0; left -= 1) {
+      const places = ids.map((id) => children.indexOf(id)).sort((a, b) => (b - a) * step);
+      if (places.some((at) => at < 0 || children[at + step] === undefined)) break;
+      for (const at of places) children.splice(at + step, 0, ...children.splice(at, 1));
+      parent.children = [...children];
+    }
   };
 }
 

@@ -31,17 +31,13 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-async function clipboardText(): Promise<string> {
+/** What the clipboard holds: for a menu, where no paste event brings it. */
+export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();
   } catch {
     return remembered;
   }
-}
-
-/** Pastes what the clipboard holds: from a menu, where no paste event brings it. */
-export async function paste(): Promise<boolean> {
-  return pasteText(await clipboardText());
 }
 
 /** Pastes into the selected block where it takes children, else after it, else as a draft. */

@@ -12,6 +12,7 @@ import {
   fragmentOf,
   insertFragment,
   moveNode,
+  moveNodes,
   morph,
   removeSubtrees,
   reorder,
@@ -26,6 +27,7 @@ import {
   bestPlacement,
   canMoveUnder,
   canUnwrap,
+  hasRoom,
   type Kind,
   type Placement,
 } from '@/model/rules';
@@ -134,38 +136,55 @@ export function toggleDisabled(): void {
   change(enable ? 'enable' : 'disable', [setDisabled(selection, !enable)]);
 }
 
-/** Moves the selected block among its siblings. */
+interface Company {
+  readonly diagram: Diagram;
+  readonly parent: NodeId;
+  readonly ids: readonly NodeId[];
+}
+
+/** The selected blocks that keys move together: all where they are siblings, else the one that is walked with. */
+function selectedSiblings(): Company | null {
+  const diagram = activeDiagram();
+  const { selection } = store();
+  const [first] = selection;
+  if (!diagram || first === undefined) return null;
+  const parent = parentOf(diagram, first);
+  if (parent === null) return null;
+  const tops = topmost(diagram, selection);
+  const areSiblings = tops.every((id) => childrenOf(diagram, parent).includes(id));
+  return { diagram, parent, ids: areSiblings ? tops : [first] };
+}
+
+/** Moves the selected blocks among their siblings. */
 export function reorderSelection(by: number): void {
-  const [id] = store().selection;
-  if (id !== undefined) change('reorder', [reorder(id, by)]);
+  const found = selectedSiblings();
+  if (found) change('reorder', [reorder(found.ids, by)]);
 }
 
-/** Moves the selected block beside its parent. */
+/** Moves the selected blocks beside their parent. */
 export function moveOut(): void {
-  const diagram = activeDiagram();
-  const [id] = store().selection;
-  if (!diagram || id === undefined) return;
-  const parent = parentOf(diagram, id);
-  const above = parent === null ? null : parentOf(diagram, parent);
-  if (parent === null || above === null || !acceptsChild(diagram, above, store().vocabulary)) return;
+  const found = selectedSiblings();
+  if (!found) return;
+  const { diagram, parent, ids } = found;
+  const above = parentOf(diagram, parent);
+  if (above === null || !hasRoom(diagram, above, store().vocabulary, ids.length)) return;
   const index = childrenOf(diagram, above).indexOf(parent) + 1;
-  change('move', [moveNode(id, { at: 'child', parent: above, index })]);
+  change('move', [moveNodes(ids, { at: 'child', parent: above, index })]);
 }
 
-/** Moves the selected block under the sibling before it, or the one after. */
+/** Moves the selected blocks under the sibling before them, or the one after. */
 export function moveIn(): void {
-  const diagram = activeDiagram();
-  const [id] = store().selection;
-  if (!diagram || id === undefined) return;
-  const parent = parentOf(diagram, id);
-  if (parent === null) return;
+  const found = selectedSiblings();
+  if (!found) return;
+  const { diagram, parent, ids } = found;
   const siblings = childrenOf(diagram, parent);
-  const at = siblings.indexOf(id);
-  const target = [siblings[at - 1], siblings[at + 1]].find(
-    (other) => other !== undefined && canMoveUnder(diagram, id, other, store().vocabulary),
+  const places = ids.map((id) => siblings.indexOf(id));
+  const target = [siblings[Math.min(...places) - 1], siblings[Math.max(...places) + 1]].find(
+    (other) => other !== undefined && hasRoom(diagram, other, store().vocabulary, ids.length),
   );
   if (target === undefined) return;
-  change('move', [moveNode(id, { at: 'child', parent: target, index: childrenOf(diagram, target).length })]);
+  const index = childrenOf(diagram, target).length;
+  change('move', [moveNodes(ids, { at: 'child', parent: target, index })]);
 }
 
 /** Hangs a block under another, as a connection drawn by hand does. */

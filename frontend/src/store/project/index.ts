@@ -2,34 +2,39 @@ import { create } from 'zustand';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import { produce, type Draft } from 'immer';
 import { renameUse } from '@/model/edits';
-import { emptyHistory, redo, seal, undo, type Travel } from '@/model/history';
+import { emptyHistory, redo, seal, undo, type Renaming, type Travel } from '@/model/history';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
+import { renamed as tellNavigator } from './navigation';
 import { refusingViewers } from './readOnly';
+import { withActionRenamed } from './renameAction';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import {
+  actionsAfter,
   changeDiagrams,
   confirmed,
   initialData,
   knowing,
   removeFile,
   type Change,
+  type ChangeOptions,
   type Diagrams,
 } from './transitions';
+
+/** Has an editor that shows the action follow it. */
+const tellRenamed = ({ from, to }: Renaming): void => {
+  tellNavigator('file', actionPath(from), actionPath(to));
+};
 
 /** Everything about the open project that is saved, and what is selected in it. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
   const set = refusingViewers(setState);
   /** Records a change of trees as one step of `owner`'s history. */
-  const commit = (
-    owner: string,
-    label: string,
-    change: Change,
-    options: { mergeKey?: string | undefined; select?: readonly string[] | undefined } = {},
-  ): void => {
+  const commit = (owner: string, label: string, change: Change, options: ChangeOptions = {}): void => {
     set((state) => changeDiagrams(state, owner, label, change, options));
   };
 
   const travel = (go: typeof undo): void => {
+    let followed: Renaming | null = null;
     set((state) => {
       const owner = state.activeTree;
       if (owner === null) return state;
@@ -42,15 +47,20 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
         return { histories: { ...state.histories, [owner]: emptyHistory } };
       }
       if (!moved) return state;
+      const { renamed } = moved.entry;
+      const renaming = renamed && go === undo ? { from: renamed.to, to: renamed.from } : renamed;
+      const files = renaming ? withActionRenamed(state, renaming) : null;
+      if (files) followed = renaming ?? null;
       const chosen = go === undo ? moved.entry.before : moved.entry.after;
       const diagram = moved.document[owner];
       return {
-        ...knowing({ ...state, diagrams: moved.document }),
+        ...knowing({ ...(files ?? state), diagrams: moved.document }),
         histories: { ...state.histories, [owner]: moved.history },
         selection: chosen.filter((id) => diagram !== undefined && id in diagram.nodes),
         changeCounter: state.changeCounter + 1,
       };
     });
+    if (followed) tellRenamed(followed);
   };
 
   const renameEverywhere =
@@ -157,11 +167,14 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
       const { [from]: moved = diagram, ...others } = renamed;
       const diagrams = { ...others, [to]: { ...moved, id: to } };
+      // Before the old name goes: what shows a tree that is no more is closed.
+      if (state.role !== 'viewer') tellNavigator('tree', from, to);
       const { [from]: _history, ...histories } = state.histories;
       set({
         ...knowing({ ...state, diagrams }),
         histories: { ...histories, [to]: emptyHistory },
         activeTree: state.activeTree === from ? to : state.activeTree,
+        selection: state.selection,
         changeCounter: state.changeCounter + 1,
       });
       if (state.mainTree === from) get().setSettings({ main_tree: to });
@@ -180,16 +193,15 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       });
     },
     renameAction: (from, to) => {
-      const source = get().currentText(actionPath(from));
-      if (source === null || actionPath(to) in get().files) return;
-      get().addFile(actionPath(to), source.replace(new RegExp(`\\b${from}\\b`, 'g'), to));
-      get().deleteFile(actionPath(from));
-      const owner = get().activeTree;
-      const actions = get().actions.map((each) =>
-        each.name === from ? { ...each, name: to, path: actionPath(to) } : each,
-      );
-      set((state) => knowing({ ...state, actions }));
-      if (owner !== null) commit(owner, 'renameAction', renameEverywhere('action', from, to));
+      const renamed = { from, to };
+      const next = withActionRenamed(get(), renamed);
+      if (!next) return;
+      set(() => knowing(next));
+      if (!(actionPath(to) in get().files)) return;
+      tellRenamed(renamed);
+      const owner = get().activeTree ?? Object.keys(get().diagrams)[0];
+      if (owner !== undefined)
+        commit(owner, 'renameAction', renameEverywhere('action', from, to), { renamed });
     },
 
     setFileText: (path, text) => {
@@ -252,15 +264,16 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     },
     pendingChanges: () => pendingChanges(get()),
     applySaved: (sent, result) => {
-      set((state) =>
-        knowing({
+      set((state) => {
+        const saved = applySaved(state, sent, result);
+        return knowing({
           ...state,
-          ...applySaved(state, sent, result),
+          ...saved,
           revision: result.revision,
-          actions: confirmed(state.actions, result.actions),
+          actions: actionsAfter(state.actions, result.actions, saved.files),
           diagnostics: confirmed(state.diagnostics, result.diagnostics),
-        }),
-      );
+        });
+      });
     },
     rebase: (path, revision, savedText) => {
       set((state) => {

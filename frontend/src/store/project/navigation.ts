@@ -4,6 +4,8 @@ import { actionPath } from './state';
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
+  /** Has what shows a tree or a file show it under its new name. */
+  renamed(kind: 'tree' | 'file', from: string, to: string): void;
   /** Puts the cursor of the editor that shows a file on a line, wherever that editor is. */
   aimAt(path: string, line: number): void;
 }
@@ -25,6 +27,10 @@ export function openAction(name: string): void {
 
 export function openFile(path: string, line?: number): void {
   navigator?.openFile(path, line);
+}
+
+export function renamed(kind: 'tree' | 'file', from: string, to: string): void {
+  navigator?.renamed(kind, from, to);
 }
 
 export function aimAt(path: string, line: number): void {

@@ -1,10 +1,11 @@
-import { beforeEach, describe, expect, it } from 'vitest';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type { ProjectDetail } from '@/api/types';
 import { edit, setName, setPort } from '@/model/edits';
 import { serializeDiagram } from '@/model/serialize';
 import { createAction } from './actionTemplate';
 import { addHere, deleteSelection, duplicateSelection, moveIn, moveOut, reorderSelection } from './commands';
 import { useProjectStore } from './index';
+import { setNavigator } from './navigation';
 import { extractSelection, inlineSelection } from './subtrees';
 
 const state = () => useProjectStore.getState();
@@ -84,6 +85,16 @@ describe('saving', () => {
       diagnostics: [],
     });
     expect(state().pendingChanges()).toEqual([{ path: 'actions/Turn.py', base_revision: 4, content: 'two' }]);
+  });
+  it('knows an action that was made while a save was under way, and no longer one that the server does not', () => {
+    state().apply('MainTree', 'rename', [setName('a', 'left')]);
+    const sent = state().pendingChanges();
+    createAction('Wave');
+    state().applySaved(sent, { revision: 4, files: [], actions: project.actions, diagnostics: [] });
+    expect(state().vocabulary.specs.get('Wave')?.source).toBe('action');
+    const later = state().pendingChanges();
+    state().applySaved(later, { revision: 5, files: [], actions: project.actions, diagnostics: [] });
+    expect(state().vocabulary.specs.has('Wave')).toBe(false);
   });
   it('creates and deletes files, and forgets what the server never saw', () => {
     state().addFile('actions/New.py', 'x');
@@ -180,6 +191,34 @@ describe('commands', () => {
     state().renameAction('Turn', 'Spin');
     expect(state().currentText('actions/Spin.py')).toBe('class Spin:\n    pass\n');
     expect(types()).toEqual(['Sequence', 'Spin', 'Fallback', 'Spin']);
+  });
+  it('rename an action where other files import it, and take all of it back', () => {
+    state().addFile('actions/Go.py', 'from Turn import Turn\n\n\nclass Go(Turn):  # no Turn\n    pass\n');
+    state().renameAction('Turn', 'Spin');
+    expect(state().currentText('actions/Go.py')).toContain('from Spin import Spin');
+    expect(state().currentText('actions/Go.py')).toContain('class Go(Spin):  # no Turn');
+    state().undo();
+    expect(types()).toEqual(['Sequence', 'Turn', 'Fallback', 'Turn']);
+    expect(state().currentText('actions/Turn.py')).toBe('class Turn:\n    pass\n');
+    expect(state().currentText('actions/Go.py')).toContain('from Turn import Turn');
+    expect(state().files['actions/Spin.py']).toBeUndefined();
+    expect(state().actions.map(({ name }) => name)).toContain('Turn');
+    state().redo();
+    expect(state().currentText('actions/Spin.py')).toContain('class Spin');
+    expect(types()).toEqual(['Sequence', 'Spin', 'Fallback', 'Spin']);
+  });
+  it('tell the frame of another name, so that what shows a document stays open', () => {
+    const renamed = vi.fn();
+    setNavigator({ openTree: vi.fn(), openFile: vi.fn(), aimAt: vi.fn(), renamed });
+    state().renameAction('Turn', 'Spin');
+    state().undo();
+    state().renameTree('MainTree', 'Patrol');
+    expect(renamed.mock.calls).toEqual([
+      ['file', 'actions/Turn.py', 'actions/Spin.py'],
+      ['file', 'actions/Spin.py', 'actions/Turn.py'],
+      ['tree', 'MainTree', 'Patrol'],
+    ]);
+    setNavigator(null);
   });
   it('rename a tree wherever it is used', () => {
     state().select('MainTree', ['f']);

@@ -1,11 +1,11 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
 import type { Diagram } from '@/model/diagram';
-import { emptyHistory, record } from '@/model/history';
+import { emptyHistory, record, type Renaming } from '@/model/history';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
 import { syncTrees } from './files';
-import { treePath, type ProjectData } from './state';
+import { actionPath, treePath, type ProjectData } from './state';
 
 enablePatches();
 
@@ -60,6 +60,18 @@ export function confirmed<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
+/** What the server read of a save, with the actions that were made here since it was sent: it cannot know them. */
+export function actionsAfter(
+  before: ProjectData['actions'],
+  saved: ProjectData['actions'],
+  files: ProjectData['files'],
+): ProjectData['actions'] {
+  const known = new Set(saved.map(({ name }) => name));
+  const isNew = ({ name, path }: ProjectData['actions'][number]): boolean =>
+    !known.has(name) && files[path ?? actionPath(name)]?.savedText === null;
+  return confirmed(before, [...saved, ...before.filter(isNew)]);
+}
+
 /** Brings files and vocabulary in step with trees and actions. */
 export function knowing<T extends ProjectData>(data: T): T {
   const { files, removed } = syncTrees(data);
@@ -69,13 +81,19 @@ export function knowing<T extends ProjectData>(data: T): T {
 /** A change of trees, written as if they were mutable. */
 export type Change = (draft: Record<string, Draft<Diagram>>) => void;
 
+export interface ChangeOptions {
+  readonly mergeKey?: string | undefined;
+  readonly select?: readonly string[] | undefined;
+  readonly renamed?: Renaming;
+}
+
 /** Changes trees as one step of a tree's history. */
 export function changeDiagrams(
   data: ProjectData,
   owner: string,
   label: string,
   change: Change,
-  options: { mergeKey?: string | undefined; select?: readonly string[] | undefined },
+  options: ChangeOptions,
 ): Partial<ProjectData> {
   const [diagrams, patches, inverse] = produceWithPatches(data.diagrams, (draft) => {
     change(draft as Record<string, Draft<Diagram>>);
@@ -89,6 +107,7 @@ export function changeDiagrams(
     mergeKey: options.mergeKey ?? null,
     patches,
     inverse,
+    renamed: options.renamed,
     before: mine,
     after,
   });

@@ -22,12 +22,15 @@ export const isRunning = () => useSessionStore.getState().executor === 'applicat
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
+export const isLookingOn = () => useSessionStore.getState().introspection?.role === 'viewer';
 export const hasSession = () => useSessionStore.getState().connection !== 'off';
 
 export const pause = () => reported(send('pause', {}));
 export const resume = () => reported(send('resume', {}));
 export const stop = () => reported(send('terminate_application', {}));
 export const resetWorld = () => reported(send('reset_world', {}));
+/** Drives the session that this page looks on at; whoever drove it looks on from then. */
+export const takeOver = () => reported(send('take_over', {}));
 export const end = () => reported(endSession());
 
 /** One tick; a run that is going on is paused first. */

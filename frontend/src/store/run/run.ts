@@ -4,7 +4,7 @@ import type { AppBundle } from '@/api/types';
 import type { Commands } from '@/generated/messages';
 import { useProjectStore } from '@/store/project';
 import { saveNow } from '@/store/saving/autosave';
-import { ensureConnected, send } from '@/store/session/connection';
+import { abandonStart, ensureConnected, send } from '@/store/session/connection';
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
@@ -19,6 +19,7 @@ export const restartProject = () => launch((app) => send('run_application', appl
 async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || useRunStore.getState().stage) return false;
+  wasCancelled = false;
   useRunStore.setState({ stage: 'saving', failure: null });
   useSessionStore.setState({
     isLaunching: true,
@@ -38,8 +39,8 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // The session goes on with it, and tells how it went once it can be reached again.
-    if (!isUnconnected(error)) useRunStore.setState({ failure: failureOf(error) });
+    // Without a connection the session goes on with it, and tells how it went once it can be reached again.
+    if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
     useRunStore.setState({ stage: null });
@@ -47,8 +48,13 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   }
 }
 
+/** Who pressed *Cancel* knows, whatever it was that could not go on. */
+let wasCancelled = false;
+
 export function cancelRun(): void {
-  void send('cancel', {}).catch(() => undefined);
+  wasCancelled = true;
+  const isStarting = useRunStore.getState().stage === 'starting';
+  void (isStarting ? abandonStart() : send('cancel', {})).catch(() => undefined);
 }
 
 function enter(stage: LaunchStage): void {

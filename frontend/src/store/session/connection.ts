@@ -4,7 +4,7 @@ import { socketUrl } from '@/api/http';
 import type { SessionInfo } from '@/api/types';
 import { t } from '@/i18n';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
-import { ControlSocket } from './control';
+import { CommandError, ControlSocket } from './control';
 import { forgetRun, rememberRun } from './memory';
 import { receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';
@@ -21,6 +21,9 @@ const STREAMING: readonly State[] = ['visualization_ready', 'application_running
 let socket: ControlSocket | null = null;
 let session: SessionInfo | null = null;
 let attempt = 0;
+/** The end of the session before: until then the server would give it out once more. */
+let ending: Promise<unknown> = Promise.resolve();
+let giveUp: ((error: Error) => void) | null = null;
 let retryTimer: ReturnType<typeof setTimeout> | undefined;
 
 const set = useSessionStore.setState;
@@ -33,14 +36,28 @@ export function send<K extends keyof Commands>(command: K, data: Commands[K]): P
 export async function ensureConnected(projectId: string): Promise<void> {
   if (socket?.isOpen && useSessionStore.getState().projectId === projectId) return;
   set({ connection: 'starting', projectId });
+  const givenUp = new Promise<never>((_, reject) => {
+    giveUp = reject;
+  });
+  const isWanted = () => giveUp !== null;
   try {
-    session = await api.startSession(projectId);
-    await openSocket(session);
+    const begun = ending.then(() => (isWanted() ? api.startSession(projectId) : givenUp));
+    session = await Promise.race([begun, givenUp]);
+    await Promise.race([openSocket(session), givenUp]);
   } catch (error) {
     resetSession();
     throw error;
+  } finally {
+    giveUp = null;
   }
   localStorage.setItem(STORAGE_PREFIX + projectId, session.id);
+}
+
+/** Ends the wait for a session that starts; one that ran already goes on without this page. */
+export async function abandonStart(): Promise<void> {
+  const starting = session;
+  disconnect();
+  if (starting && starting.state !== 'ready') await endOnServer(starting.id);
 }
 
 /** After a reload: joins the session that this project had, if it still runs. */
@@ -60,11 +77,17 @@ export async function reattach(projectId: string): Promise<void> {
 
 /** Ends all processes of the session. */
 export async function endSession(): Promise<void> {
-  const ending = session;
+  const left = session;
   const { projectId } = useSessionStore.getState();
   disconnect();
   if (projectId) localStorage.removeItem(STORAGE_PREFIX + projectId);
-  if (ending) await api.endSession(ending.id);
+  if (left) await endOnServer(left.id);
+}
+
+async function endOnServer(id: string): Promise<void> {
+  const ended = api.endSession(id);
+  ending = ended.catch(() => undefined);
+  await ended;
 }
 
 /** Leaves the session without ending it, since the project is left. */
@@ -75,6 +98,7 @@ export function leave(): void {
 
 function disconnect(): void {
   clearTimeout(retryTimer);
+  giveUp?.(new CommandError('cancelled', 'The start was cancelled.', ''));
   socket?.close();
   socket = null;
   session = null;

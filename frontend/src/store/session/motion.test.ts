@@ -1,4 +1,4 @@
-import { describe, expect, it } from 'vitest';
+import { describe, expect, it, vi } from 'vitest';
 import type { Poses, Scene } from '@/generated/messages';
 import { frames } from './frames';
 import { speedOf, useMotion } from './motion';
@@ -62,6 +62,15 @@ describe('poses', () => {
     frames.publish(scene);
     for (let step = 0; step <= 20; step += 1) frames.publish(poses(step * 0.1, step * 0.05));
     expect(useMotion.getState().speed).toBeCloseTo(0.5, 1);
+  });
+
+  it('say by their absence that the robot stands', () => {
+    vi.useFakeTimers();
+    frames.publish(scene);
+    for (let step = 0; step <= 20; step += 1) frames.publish(poses(step * 0.1, step * 0.05));
+    vi.advanceTimersByTime(1000);
+    expect(useMotion.getState().speed).toBe(0);
+    vi.useRealTimers();
   });
 
   it('are unpacked to a tenth of a millimetre, on either side of the origin', () => {

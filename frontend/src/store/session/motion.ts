@@ -16,6 +16,8 @@ interface Sample {
 
 const WINDOW_S = 1;
 const UPDATE_EVERY_S = 0.2;
+/** Poses come while something moves: without any for so long, the robot stands. */
+const STILL_AFTER_MS = 800;
 
 export const useMotion = create<Motion>(() => ({ speed: 0, t: 0 }));
 
@@ -34,6 +36,12 @@ export function speedOf(samples: readonly Sample[]): number {
 
 let robotId: number | null = null;
 let samples: Sample[] = [];
+let stillness: ReturnType<typeof setTimeout> | undefined;
+
+function stand(): void {
+  samples = samples.slice(-1);
+  useMotion.setState({ speed: 0 });
+}
 
 frames.listen('scene', (scene) => {
   robotId = scene.objects.find((object) => object.kind === 'robot')?.id ?? null;
@@ -44,6 +52,8 @@ frames.listen('scene', (scene) => {
 frames.listen('poses', ({ t }) => {
   const pose = robotId === null ? undefined : currentPoses.get(robotId);
   if (!pose) return;
+  clearTimeout(stillness);
+  stillness = setTimeout(stand, STILL_AFTER_MS);
   const last = samples.at(-1);
   if (last && t < last.t) samples = [];
   samples.push({ t, x: pose[0] ?? 0, y: pose[1] ?? 0 });

@@ -1,6 +1,14 @@
 import { describe, expect, it } from 'vitest';
-import type { BlackboardEntry, Events, Log, ServerMessage, Snapshot } from '@/generated/messages';
+import type {
+  BlackboardEntry,
+  Events,
+  Introspection,
+  Log,
+  ServerMessage,
+  Snapshot,
+} from '@/generated/messages';
 import { appendLogs, blackboardId, initialSession, MAX_LOG_LINES, reduce, reduceAll } from './reduce';
+import type { SessionData } from './types';
 
 let seq = 0;
 
@@ -44,10 +52,36 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   ...more,
 });
 
+const INTRODUCED: Introspection = {
+  protocol: 'bt-studio.v1',
+  client_id: 'c',
+  role: 'driver',
+  state: 'application_running',
+  version: 'test',
+  ros_distro: 'humble',
+  ros_domain_id: 0,
+  renderer: 'egl',
+  tf: true,
+  ros_environment: {},
+};
+
 describe('reduce', () => {
   it('follows the ladder and keeps the reason', () => {
     const state = reduce(initialSession, message('state-changed', { state: 'paused', reason: 'asked' }));
     expect(state).toMatchObject({ executor: 'paused', executorReason: 'asked' });
+  });
+
+  it('remembers that another page took over, until this one drives again', () => {
+    const told = (state: SessionData, role: Introspection['role']) =>
+      reduce(state, message('introspection', { ...INTRODUCED, role }));
+    const lookingOn = told(initialSession, 'viewer');
+    expect(lookingOn.wasTakenOver).toBe(false);
+    const driving = told(lookingOn, 'driver');
+    expect(driving.wasTakenOver).toBe(false);
+    const displaced = told(driving, 'viewer');
+    expect(displaced).toMatchObject({ wasTakenOver: true, introspection: { role: 'viewer' } });
+    expect(told(displaced, 'viewer').wasTakenOver).toBe(true);
+    expect(told(displaced, 'driver').wasTakenOver).toBe(false);
   });
 
   it('keeps simulated time and sequence of every message', () => {

@@ -10,6 +10,7 @@ export const initialSession: SessionData = {
   projectId: null,
   sessionId: null,
   introspection: null,
+  wasTakenOver: false,
   executor: 'idle',
   executorReason: '',
   progress: null,
@@ -37,7 +38,11 @@ type Handler<K extends keyof Events> = (
 ) => Partial<SessionData>;
 
 const handlers: { [K in keyof Events]?: Handler<K> } = {
-  introspection: (_, data) => ({ introspection: data, executor: data.state }),
+  introspection: (state, data) => ({
+    introspection: data,
+    executor: data.state,
+    wasTakenOver: data.role === 'viewer' && (state.wasTakenOver || state.introspection?.role === 'driver'),
+  }),
   'state-changed': (state, data) => ({
     executor: data.state,
     executorReason: data.reason,

@@ -31,6 +31,8 @@ export interface SessionData {
   projectId: string | null;
   sessionId: string | null;
   introspection: Introspection | null;
+  /** This page drove the session until another one took over. */
+  wasTakenOver: boolean;
   executor: State;
   executorReason: string;
   progress: Progress | null;

@@ -27,6 +27,8 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
+  // What is folded has its own sign there, and its children would come to be out of sight.
+  const grows = data.canGrow && data.folded === 0;
   const openProblems = () => {
     useProjectStore.getState().select(tree, [id]);
     setEditor({ fixing: id });
@@ -102,14 +104,14 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
       <Handle
         type="source"
         position={isHorizontal ? Position.Right : Position.Bottom}
-        className={`${classes['handle']} ${data.canGrow ? classes['plus'] : ''}`}
-        isConnectable={data.canGrow}
-        {...(data.canGrow ? { title: t('addChild') } : { style: { visibility: 'hidden' } })}
+        className={`${classes['handle']} ${grows ? classes['plus'] : ''}`}
+        isConnectable={grows}
+        {...(grows ? { title: t('addChild') } : { style: { visibility: 'hidden' } })}
         onClick={(event) => {
           openQuickAddBelow(tree, id, event.clientX, event.clientY);
         }}
       >
-        {data.canGrow && <IconPlus size={13} stroke={3} aria-hidden="true" />}
+        {grows && <IconPlus size={13} stroke={3} aria-hidden="true" />}
       </Handle>
     </div>
   );

@@ -14,6 +14,9 @@ function valueClass(line: PortLine): string {
 
 const ARROWS = { input: '', output: '→', inout: '⇄' } as const;
 
+const shownValue = (line: PortLine, t: TFunction<'canvas'>): string =>
+  line.value ?? line.default ?? (line.required ? t('port.missing') : '—');
+
 interface BlockPortsProps {
   readonly node: DiagramNode;
   readonly spec: NodeSpec | undefined;
@@ -27,16 +30,23 @@ export function BlockPorts({ node, spec, t }: BlockPortsProps) {
   const more = lines.length - BLOCK.maxPorts;
   return (
     <ul className={classes['ports']}>
-      {lines.slice(0, BLOCK.maxPorts).map((line) => (
-        <li key={line.name} className={classes['port']}>
-          <span className={classes['portName']}>
-            {ARROWS[line.direction]} {line.name}
-          </span>
-          <span className={classes[valueClass(line)]} title={line.value ?? undefined}>
-            {line.value ?? line.default ?? (line.required ? t('port.missing') : '—')}
-          </span>
-        </li>
-      ))}
+      {lines.slice(0, BLOCK.maxPorts).map((line) => {
+        const value = shownValue(line, t);
+        return (
+          <li key={line.name} className={classes['port']}>
+            <span className={classes['portName']}>
+              {ARROWS[line.direction]} {line.name}
+            </span>
+            <span
+              className={classes[valueClass(line)]}
+              title={line.value ?? undefined}
+              data-long={value.length > BLOCK.valueLetters || undefined}
+            >
+              {value}
+            </span>
+          </li>
+        );
+      })}
       {more > 0 && <li className={classes['portMore']}>{t('port.more', { count: more })}</li>}
     </ul>
   );

@@ -2,6 +2,7 @@ import { IconPlus } from '@tabler/icons-react';
 import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { allChoices, matchScore, searchChoices, suits, type Purpose } from '@/model/choices';
+import { isPythonName } from '@/model/pythonNames';
 import { createAction, type ActionKind } from '@/store/project/actionTemplate';
 import { achieve } from '@/store/project/commands';
 import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
@@ -57,8 +58,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
       search,
     );
   }, [diagram, vocabulary, request, search]);
-  const canCreate =
-    request.goal.does === 'add' && /^[A-Za-z_]\w*$/.test(search) && !vocabulary.specs.has(search);
+  const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;
   // Who types a name that no block has means a new action, even if the word stands in a description.

@@ -21,7 +21,9 @@ import { ProjectWorkspace } from './workspace';
 const SEVERITIES = ['error', 'error', 'warning', 'info', 'info'] as const;
 const RETRY_AFTER_MS = [500, 2000, 8000, 30_000] as const;
 const SYNC_AFTER_MS = 700;
-/** A server that lived this long was well: its end starts the count of retries anew. */
+/** The first answer waits until the server has read rclpy and all messages, which a busy machine takes its time for. */
+const ANSWER_WITHIN_MS = 60_000;
+/** A server that helped for this long was well: its end starts the count of retries anew. */
 const WELL_AFTER_MS = 30_000;
 
 interface Published {
@@ -51,7 +53,7 @@ function keepFindings({ uri, diagnostics }: Published): void {
 function makeClient(): LSPClient {
   return new LSPClient({
     rootUri: 'file:///project',
-    timeout: 10_000,
+    timeout: ANSWER_WITHIN_MS,
     sanitizeHTML: sanitizeHtml,
     workspace: (client) =>
       new ProjectWorkspace(client, (where) =>
@@ -122,22 +124,25 @@ class Connection {
 
   private open(): void {
     setState({ kind: 'starting' });
-    const opened = Date.now();
+    let readySince: number | null = null;
     const socket = openSocket(this.projectId, {
       open: (transport) => {
         this.client.connect(transport);
         this.client.initializing.then(
           () => {
+            readySince = Date.now();
             if (this.socket === socket) setState({ kind: 'ready' });
           },
-          () => undefined,
+          () => {
+            socket.close();
+          },
         );
       },
       closed: (code, reason) => {
         if (this.socket !== socket) return;
         this.socket = null;
         this.client.disconnect();
-        if (Date.now() - opened > WELL_AFTER_MS) this.retries = 0;
+        if (readySince !== null && Date.now() - readySince > WELL_AFTER_MS) this.retries = 0;
         this.ended(code, reason);
       },
     });

@@ -2,6 +2,7 @@ import { LSPPlugin } from '@codemirror/lsp-client';
 import { showDialog, type Command, type EditorView, type KeyBinding } from '@codemirror/view';
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
+import { isPythonName } from '@/model/pythonNames';
 import { actionPath } from '@/store/project/state';
 import { useProjectStore } from '@/store/project';
 import { pathOf } from './uris';
@@ -40,7 +41,7 @@ export const renameSymbol: Command = (view) => {
 async function rename(view: EditorView, at: number, before: string, after: string): Promise<void> {
   const plugin = LSPPlugin.get(view);
   if (!plugin) return;
-  if (!/^[A-Za-z_]\w*$/.test(after)) {
+  if (!isPythonName(after)) {
     notifications.show({ color: 'red', message: t('code:rename.noName', { name: after }) });
     return;
   }
@@ -80,19 +81,12 @@ async function rename(view: EditorView, at: number, before: string, after: strin
 
 /** An action is called as its file: when its class was renamed, its file and its blocks are, too. */
 function renameActionToo(uris: readonly string[], before: string, after: string): void {
-  const { files, currentText, renameAction, setFileText } = useProjectStore.getState();
+  const { files, currentText, renameAction } = useProjectStore.getState();
   const path = actionPath(before);
   const touched = uris.some((uri) => pathOf(uri) === path);
   const renamed = touched && new RegExp(`^class ${after}\\b`, 'm').test(currentText(path) ?? '');
   if (!renamed || actionPath(after) in files) return;
   renameAction(before, after);
-  // The module is called as its file: imports of it follow, too.
-  const imports = new RegExp(`^(\\s*(?:from|import)\\s+(?:actions\\.)?)${before}\\b`, 'gm');
-  for (const path of Object.keys(files)) {
-    const text = path.endsWith('.py') ? currentText(path) : null;
-    const changed = text?.replace(imports, `$1${after}`);
-    if (changed !== undefined && changed !== text) setFileText(path, changed);
-  }
 }
 
 function messageOf(error: unknown): string {

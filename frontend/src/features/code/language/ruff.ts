@@ -23,9 +23,12 @@ export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
   return from + units;
 }
 
+/** Texts that have little in common are not worth a closer look: whoever types waits for it. */
+const COARSE = { scanLimit: 1000, timeout: 100 };
+
 /** The changes that make one text of another, so that cursors and marks stay where they are. */
 export function changesBetween(before: string, after: string): ChangeSpec[] {
-  return diff(before, after).map(({ fromA, toA, fromB, toB }) => ({
+  return diff(before, after, COARSE).map(({ fromA, toA, fromB, toB }) => ({
     from: fromA,
     to: toA,
     insert: after.slice(fromB, toB),

@@ -1,0 +1,26 @@
+import { IconCommand, IconLanguage } from '@tabler/icons-react';
+import { LANGUAGES, setLanguage, type Language } from '@/i18n';
+import { togglePalette } from './palette';
+import type { UserAction } from './registry';
+
+const palette: UserAction = {
+  id: 'frame.palette',
+  group: 'view',
+  labelKey: 'frame:action.commandPalette',
+  icon: IconCommand,
+  shortcut: '$mod+KeyK',
+  inTextFields: true,
+  hidden: true,
+  run: togglePalette,
+};
+
+const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserAction => ({
+  id: `view.language.${code}`,
+  group: 'view',
+  labelKey: `frame:languages.${code}`,
+  icon: IconLanguage,
+  run: () => setLanguage(code),
+}));
+
+/** What can be done on the start page and in a project alike. */
+export const everywhere: readonly UserAction[] = [palette, ...languages];

@@ -1,0 +1,53 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { useLanguageStore } from '@/store/language';
+import { useProjectStore } from '@/store/project';
+import { languageSupport } from './client';
+
+/** A server that takes what is said, and says nothing. */
+class SilentSocket {
+  static readonly OPEN = 1;
+  static opened: SilentSocket[] = [];
+  readonly readyState = 1;
+  onopen: () => void = () => undefined;
+  onclose: (event: { code: number; reason: string }) => void = () => undefined;
+  send = vi.fn();
+
+  constructor() {
+    SilentSocket.opened.push(this);
+  }
+
+  close(): void {
+    this.onclose({ code: 1000, reason: '' });
+  }
+}
+
+const state = () => useLanguageStore.getState().state;
+
+describe('the connection to the language server', () => {
+  beforeEach(() => {
+    vi.useFakeTimers();
+    vi.stubGlobal('WebSocket', SilentSocket);
+    SilentSocket.opened = [];
+    useProjectStore.setState({ projectId: 'p' });
+  });
+  afterEach(() => {
+    useProjectStore.setState({ projectId: null });
+    vi.unstubAllGlobals();
+    vi.useRealTimers();
+  });
+
+  it('is made again when the server gives no answer, and given up after some times', async () => {
+    languageSupport('actions/Go.py');
+    for (let tries = 1; tries <= 4; tries += 1) {
+      SilentSocket.opened.at(-1)?.onopen();
+      expect(state()).toEqual({ kind: 'starting' });
+      await vi.advanceTimersByTimeAsync(60_000);
+      expect(state()).toEqual({ kind: 'failed', reason: '', willRetry: true });
+      await vi.advanceTimersByTimeAsync(30_000);
+      expect(SilentSocket.opened).toHaveLength(tries + 1);
+    }
+    SilentSocket.opened.at(-1)?.onopen();
+    await vi.advanceTimersByTimeAsync(60_000);
+    expect(state()).toEqual({ kind: 'failed', reason: '', willRetry: false });
+  });
+});

@@ -1,0 +1,55 @@
+import { TextInput } from '@mantine/core';
+import { useEffect, useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { canBePort } from '@/model/ports';
+
+interface PortNameInputProps {
+  /** What it is called so far; empty of a new one. */
+  readonly before?: string;
+  readonly taken: readonly string[];
+  /** Told the name, or null where nothing is to change. */
+  readonly onDone: (name: string | null) => void;
+}
+
+/** Names a port of an open action or subtree. */
+export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps) {
+  const { t } = useTranslation('inspector');
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    field.current?.focus();
+    field.current?.select();
+  }, []);
+  const [name, setName] = useState(before);
+  const isDone = useRef(false);
+  const finish = (result: string | null) => {
+    if (!isDone.current) onDone(result);
+    isDone.current = true;
+  };
+  const isTaken = name !== before && taken.includes(name);
+  const isValid = canBePort(name) && !isTaken;
+  const problem = isTaken ? t('portNameTaken') : t('portNameBad');
+  return (
+    <TextInput
+      size="xs"
+      flex={1}
+      aria-label={t('portName')}
+      placeholder={t('portName')}
+      value={name}
+      error={name === '' || isValid ? null : problem}
+      ref={field}
+      onChange={(event) => {
+        setName(event.currentTarget.value);
+      }}
+      onBlur={() => {
+        finish(isValid && name !== before ? name : null);
+      }}
+      onKeyDown={(event) => {
+        if (event.key === 'Enter' && isValid) event.currentTarget.blur();
+        if (event.key !== 'Escape') return;
+        // It leaves this field, not the panel.
+        event.preventDefault();
+        finish(null);
+      }}
+    />
+  );
+}

@@ -1,0 +1,33 @@
+import { useQuery } from '@tanstack/react-query';
+import type { TFunction } from 'i18next';
+import { useMemo } from 'react';
+import { api } from '@/api/client';
+import type { TemplateInfo } from '@/api/types';
+import { translates } from '@/i18n';
+
+/** Known templates keep this order; others follow. */
+const ORDER = ['laser_bump_and_go', 'visual_follow_person', 'empty'];
+
+const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '' };
+
+function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
+  const all = templates.some(({ id }) => id === 'empty') ? [...templates] : [...templates, EMPTY];
+  const place = ({ id }: TemplateInfo) => (ORDER.includes(id) ? ORDER.indexOf(id) : ORDER.length);
+  return all.sort((a, b) => place(a) - place(b));
+}
+
+/** What a project can begin as; an empty one before the server has answered. */
+export function useSortedTemplates(): readonly TemplateInfo[] {
+  const { data } = useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
+  return useMemo(() => sorted(data ?? []), [data]);
+}
+
+/** A template's own words, or those of the user's language where there are some. */
+export function templateText(
+  t: TFunction<'projects'>,
+  template: TemplateInfo,
+  field: 'name' | 'description',
+): string {
+  const key = `template.${template.id}.${field}`;
+  return translates(`projects:${key}`) ? t(key) : template[field];
+}

@@ -1,0 +1,39 @@
+import { registerActions, type UserAction } from '@/actions/registry';
+import { setSpeed, setTickRate } from '@/store/run/commands';
+import { useRunStore } from '@/store/run/store';
+import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';
+
+/** How often a tree may be ticked, Hz. */
+export const TICK_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
+/** How fast time may pass; zero is as fast as the machine can. */
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0] as const;
+
+const mayRun = () => useRunStore.getState().hindrance === null;
+
+const rows: readonly UserAction[] = [
+  ...TICK_RATES.map((hz): UserAction => ({
+    id: `run.tickRate.${hz}`,
+    group: 'rates',
+    labelKey: 'run:action.tickRate',
+    labelValues: { hz },
+    enabled: mayRun,
+    run: () => setTickRate(hz),
+  })),
+  ...SPEEDS.map((speed): UserAction => ({
+    id: `run.speed.${speed}`,
+    group: 'rates',
+    labelKey: speed === 0 ? 'run:action.fullSpeed' : 'run:action.speed',
+    labelValues: { speed },
+    enabled: mayRun,
+    run: () => setSpeed(speed),
+  })),
+  ...STATUS_RATES.map((hz): UserAction => ({
+    id: `run.statusRate.${hz}`,
+    group: 'rates',
+    labelKey: hz === 0 ? 'run:action.everyStatus' : 'run:action.statusRate',
+    labelValues: { hz },
+    run: () => setStatusRate(hz),
+  })),
+];
+
+export const registerRateActions = () => registerActions(rows);

@@ -1,0 +1,35 @@
+const KEYWORDS = new Set(
+  'False None True and as assert async await break class continue def del elif else except finally for from global if import in is lambda nonlocal not or pass raise return try while with yield'.split(
+    ' ',
+  ),
+);
+
+/** Whether a class, and the file that is called as it, can have this name. */
+export const isPythonName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name) && !KEYWORDS.has(name);
+
+/** What people wrote as text: a name in it may mean anything, such as a topic. */
+const TEXT = String.raw`"""[^]*?"""|'''[^]*?'''|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|#[^\n]*`;
+
+/** A name that stands alone, or the class of a module that is called as it: `Turn`, `Turn.Turn`. */
+const nameOf = (name: string): RegExp =>
+  new RegExp(String.raw`(${TEXT})|(?<![\p{L}\p{N}_.])${name}(\.${name})?(?![\p{L}\p{N}_])`, 'gu');
+
+/** The module in `from actions.Turn import …`. */
+const moduleOf = (name: string): RegExp =>
+  new RegExp(String.raw`^(\s*(?:from|import)\s+actions\.)${name}(?![\p{L}\p{N}_])`, 'gmu');
+
+/** A source with one of its names changed, outside of strings and comments. */
+export function withName(source: string, from: string, to: string): string {
+  return source
+    .replace(moduleOf(from), `$1${to}`)
+    .replace(nameOf(from), (whole, text: string | undefined, ofModule: string | undefined) => {
+      if (text !== undefined) return whole;
+      return ofModule === undefined ? to : `${to}.${to}`;
+    });
+}
+
+/** Whether a source imports something of that name. */
+export const importsName = (source: string, name: string): boolean =>
+  new RegExp(String.raw`^\s*(?:from|import)\s[^\n#]*(?<![\p{L}\p{N}_])${name}(?![\p{L}\p{N}_])`, 'mu').test(
+    source,
+  );

@@ -7,6 +7,7 @@ import tomllib
 from pathlib import Path
 
 _BUDGET = Path(__file__).with_name("budget.toml")
+IS_FULL = os.environ.get("BT_STUDIO_FULL") == "1"
 
 
 def count(name: str) -> int:
@@ -16,4 +17,4 @@ def count(name: str) -> int:
         KeyError: `tests/budget.toml` has no such table.
     """
     table = tomllib.loads(_BUDGET.read_text())[name]
-    return int(table["full" if os.environ.get("BT_STUDIO_FULL") == "1" else "test"])
+    return int(table["full" if IS_FULL else "test"])

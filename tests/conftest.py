@@ -5,8 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import hypothesis
+
+from tests.budget import IS_FULL
+
 if TYPE_CHECKING:
     import pytest
+
+# How long an example takes is the machine's affair. The short run tries the same ones each time: what it
+# says is about the change. The long run looks for new ones.
+hypothesis.settings.register_profile(
+    "bt_studio",
+    deadline=None,
+    derandomize=not IS_FULL,
+    suppress_health_check=[hypothesis.HealthCheck.too_slow],
+)
+hypothesis.settings.load_profile("bt_studio")
 
 BROWSER_TESTS = Path(__file__).parent / "e2e"
 

@@ -79,7 +79,6 @@ def ask_anything(path, method, known_project, headers, times):
 
     @hypothesis.settings(
         max_examples=times,
-        deadline=None,
         derandomize=True,
         database=None,
         suppress_health_check=list(HealthCheck),

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
+# Colours that are still fading in are no colours of the page.
+STILL = "*, ::before, ::after { transition: none !important; animation: none !important }"
 AXE = Path(__file__).parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
 
 
@@ -23,8 +25,7 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
 
 def expect_no_findings(page: Page, name: str) -> None:
     """Lets axe-core look at a page as it is."""
-    # Colours that are still fading in are no colours of the page.
-    page.add_style_tag(content="*, ::before, ::after { transition: none !important }")
+    page.add_style_tag(content=STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
         "async () => (await axe.run("
@@ -59,3 +60,40 @@ def expect_to_fit(page: Page, name: str) -> None:
     """Nothing of a page lies beyond its window, where nobody could reach it."""
     beyond = page.evaluate(BEYOND)
     assert not beyond, f"{name} does not fit into {page.viewport_size}:\n" + "\n".join(beyond)
+
+
+# What has the keyboard must look otherwise than without it: itself, or what it is drawn in.
+FOCUS = """() => {
+  const element = document.activeElement;
+  if (!element || element === document.body) return null;
+  const look = () => {
+    const boxes = [element, element.parentElement, element.parentElement?.parentElement];
+    return [...boxes, null].map((box) => {
+      const style = getComputedStyle(box ?? element, box ? null : '::before');
+      return [style.outline, style.boxShadow, style.borderColor, style.backgroundColor].join();
+    }).join('|');
+  };
+  const focused = look();
+  element.blur();
+  const unseen = look() === focused;
+  element.focus({ preventScroll: true });
+  return { unseen, what: element.outerHTML.slice(0, 160) };
+}"""
+
+
+def expect_focus_to_show(page: Page, name: str, stops: int) -> None:
+    """Walks a page by Tab: at each stop one sees where the keyboard is.
+
+    A page that is still being built may let the focus go: the walk begins again then, and is longer.
+    """
+    page.add_style_tag(content=STILL)
+    seen = set()
+    for stop in range(stops * 3):
+        if stop >= stops and len(seen) > stops / 2:
+            break
+        page.keyboard.press("Tab")
+        at = page.evaluate(FOCUS)
+        if at:
+            seen.add(at["what"])
+            assert not at["unseen"], f"{name}: the focus cannot be seen on {at['what']}"
+    assert len(seen) > stops / 2, f"{name}: Tab leads to {len(seen)} places only"

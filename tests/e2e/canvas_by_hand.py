@@ -34,8 +34,61 @@ def children(studio: Studio) -> list[str]:
     return [str(type_) for _, _, type_ in sorted(boxes)]
 
 
+def middle(locator: Locator) -> tuple[float, float]:
+    """The point in the middle of an element, in pixels of the window."""
+    box = locator.bounding_box()
+    assert box
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+# So many pictures of the page in a row show an element at the same place.
+STILL = """element => new Promise(done => {
+  let [before, count] = ['', 0];
+  const look = () => {
+    const now = JSON.stringify(element.getBoundingClientRect());
+    count = now === before ? count + 1 : 0;
+    before = now;
+    if (count < 8) requestAnimationFrame(look);
+    else done(true);
+  };
+  look();
+})"""
+
+
+def rest(locator: Locator) -> None:
+    """Waits until an element stays where it is: the view may still be on its way."""
+    locator.evaluate(STILL)
+
+
+def place(locator: Locator) -> tuple[float, float, float, float]:
+    box = locator.bounding_box()
+    assert box
+    return box["x"], box["y"], box["width"], box["height"]
+
+
+def drag(studio: Studio, start: Locator, x: float, y: float, *, is_marked: bool = False) -> None:
+    """Carries what is at `start` to a point; `is_marked`: a mark shows where it will be put."""
+    mouse, at = studio.page.mouse, middle(start)
+    mouse.move(*at)
+    mouse.down()
+    mouse.move(at[0] + 20, at[1] + 5, steps=3)
+    mouse.move(x, y, steps=6)
+    if is_marked:
+        expect(studio.at("insertion-mark")).to_be_visible()
+    mouse.up()
+
+
 def focused(studio: Studio, test_id: str) -> None:
     expect(studio.at(test_id)).to_be_focused()
+
+
+def wrap(studio: Studio, type_: str) -> None:
+    """Puts a block round those that are selected, by keys; it is selected then."""
+    studio.page.keyboard.press("Control+g")
+    studio.writing()
+    studio.page.keyboard.type(type_)
+    studio.page.keyboard.press("Enter")
+    expect(block(studio, type_)).to_have_attribute("data-selected", "true")
 
 
 def the_tree_is_changed_by_hand(studio: Studio) -> None:
@@ -43,6 +96,7 @@ def the_tree_is_changed_by_hand(studio: Studio) -> None:
     page, keys = studio.page, studio.page.keyboard
     whole = children(studio)
     blocks_are_dragged(studio, whole)
+    several_blocks_in_one_hand(studio, whole)
     menu_and_keys(studio, whole)
     comment_and_menu_by_keys(studio, whole)
     several_blocks_at_once(studio, whole)
@@ -50,6 +104,7 @@ def the_tree_is_changed_by_hand(studio: Studio) -> None:
 
     block(studio, "Turn").click()
     keys.press("Control+f")
+    studio.writing()
     keys.type("forw")
     keys.press("Enter")
     expect(page.locator("#canvas-announcer")).to_contain_text("Forward")
@@ -70,41 +125,61 @@ def takes_back(studio: Studio, whole: list[str]) -> None:
 
 def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
     """Before a sibling, onto a parent, as a copy, and a connection that ends nowhere."""
-    mouse = studio.page.mouse
-
-    def middle(locator: Locator) -> tuple[float, float]:
-        box = locator.bounding_box()
-        assert box
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-    def drag(start: Locator, x: float, y: float) -> None:
-        at = middle(start)
-        mouse.move(*at)
-        mouse.down()
-        mouse.move(at[0] + 20, at[1] + 5, steps=3)
-        mouse.move(x, y, steps=6)
-        mouse.up()
-
     forward, fallback = block(studio, "Forward"), block(studio, "ReactiveFallback")
     x, y = middle(fallback)
-    drag(forward, x - 110, y)
+    drag(studio, forward, x - 110, y, is_marked=True)
     wait_until(lambda: children(studio)[1:3] == ["Forward", "ReactiveFallback"], "it goes before its sibling")
     takes_back(studio, whole)
-    drag(forward, x, y)
+    drag(studio, forward, x, y)
     wait_until(lambda: children(studio)[2:5] == ["Inverter", "Turn", "Forward"], "it goes below the other")
     takes_back(studio, whole)
     x, y = middle(forward)
     studio.page.keyboard.down("Alt")
-    drag(forward, x + 40, y + 150)
+    drag(studio, forward, x + 40, y + 150)
     studio.page.keyboard.up("Alt")
     expect(forward).to_have_count(2)
     takes_back(studio, whole)
     node = studio.page.locator(".react-flow__node:has([data-type=ReactiveFallback])")
-    drag(node.locator(".react-flow__handle.source"), x, y + 150)
-    expect(studio.at("quick-add")).to_be_visible()
+    drag(studio, node.locator(".react-flow__handle.source"), x, y + 150)
+    studio.writing()
     studio.page.keyboard.type("AlwaysFailure")
     studio.page.keyboard.press("Enter")
     expect(block(studio, "AlwaysFailure")).to_be_visible()
+    takes_back(studio, whole)
+
+
+def several_blocks_in_one_hand(studio: Studio, whole: list[str]) -> None:
+    """Carried together they stay in their order; what has room for one takes no two, also as copies."""
+    keys = studio.page.keyboard
+    inverter, turn, forward = (block(studio, type_) for type_ in ("Inverter", "Turn", "Forward"))
+    inverter.click()
+    turn.click(modifiers=["Control"])
+    rest(turn)
+    x, y = middle(forward)
+    drag(studio, turn, x + 110, y)
+    row = ["ReactiveFallback", "Forward", "Inverter", "Turn"]
+    wait_until(lambda: children(studio)[1:5] == row, "both go to the end")
+    keys.press("Shift+Digit1")  # the row is wider than the canvas now
+    rest(turn)
+    x, y = middle(block(studio, "ReactiveFallback"))
+    drag(studio, turn, x - 90, y)
+    wait_until(lambda: children(studio)[1:5] == row[2:] + row[:2], "both go to the beginning")
+    keys.press("Control+ArrowRight")
+    wait_until(lambda: children(studio)[1:5] == [row[0], *row[2:], row[1]], "keys move both, too")
+    keys.press("Control+z")
+    studio.at("undo").click()
+    takes_back(studio, whole)
+    check = block(studio, "CheckObstacle")
+    rest(check)
+    keys.down("Alt")
+    drag(studio, check, middle(check)[0] + 90, middle(check)[1])
+    keys.up("Alt")
+    expect(check).to_have_count(2)
+    expect(inverter).not_to_have_attribute("data-problem", "error")
+    expect(check.and_(studio.page.locator("[data-draft]"))).to_have_count(1)
+    takes_back(studio, whole)
+    studio.at("palette-Forward").drag_to(inverter)
+    wait_until(lambda: children(studio)[3:6] == ["Forward", "Inverter", "Turn"], "a new one goes beside it")
     takes_back(studio, whole)
 
 
@@ -113,10 +188,7 @@ def menu_and_keys(studio: Studio, whole: list[str]) -> None:
     keys = studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
-    keys.press("Control+g")
-    keys.type("Repeat")
-    keys.press("Enter")
-    expect(block(studio, "Repeat")).to_be_visible()
+    wrap(studio, "Repeat")
     takes_back(studio, whole)
     forward.click()
     keys.press("Control+e")
@@ -125,6 +197,12 @@ def menu_and_keys(studio: Studio, whole: list[str]) -> None:
     forward.click()
     keys.press("Control+x")
     expect(forward).to_have_count(0)
+    takes_back(studio, whole)
+    forward.click()
+    keys.press("Control+c")
+    block(studio, "Turn").click()
+    keys.press("Control+v")
+    wait_until(lambda: children(studio)[3:6] == ["Inverter", "Turn", "Forward"], "it is pasted after a leaf")
     takes_back(studio, whole)
     block(studio, "ReactiveFallback").click()
     keys.type("sleep")  # a letter on a block opens the box with it
@@ -158,6 +236,7 @@ def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
     forward = block(studio, "Forward")
     forward.click()
     keys.press("/")
+    studio.writing()
     keys.type("as long as the way is free")
     keys.press("Enter")
     expect(forward.get_by_title("as long as the way is free")).to_be_visible()
@@ -201,11 +280,9 @@ def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
     turn.click()
     wait_until(lambda: selected(studio) == ["Turn"], "a press means one")
     inverter.click(modifiers=["Control"])
-    keys.press("Control+g")
-    keys.type("Sequence")
-    keys.press("Enter")
-    expect(block(studio, "Sequence")).to_be_visible()
+    wrap(studio, "Sequence")
     takes_back(studio, whole)
+    several_are_disabled(studio)
     inverter.click()
     turn.click(modifiers=["Control"])
     turn.click(button="right")
@@ -214,6 +291,12 @@ def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
     keys.press("Enter")
     inside = page.locator("[data-testid=canvas]:visible")
     expect(inside.locator("[data-type=ReactiveFallback]")).to_be_visible()
+    inside.locator("[data-type=ReactiveFallback]").click()
+    keys.press("Tab")
+    studio.writing()
+    keys.type("MainTree")  # a tree within itself is not offered
+    expect(studio.at("quick-add").get_by_role("option").first).to_contain_text("New action")
+    keys.press("Escape")
     inside.locator("[data-type=Turn]").click()
     way = inside.get_by_role("navigation").get_by_role("button")
     expect(way).to_have_text(["MainTree", "TurnTree", "ReactiveFallback", "Turn"])
@@ -224,6 +307,18 @@ def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
     expect(block(studio, "SubTree")).to_be_visible()
     takes_back(studio, whole)
     expect(page.get_by_role("tab", name="TurnTree")).to_have_count(0)
+
+
+def several_are_disabled(studio: Studio) -> None:
+    """What can be done with several blocks stands in the inspector."""
+    block(studio, "Inverter").click()
+    block(studio, "Turn").click(modifiers=["Control"])
+    expect(studio.at("inspector")).to_contain_text("2 blocks selected")
+    studio.at("inspector").get_by_role("button", name="Disable").click()
+    disabled = studio.at("canvas").locator("[data-type][data-disabled]")
+    expect(disabled).to_have_count(2)
+    studio.at("undo").click()
+    expect(disabled).to_have_count(0)
 
 
 def a_piece_goes_to_another_project(studio: Studio) -> None:

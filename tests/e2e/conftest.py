@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
+from tests.budget import count
 from tests.e2e.server import Server, serving
-from tests.e2e.studio import Studio
+from tests.e2e.studio import WAIT_MSEC, Studio
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -29,7 +30,16 @@ SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
 
 # How long the page may take is not what these tests are about: a busy machine must not fail them.
-expect.set_options(timeout=40_000)
+expect.set_options(timeout=WAIT_MSEC)
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leaves the longest walks to `make test-full`, and to whoever says `-m long_walk`."""
+    if count("e2e_long_walks") or config.option.markexpr:
+        return
+    long = [item for item in items if item.get_closest_marker("long_walk")]
+    config.hook.pytest_deselected(items=long)
+    items[:] = [item for item in items if item not in long]
 
 
 @pytest.fixture(scope="session")

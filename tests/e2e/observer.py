@@ -51,7 +51,7 @@ class Observer:
             return sockets.enter_context(connection)
 
         control = opened("control")
-        first = json.loads(control.recv(timeout=10))
+        first = json.loads(control.recv(timeout=60))
         assert first["command"] == "introspection", first
         client = first["data"]["client_id"]
         stream = opened(f"stream?client={client}")

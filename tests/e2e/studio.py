@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from tests.e2e.server import Server
 
+# How long a click, a fill or an expectation waits for the page.
+WAIT_MSEC = 60_000
 OUTPUT = Path(__file__).parent / "output"
 # A refused or lost request is shown by the page; that the browser also notes it is not our complaint.
 EXPECTED_NOTES = re.compile(
@@ -31,6 +33,7 @@ class Studio:
         self.page = page
         self.server = server
         self.complaints: list[str] = []
+        page.context.set_default_timeout(WAIT_MSEC)
         page.on("console", self._note)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
 
@@ -69,6 +72,34 @@ class Studio:
     def saved(self) -> None:
         """Waits until everything typed is stored."""
         expect(self.at("save-state")).to_have_attribute("data-state", "saved")
+
+    def command(self, words: str) -> None:
+        """Finds a command by words of its name, and does it."""
+        self._type_command(self.page, words)
+        self.page.keyboard.press("Enter")
+        expect(self.at("command-palette")).to_have_count(0)
+
+    def command_in_window(self, window: Page, words: str) -> None:
+        """The same in the window of a panel; the page's own palette stays closed."""
+        self._type_command(window, words)
+        expect(self.at("command-palette")).to_have_count(0)
+        window.keyboard.press("Enter")
+
+    def pop_out(self, panel: str) -> Page:
+        """Opens a panel in a window of its own, by its command."""
+        self._type_command(self.page, f"{panel} in a")
+        with self.page.expect_popup() as opened:
+            self.page.keyboard.press("Enter")
+        return opened.value
+
+    def _type_command(self, window: Page, words: str) -> None:
+        window.keyboard.press("Control+k")
+        expect(window.get_by_test_id("command-palette").get_by_role("combobox")).to_be_focused()
+        window.keyboard.type(words)
+
+    def writing(self) -> None:
+        """Waits until what is typed goes into a field."""
+        expect(self.page.locator("input:focus, textarea:focus")).to_have_count(1)
 
     def set_port(self, node: str, port: str, value: str) -> None:
         """Selects a node and types a port's value in the inspector."""

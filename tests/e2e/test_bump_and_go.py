@@ -10,6 +10,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.e2e.server import wait_until
+from tests.e2e.view_by_hand import the_robot_is_driven_by_hand, the_view_is_used_by_hand
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -53,6 +54,7 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     studio.run()
     observer = studio.observe()
     wait_until(lambda: observer.distance_travelled("robot") > 0.2, "the robot moves")
+    the_tree_shows_its_path(studio)
 
     studio.at("pause").click()
     studio.expect_state("paused")
@@ -68,6 +70,8 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     assert len(observer.of("tick")) == ticks + 1
     assert observer.sim_time() == pytest.approx(frozen + 0.05, abs=0.02), "a step is one period of 20 Hz"
 
+    the_view_is_used_by_hand(studio, observer)
+
     studio.at("resume").click()
     studio.expect_state("application_running")
     wait_until(lambda: observer.sim_time() > frozen + 1, "time goes on")
@@ -75,9 +79,17 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     studio.at("stop").click()
     studio.expect_state("visualization_ready")
     assert studio.server.children(), "the world is still up"
+    the_robot_is_driven_by_hand(studio)
     observer.close()
     studio.end_session()
     studio.expect_state("idle")
+
+
+def the_tree_shows_its_path(studio: Studio) -> None:
+    """What runs is marked down to the leaf; what passes within a tick flashes."""
+    running = studio.at("canvas").locator(".react-flow__edge [data-status=RUNNING]")
+    expect(running).to_have_count(1)
+    expect(studio.at("node-n4").locator("path[data-status]")).to_be_attached()
 
 
 def test_a_port_and_a_line_of_python_change_what_the_robot_does(studio: Studio) -> None:

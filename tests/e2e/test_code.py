@@ -61,7 +61,7 @@ def spot(studio: Studio, text: str, word: str) -> tuple[float, float]:
 
 
 def expect_help(studio: Studio) -> None:
-    expect(studio.at("language-state")).to_have_attribute("data-state", "ready", timeout=60_000)
+    expect(studio.at("language-state")).to_have_attribute("data-state", "ready")
 
 
 def network_of(studio: Studio) -> Callable[[bool], None]:
@@ -97,11 +97,11 @@ def test_completion_findings_and_types(studio: Studio) -> None:
     # A wrong name is marked, with what to do; hovering tells types.
     page.keyboard.type("\ntwist.liner")
     wrong = page.locator(".cm-lintRange-error", has_text="liner")
-    expect(wrong).to_be_visible(timeout=30_000)
+    expect(wrong).to_be_visible()
     page.keyboard.press("Control+z")
-    expect(wrong).to_have_count(0, timeout=30_000)
+    expect(wrong).to_have_count(0)
     page.mouse.move(*spot(studio, "import Twist", "Twist"))
-    expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear", timeout=30_000)
+    expect(page.locator(".cm-tooltip-hover")).to_contain_text("linear")
     studio.picture("code-hover-light")
 
 
@@ -138,7 +138,7 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     page.keyboard.press("F2")
     page.locator(".cm-lsp-rename-panel input").fill("Rotate")
     page.keyboard.press("Enter")
-    expect(studio.at("file-actions/Rotate.py")).to_be_visible(timeout=30_000)
+    expect(studio.at("file-actions/Rotate.py")).to_be_visible()
     expect(studio.at("file-actions/Turn.py")).to_have_count(0)
     studio.saved()
 
@@ -164,9 +164,9 @@ def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio)
     studio.replace_code("# said in the first tab\n# and more\n")
     cut_off(False)
     merge = other.page.get_by_role("dialog")
-    expect(merge).to_contain_text("Two versions of actions/Forward.py", timeout=60_000)
+    expect(merge).to_contain_text("Two versions of actions/Forward.py")
     other.picture("code-conflict-light")
     other.at("keep-mine").click()
     other.saved()
-    expect(line(studio, "# from the second")).to_be_visible(timeout=60_000)
+    expect(line(studio, "# from the second")).to_be_visible()
     assert other.complaints == []

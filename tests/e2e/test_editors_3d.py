@@ -6,9 +6,11 @@ import struct
 from typing import TYPE_CHECKING
 
 import pytest
+import yaml
 from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
+from tests.e2e.server import wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
+# How far from its middle a handle of the gizmo is, in heights of the view.
+HANDLE = 0.109
 # A pyramid in mm, as drawing programs write it: no text, so that only the server has it.
 CORNERS = ((0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60))
 MESH_MM = (
@@ -79,7 +83,87 @@ def change_a_universe(studio: Studio) -> None:
     studio.at("place-floor").click()
     studio.page.get_by_role("combobox", name="Texture").click()
     studio.page.get_by_role("option", name="Wood").click()
-    assert "texture: wood" in text_of(studio, "universes/yard.yaml")
+    things_are_placed_by_mouse(studio)
+    wait_until(lambda: is_as_made(text_of(studio, "universes/yard.yaml")), "all of it is in the YAML")
+
+
+def is_as_made(text: str) -> bool:
+    """Whether a universe has what the hands made of it."""
+    yard = yaml.safe_load(text)
+    [box] = [model for model in yard["models"] if model["id"] == "box"]
+    return (
+        "texture: wood" in text
+        and box["color"] == "#ff8800"
+        and box["size"][0] > 0.6
+        and len(yard["actors"][0]["path"]) == 4
+        and [robot["id"] for robot in yard["robots"]] == ["robot"]
+    )
+
+
+def things_are_placed_by_mouse(studio: Studio) -> None:
+    """From above: a wall is drawn, a box dropped and carried; all of it falls on the grid."""
+    view, mouse, keys = studio.at("universe-view"), studio.page.mouse, studio.page.keyboard
+    canvas = view.locator("canvas").bounding_box()
+    assert canvas
+    x, y = canvas["x"] + canvas["width"] / 2, canvas["y"] + canvas["height"] / 2
+    view.focus()
+    looks(view, "t")
+    keys.press("w")
+    expect(studio.at("draw-walls")).to_have_attribute("aria-pressed", "true")
+    for corner in (x - 100, x + 100):
+        mouse.click(corner, y - 100)
+    keys.press("Escape")
+    keys.press("Escape")
+    expect(studio.at("thing-wall")).to_have_attribute("aria-selected", "true")
+    [length] = numbers(studio, "size-0")
+    metres = (length - 0.15) / 200  # a pixel
+
+    studio.at("place-box").drag_to(
+        view, target_position={"x": canvas["width"] / 2, "y": y + 100 - canvas["y"]}
+    )
+    expect(studio.at("thing-box")).to_have_attribute("aria-selected", "true")
+    dropped = numbers(studio, "x", "y")
+    view.focus()
+    keys.press("Escape")
+    drag(studio, (x, y + 100), (x + 100, y + 100))
+    expect(studio.at("thing-box")).to_have_attribute("aria-selected", "true")
+    carried = numbers(studio, "x", "y")
+    # Its top, by which it is carried, is nearer to the eye than the floor.
+    assert (carried[0], -100 * metres < carried[1] - dropped[1] < -50 * metres) == (dropped[0], True)
+    assert [round(part * 10, 6) % 1 for part in carried] == [0, 0], "on the grid of 0.1 m"
+
+    field(studio.at("thing-fields"), "field-size-0", "0.8")
+    studio.at("thing-fields").get_by_role("textbox", name="Colour").fill("#ff8800")
+    keys.press("Enter")
+    studio.at("place-person").click()
+    studio.at("add-waypoint").click()
+    studio.at("place-robot").click()
+    studio.page.get_by_role("menuitem").first.click()
+    expect(studio.at("thing-robot_2")).to_be_visible()
+    view.focus()
+    keys.press("Control+z")
+    expect(studio.at("thing-robot_2")).to_have_count(0)
+
+
+def looks(view: Locator, key: str) -> None:
+    """Looks from elsewhere, and waits until that is drawn."""
+    before = view.screenshot()
+    view.press(key)
+    wait_until(lambda: view.screenshot() != before, "another view")
+
+
+def numbers(studio: Studio, *fields: str) -> tuple[float, ...]:
+    """What fields of the selected thing say."""
+    shown = studio.at("thing-fields")
+    return tuple(float(shown.get_by_test_id(f"field-{name}").input_value()) for name in fields)
+
+
+def drag(studio: Studio, start: tuple[float, float], end: tuple[float, float]) -> None:
+    mouse = studio.page.mouse
+    mouse.move(*start)
+    mouse.down()
+    mouse.move(*end, steps=5)
+    mouse.up()
 
 
 def change_a_robot(studio: Studio) -> None:
@@ -98,6 +182,15 @@ def change_a_robot(studio: Studio) -> None:
     assert "range_max: 5\n" in config
     assert "track: 0.3\n" in config
     assert "# What may touch the floor" in config
+    view = studio.at("robot-view")
+    box = view.locator("canvas").bounding_box()
+    assert box
+    looks(view, "t")
+    looks(view, "f")
+    arrow = (box["x"] + box["width"] / 2, box["y"] + (0.5 - HANDLE) * box["height"])
+    drag(studio, arrow, (arrow[0], arrow[1] - 30))
+    ahead = float(studio.at("part-fields").get_by_test_id("field-x").input_value())
+    assert 0.01 < ahead < 0.1, "the arrow of its x was drawn"
     studio.at("add-imu").click()
     expect(studio.at("thing-sensor imu")).to_have_attribute("aria-selected", "true")
     studio.at("undo").click()

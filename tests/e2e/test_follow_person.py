@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bisect
 import math
+import re
 from typing import TYPE_CHECKING
 
 import pytest
@@ -50,22 +51,15 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
 def the_camera_follows_in_a_window_of_its_own(studio: Studio) -> None:
     """Out by the command, with the page's theme and its keys; back when its window closes."""
     page = studio.page
-    page.keyboard.press("Control+k")
-    page.keyboard.type("camera in a")
-    with page.expect_popup() as opened:
-        page.keyboard.press("Enter")
-    window = opened.value
-    expect(window.get_by_test_id("camera-figures")).to_contain_text("640")
+    window = studio.pop_out("camera")
+    figures = re.compile(r"640 × 480 · [\d.]+ Hz · \d+ ms late")
+    expect(window.get_by_test_id("camera-figures")).to_have_text(figures)
     expect(page.get_by_role("tab", name="Camera", exact=True)).to_have_count(0)
     picture = window.locator("canvas")
     first = picture.evaluate("canvas => canvas.toDataURL()")
     wait_until(lambda: picture.evaluate("canvas => canvas.toDataURL()") != first, "the picture moves on")
 
-    window.keyboard.press("Control+k")
-    expect(window.get_by_test_id("command-palette")).to_be_visible()
-    expect(studio.at("command-palette")).to_have_count(0)
-    window.keyboard.type("dark theme")
-    window.keyboard.press("Enter")
+    studio.command_in_window(window, "dark theme")
     for each in (page, window):
         expect(each.locator("html")).to_have_attribute("data-mantine-color-scheme", "dark")
     window.screenshot(path=OUTPUT / "camera-window-dark.png")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,8 +14,12 @@ from playwright.sync_api import expect
 from tests.e2e.accessibility import expect_accessible
 from tests.e2e.canvas_by_hand import block, children, focused, the_tree_is_changed_by_hand
 from tests.e2e.server import wait_until
+from translator.importer import from_xml
 
 if TYPE_CHECKING:
+    from playwright.sync_api import Locator
+
+    from tests.e2e.observer import Observer
     from tests.e2e.studio import Studio
 
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
@@ -30,7 +35,7 @@ def source(action: str) -> str:
 def quick(studio: Studio, key: str, name: str) -> None:
     """Opens the quick-add box and chooses the first that is found."""
     studio.page.keyboard.press(key)
-    expect(studio.at("quick-add")).to_be_visible()
+    studio.writing()
     studio.page.keyboard.type(name)
     studio.page.keyboard.press("Enter")
     expect(studio.at("quick-add")).to_have_count(0)
@@ -50,11 +55,7 @@ def write_code(studio: Studio, action: str) -> None:
 
 def test_by_keyboard_alone(shared_studio: Studio) -> None:
     studio, keys = shared_studio, shared_studio.page.keyboard
-    template = studio.at("new-from-empty")
-    for _ in range(40):
-        if template.evaluate("element => element === document.activeElement"):
-            break
-        keys.press("Tab")
+    walk_to(studio, studio.at("new-from-empty"))
     keys.press("Enter")
     focused(studio, "canvas")
 
@@ -86,9 +87,53 @@ def test_by_keyboard_alone(shared_studio: Studio) -> None:
     studio.expect_state("application_running")
     observer = studio.observe()
     wait_until(lambda: observer.distance_travelled("robot") > 0.5, "the robot drives")
+    run_is_led_by_keys(studio, observer)
     observer.close()
-    studio.at("end-session").click()
+    package_is_taken_by_keys(studio)
+    studio.command("end the session")
     studio.expect_state("idle")
+
+
+def run_is_led_by_keys(studio: Studio, observer: Observer) -> None:
+    """Seen on the blocks, paused, stepped, resumed and stopped."""
+    keys = studio.page.keyboard
+    expect(block(studio, "ReactiveSequence")).to_have_attribute("data-status", "RUNNING")
+    keys.press("F6")
+    studio.expect_state("paused")
+    studio.page.wait_for_timeout(500)
+    ticks = len(observer.of("tick"))
+    keys.press("F10")
+    wait_until(lambda: len(observer.of("tick")) == ticks + 1, "one tick is made")
+    keys.press("F7")
+    studio.expect_state("application_running")
+    keys.press("Shift+F5")
+    studio.expect_state("visualization_ready")
+    # What the run showed on the blocks is no step of undo.
+    keys.press("Control+z")
+    expect(block(studio, "Forward")).not_to_contain_text("go on")
+    keys.press("Control+y")
+    expect(block(studio, "Forward")).to_contain_text("go on")
+
+
+def package_is_taken_by_keys(studio: Studio) -> None:
+    page, keys = studio.page, studio.page.keyboard
+    keys.press("Control+Shift+KeyS")
+    expect(studio.at("package-files")).to_be_visible()
+    walk_to(studio, studio.at("download-package"))
+    with page.expect_download() as download:
+        keys.press("Enter")
+    assert zipfile.is_zipfile(download.value.path())
+    keys.press("Escape")
+    expect(studio.at("take-away")).to_have_count(0)
+
+
+def walk_to(studio: Studio, target: Locator) -> None:
+    """Presses Tab until the keyboard is there."""
+    for _ in range(40):
+        if target.evaluate("element => element === document.activeElement"):
+            return
+        studio.page.keyboard.press("Tab")
+    pytest.fail("Tab does not lead there")
 
 
 def ports_names_and_order_by_keys(studio: Studio) -> None:
@@ -100,6 +145,7 @@ def ports_names_and_order_by_keys(studio: Studio) -> None:
     keys.press("Escape")
     focused(studio, "canvas")
     keys.press("F2")
+    studio.writing()
     keys.type("go on")
     keys.press("Enter")
     expect(block(studio, "Forward")).to_contain_text("go on")
@@ -118,14 +164,12 @@ def dialogues_by_keys(studio: Studio) -> None:
     wanted = {
         "new action": dialogue.get_by_role("textbox"),
         "new universe": page.get_by_test_id("new-universe-name"),
+        "settings of the project": dialogue.get_by_role("textbox", name="Name"),
         "universe and robot": dialogue.get_by_role("radio", checked=True).first,
         "keyboard shortcuts": dialogue.get_by_role("button", name="Close"),
     }
     for name, first in wanted.items():
-        keys.press("Control+k")
-        expect(studio.at("command-palette").get_by_role("combobox")).to_be_focused()
-        keys.type(name)
-        keys.press("Enter")
+        studio.command(name)
         expect(first).to_be_focused()
         keys.press("Escape")
         expect(dialogue).to_have_count(0)
@@ -233,9 +277,24 @@ def package_is_taken_away(studio: Studio) -> None:
             studio.at(button).click()
         data = Path(download.value.path()).read_bytes()
         assert data.startswith(start), button
-        assert len(data) > 500, button
+        assert is_whole(button, data), button
     studio.page.keyboard.press("Escape")
     expect(studio.at("take-away")).to_have_count(0)
+
+
+def is_whole(button: str, data: bytes) -> bool:
+    """Whether a download can be read, and holds what it is about."""
+    if button == "download-project":
+        archive = zipfile.ZipFile(io.BytesIO(data))
+        return archive.testzip() is None and {"project.json", "actions/Turn.py"} <= set(archive.namelist())
+    if button == "download-png":
+        width, height = struct.unpack(">II", data[16:24])
+        return min(width, height) > 200 and data[-8:-4] == b"IEND"
+    text = data.decode()
+    if button == "download-svg":
+        return all(f">{action}</text>" in text for action in ACTIONS) and text.endswith("</svg>\n")
+    types = {node.type for tree in from_xml(text).trees.values() for node in tree.nodes.values()}
+    return set(ACTIONS) <= types and ("class Turn" in text) == (button == "download-self-contained")
 
 
 def behaviour_is_reused(studio: Studio) -> None:

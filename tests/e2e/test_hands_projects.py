@@ -96,6 +96,7 @@ def test_projects_are_made_ordered_and_never_lost(shared_studio: Studio) -> None
     field.fill("Zig zag")
     field.press("Enter")
     expect(card(studio, "Zig zag")).to_be_visible()
+    a_name_is_refused_or_kept_to_the_letter(studio)
     choose(studio, "Zig zag", "Duplicate")
     expect(cards(studio)).to_have_count(2)
 
@@ -122,6 +123,51 @@ def test_projects_are_made_ordered_and_never_lost(shared_studio: Studio) -> None
     card(studio, copied).get_by_role("button", name="Restore").click()
     shelf(studio, "In use")
     expect(card(studio, copied)).to_be_visible()
+
+
+def a_name_is_refused_or_kept_to_the_letter(studio: Studio) -> None:
+    """Blank or too long: the old one stays, and what is wrong is said; any sign may be in it."""
+    odd = "🤖👩‍🔬 <b>“x” & ñ"
+    field = studio.page.get_by_role("textbox", name="Rename")
+    choose(studio, "Zig zag", "Rename")
+    for typed, reason in (("x" * 300, "at most 100"), ("../a", "no slash")):
+        field.fill(typed)
+        field.press("Enter")
+        expect(cards(studio)).to_contain_text(reason)
+        expect(field).to_have_value(typed)
+    field.fill(odd)
+    field.press("Enter")
+    expect(card(studio, odd)).to_be_visible()
+    choose(studio, odd, "Rename")
+    field.fill(" ")
+    field.press("Enter")
+    expect(field).to_have_count(0)
+    choose(studio, odd, "Rename")
+    field.fill("Zig zag")
+    field.press("Enter")
+    expect(card(studio, "Zig zag")).to_be_visible()
+
+
+def test_everything_on_the_start_page_is_a_command(shared_studio: Studio) -> None:
+    """Theme, language, search and a new project by Ctrl+K; theme and language survive a reload."""
+    studio = shared_studio
+    html = studio.page.locator("html")
+    before = html.get_attribute("data-mantine-color-scheme")
+    studio.command("theme")
+    expect(html).not_to_have_attribute("data-mantine-color-scheme", str(before))
+    studio.command("spanish")
+    expect(studio.page.get_by_role("heading", name="Proyecto nuevo")).to_be_visible()
+    studio.page.reload()
+    expect(studio.page.get_by_role("heading", name="Proyecto nuevo")).to_be_visible()
+    expect(html).not_to_have_attribute("data-mantine-color-scheme", str(before))
+    studio.command("inglés")
+    studio.command("search")
+    expect(studio.page.get_by_role("searchbox")).to_be_focused()
+    with studio.page.expect_file_chooser():
+        studio.command("import")
+    studio.command("new project: empty")
+    expect(studio.page.locator("[data-type=Sequence]")).to_be_visible()
+    expect(studio.at("canvas")).to_be_focused()
 
 
 def shelf(studio: Studio, name: str) -> None:

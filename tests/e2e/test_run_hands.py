@@ -1,4 +1,7 @@
-"""A run in the hands of its user: rates, values, output, nodes, messages, lost connections, a second tab."""
+"""A run in the hands of its user, in a browser without WebGL.
+
+Start and cancel, rates, values, output, nodes, messages, lost connections, a second tab that takes over.
+"""
 
 from __future__ import annotations
 
@@ -25,16 +28,22 @@ TREE = {
     "id": "MainTree",
     "root": "n1",
     "nodes": {
-        "n1": {"type": "Sequence", "children": ["n2", "n3"]},
+        "n1": {"type": "Sequence", "children": ["n2", "n4", "n3"]},
         "n2": {"type": "Script", "ports": {"code": "pace := 0.25; motto := 'steady'"}},
         "n3": {
             "type": "Work",
             "name": "worker",
             "ports": {"pace": "{pace}", "count": "{count}", "ready": "{ready}"},
         },
+        "n4": {"type": "SubTree", "tree": "Side", "name": "aside"},
     },
     "drafts": [],
     "layout": "vertical",
+}
+SIDE = TREE | {
+    "id": "Side",
+    "root": "s1",
+    "nodes": {"s1": {"type": "Script", "ports": {"code": "inner := 5"}}},
 }
 WORK = """\
 import sys
@@ -56,7 +65,7 @@ class Work(py_trees.behaviour.Behaviour):
             set_output(self, "ready", True)
         if self.count % 10 == 1:
             print(f"the pace is {get_input(self, 'pace')}, see Work.py:3")
-            print("take care", file=sys.stderr)
+            print("take \\x1b[1;31mcare\\x1b[0m", file=sys.stderr)
         return py_trees.common.Status.RUNNING
 """
 LAUNCH = """\
@@ -81,9 +90,11 @@ def say():
 node.create_timer(0.2, say)
 rclpy.spin(node)
 """
+TICK_OF_20_HZ = re.compile(r"[\d.]+ / 50 ms.*×[\d.]+.* s")
 BRIEF = 'print("not for long", flush=True)\nraise SystemExit(3)\n'
 FILES = {
     "trees/MainTree.json": json.dumps(TREE),
+    "trees/Side.json": json.dumps(SIDE),
     "actions/Work.py": WORK,
     "launch/extra.launch.yaml": LAUNCH,
     "launch/talker.py": TALKER,
@@ -93,10 +104,10 @@ FILES = {
 
 def test_a_run_is_handled(open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser) -> None:
     studio = open_studio(browser_without_webgl)
-    studio.page.set_default_timeout(40_000)
     project_of_files(studio)
+    a_universe_is_made_without_a_view(studio)
     choose(studio, "sim-speed", "×2")
-    studio.run()
+    a_start_is_told_and_cancelled(studio)
     rates_are_changed_while_it_runs(studio)
     the_blackboard_is_written(studio)
     the_console_leads_to_block_and_line(studio)
@@ -138,23 +149,89 @@ def panel(studio: Studio, name: str) -> None:
     studio.page.get_by_role("tab", name=name, exact=True).click()
 
 
+def a_universe_is_made_without_a_view(studio: Studio) -> None:
+    """What 3D would show is said in a sentence; palette, list, fields and text work all the same."""
+    panel(studio, "3D")
+    expect(studio.at("viewer-3d")).to_contain_text("has no WebGL: the Video view shows the same world")
+    panel(studio, "Video")
+    studio.at("new-universe").click()
+    studio.at("choice-empty").click()
+    studio.at("new-universe-name").fill("yard")
+    studio.at("new-universe-ok").click()
+    expect(studio.at("universe-view").get_by_role("note")).to_contain_text("changed by their numbers")
+    studio.at("place-crate").click()
+    field = studio.at("thing-fields").get_by_test_id("field-x")
+    field.fill("3")
+    field.press("Enter")
+    text = studio.at("code-editor").locator(".cm-content")
+    expect(text).to_contain_text("pose: [3, 0, 0.2, 0, 0, 0]")
+    text.click()
+    studio.page.keyboard.press("Control+End")
+    studio.page.keyboard.insert_text("actors:\n  - {id: ann, model: person, path: [[4, 3], [6, 3]]}\n")
+    expect(studio.at("thing-ann")).to_be_visible()
+    studio.picture("universe-without-webgl")
+    studio.saved()
+    panel(studio, "MainTree")
+
+
+def a_start_is_told_and_cancelled(studio: Studio) -> None:
+    """The bar names each rung; *Cancel* ends what was begun, without a word of failure."""
+    bar, cancel = studio.at("run-progress"), studio.at("run-progress").get_by_role("button", name="Cancel")
+    studio.page.evaluate(
+        """() => {
+          window.told = new Set();
+          new MutationObserver(() => {
+            const name = document.querySelector('[data-testid=run-progress] p')?.textContent;
+            if (name) window.told.add(name);
+          }).observe(document.body, { subtree: true, childList: true, characterData: true });
+        }"""
+    )
+    studio.at("run").click()
+    cancel.click()
+    expect(bar).to_have_count(0)
+    # How far it came by then is the machine's affair.
+    expect(studio.at("executor-state")).not_to_have_attribute("data-state", "application_running")
+    expect(studio.at("banner").filter(has_text="cancelled")).to_have_count(0)
+    studio.run()
+    told = set(studio.page.evaluate("[...window.told]"))
+    assert {"Checking the project", "Starting the session", "Starting the world"} <= told
+    expect(studio.page.locator("[data-connection=open]")).to_have_text("Connected")
+
+
 def rates_are_changed_while_it_runs(studio: Studio) -> None:
     expect(studio.at("sim-speed")).to_have_text("×2")
     choose(studio, "sim-speed", "×max")
     wait_until(lambda: studio.stat("rtf") > 2.2, "time passes as fast as the machine can")
     choose(studio, "sim-speed", "×1")
     wait_until(lambda: studio.stat("rtf") < 1.2, "time passes as it does")
+    expect(studio.at("sim-stats")).to_have_text(TICK_OF_20_HZ)
     choose(studio, "tick-rate", "10 Hz")
     expect(studio.at("sim-stats")).to_contain_text("/ 100 ms")
     studio.saved()
     expect(studio.at("restart-offer")).to_have_count(0)
     choose(studio, "run-menu", "2 times a second")
+    the_view_follows_the_running_block(studio)
+
+
+def the_view_follows_the_running_block(studio: Studio) -> None:
+    """Also when it had been moved elsewhere."""
+    block = studio.at("node-n3")
+    studio.at("canvas").hover()
+    wait_until(lambda: scrolled_away(studio, block), "the block is out of sight")
     studio.at("run-menu").click()
     follow = studio.page.get_by_role("menuitemcheckbox", name="Follow the running block")
     follow.click()
+    expect(block).to_be_in_viewport()
     studio.at("run-menu").click()
     expect(follow).to_have_attribute("aria-checked", "true")
     follow.click()
+
+
+def scrolled_away(studio: Studio, block: Locator) -> bool:
+    """Turns the wheel over the canvas once; tells whether a block can be seen no more."""
+    studio.page.mouse.wheel(0, 600)
+    view, box = studio.at("canvas").bounding_box(), block.bounding_box()
+    return box is None or view is None or box["y"] + box["height"] < view["y"]
 
 
 def the_blackboard_is_written(studio: Studio) -> None:
@@ -163,8 +240,12 @@ def the_blackboard_is_written(studio: Studio) -> None:
     expect(count).not_to_have_text("")
     was = int(count.inner_text())
     wait_until(lambda: int(count.inner_text()) > was, "a value lives")
+    wait_until(lambda: flashes(studio, "count") and not flashes(studio, "motto"), "what changes flashes")
+    scope = studio.at("blackboard").get_by_role("table", name="aside")
+    expect(scope.get_by_test_id("blackboard-inner")).to_contain_text("5")
     studio.at("pause").click()
     studio.expect_state("paused")
+    the_servers_view_is_turned(studio)
     expect(value(studio, "pace", 3)).to_have_text("double")
     pace = studio.at("blackboard-pace").get_by_role("textbox")
     pace.fill("fast")
@@ -188,6 +269,36 @@ def the_blackboard_is_written(studio: Studio) -> None:
     expect(value(studio, "pace", 3)).to_have_text("double")
 
 
+def flashes(studio: Studio, key: str) -> bool:
+    """Whether a value of the blackboard is being lit up."""
+    lights = "row => row.querySelector('span').getAnimations().length > 0"
+    return bool(studio.at(f"blackboard-{key}").evaluate(lights))
+
+
+def the_servers_view_is_turned(studio: Studio) -> None:
+    """By dragging, scrolling and keys: the picture of a world that stands still is another one."""
+    panel(studio, "Video")
+    view, mouse = studio.at("viewer-video"), studio.page.mouse
+    box = view.bounding_box()
+    assert box
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def drawn() -> str:
+        return str(view.locator("canvas").evaluate("canvas => canvas.toDataURL()"))
+
+    def turn() -> None:
+        mouse.move(x, y)
+        mouse.down()
+        mouse.move(x + 80, y + 20, steps=4)
+        mouse.up()
+
+    for gesture in (turn, lambda: mouse.wheel(0, -400), lambda: view.press("ArrowLeft")):
+        before = drawn()
+        gesture()
+        wait_until(lambda: drawn() != before, "the picture is another one")  # noqa: B023 - called at once
+    expect(studio.at("view-figures")).to_have_text(re.compile(r"640 × \d+"))
+
+
 def value(studio: Studio, key: str, column: int) -> Locator:
     return studio.at(f"blackboard-{key}").locator(f"> :nth-child({column})")
 
@@ -199,12 +310,14 @@ def the_console_leads_to_block_and_line(studio: Studio) -> None:
     expect(lines).to_contain_text("the pace is 4.0")
     expect(lines).not_to_contain_text("hello")
     console.get_by_role("button", name="Work.py:3").first.click()
-    expect(studio.at("code-editor")).to_have_attribute("data-path", "actions/Work.py")
+    code = studio.page.locator("[data-testid=code-editor]:visible")
+    expect(code).to_have_attribute("data-path", "actions/Work.py")
     console.get_by_role("button", name="worker").first.click()
     expect(studio.at("inspector")).to_have_attribute("aria-label", "worker")
     console.get_by_role("searchbox").fill("")
     console.get_by_role("combobox", name="Level").select_option("error")
     expect(lines).to_contain_text("take care")
+    expect(lines.locator("[data-ansi='bold red']").first).to_have_text("care")
     expect(lines).not_to_contain_text("the pace")
     console.get_by_role("combobox", name="Level").select_option("info")
 
@@ -252,6 +365,27 @@ def a_message_is_published(studio: Studio) -> None:
     expect(form.get_by_role("status")).to_have_text("One message was published on /cmd_vel.")
     form.get_by_role("button", name="Close").click()
     wait_until(lambda: studio.stat("distance") > 0.02, "the robot heard it")
+    drives_by_hand(studio)
+
+
+def drives_by_hand(studio: Studio) -> None:
+    """By a command and a key, beside the server's picture."""
+    studio.at("run-menu").click()
+    studio.page.get_by_role("menuitem", name="Drive the robot by hand").click()
+    before = studio.stat("distance")
+    studio.page.keyboard.down("ArrowDown")
+    wait_until(lambda: studio.stat("distance") > before + 0.1, "the robot drives")
+    studio.page.keyboard.up("ArrowDown")
+    wait_until(lambda: studio.stat("speed") < 0.02, "the robot stands")
+    pad = studio.at("teleop")
+    turn = pad.get_by_role("button", name="Turn left")
+    turn.hover()
+    studio.page.mouse.down()
+    expect(turn).to_have_attribute("data-held", "true")
+    studio.page.mouse.up()
+    expect(turn).not_to_have_attribute("data-held", "true")
+    pad.get_by_role("button", name="Stop driving by hand").click()
+    expect(studio.at("teleop")).to_have_count(0)
 
 
 def the_world_is_reset_and_the_program_restarted(studio: Studio) -> None:
@@ -261,11 +395,13 @@ def the_world_is_reset_and_the_program_restarted(studio: Studio) -> None:
     panel(studio, "MainTree")
     panel(studio, "Inspector")
     studio.set_port("n3", "pace", "7")
+    before = studio.stat("t")
     studio.at("restart-offer").get_by_role("button", name="Restart").click()
     expect(studio.at("restart-offer")).to_have_count(0)
     panel(studio, "Console")
     expect(studio.at("console").get_by_role("log")).to_contain_text("the pace is 7.0")
     studio.expect_state("application_running")
+    assert studio.stat("t") > before, "the world went on"
 
 
 def a_lost_connection_comes_back(studio: Studio) -> None:
@@ -283,6 +419,8 @@ def a_lost_connection_comes_back(studio: Studio) -> None:
     expect(studio.at("console")).to_contain_text("the pace is 7.0")
     before = studio.stat("t")
     wait_until(lambda: studio.stat("t") > before, "time goes on for this page")
+    # On a busy machine the end of the old page is heard of after the beginning of the new one.
+    expect(studio.at("run")).to_have_attribute("aria-disabled", "false")
 
 
 def a_second_tab_looks_on_and_takes_over(studio: Studio) -> None:
@@ -293,10 +431,23 @@ def a_second_tab_looks_on_and_takes_over(studio: Studio) -> None:
     expect(second.at("pause")).to_be_disabled()
     expect(second.at("sim-speed")).to_be_disabled()
     second.at("run").hover()
-    expect(second.page.get_by_role("tooltip")).to_contain_text(re.compile("somebody else drives"))
-    studio.page.close()
-    expect(second.at("run")).to_have_attribute("aria-disabled", "false")
+    expect(second.page.get_by_role("tooltip")).to_contain_text("another window drives")
+    second.at("looking-on").get_by_role("button", name="Take over").click()
+    expect(second.at("looking-on")).to_have_count(0)
     second.at("pause").click()
     second.expect_state("paused")
+
+    expect(studio.at("looking-on")).to_contain_text("Another window has taken over")
+    expect(studio.at("run")).to_have_attribute("aria-disabled", "true")
+    studio.expect_state("paused")
+    studio.picture("taken-over")
+    studio.at("looking-on").get_by_role("button", name="Take it back").click()
+    expect(second.at("looking-on")).to_contain_text("Another window has taken over")
+    studio.at("resume").click()
+    second.expect_state("application_running")
+
+    studio.page.close()  # who drove comes back no more
+    expect(second.at("looking-on")).to_have_count(0)
+    expect(second.at("run")).to_have_attribute("aria-disabled", "false")
     second.end_session()
     assert second.complaints == []

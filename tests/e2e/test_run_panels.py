@@ -22,13 +22,12 @@ def test_a_run_is_followed_beside_the_tree(
     open_studio: Callable[[Browser], Studio], browser_without_webgl: Browser
 ) -> None:
     studio = open_studio(browser_without_webgl)
-    studio.page.set_default_timeout(120_000)
     studio.new_from("laser_bump_and_go")
     studio.run()
     timeline_tells_what_nodes_did(studio)
     topics_are_heard_and_plotted(studio)
     ros_tools_are_told_the_environment(studio)
-    studio.end_session()
+    a_window_outlives_a_reload_and_goes_with_the_page(studio)
 
 
 def timeline_tells_what_nodes_did(studio: Studio) -> None:
@@ -49,6 +48,8 @@ def topics_are_heard_and_plotted(studio: Studio) -> None:
     panel(studio, "Topics")
     odometry = studio.at("topic-/odom")
     expect(odometry).to_have_attribute("data-hz", re.compile(r"[1-9]"))
+    expect(odometry).to_contain_text("nav_msgs/Odometry")
+    expect(odometry).to_contain_text("kB/s")
     odometry.get_by_role("button").click()
     echo = studio.at("echo-/odom")
     expect(echo).to_have_attribute("data-count", re.compile(r"[1-9]"))
@@ -59,9 +60,31 @@ def topics_are_heard_and_plotted(studio: Studio) -> None:
 
 def ros_tools_are_told_the_environment(studio: Studio) -> None:
     studio.page.get_by_role("button", name="Connect ROS tools…").click()
-    expect(studio.at("ros-environment")).to_contain_text("export ROS_DOMAIN_ID=")
+    environment = studio.at("ros-environment")
+    expect(environment).to_contain_text("export ROS_DOMAIN_ID=")
+    studio.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    studio.at("connect-ros").get_by_role("button", name="Copy").click()
+    expect(studio.at("connect-ros").get_by_role("button", name="Copied")).to_be_visible()
+    assert studio.page.evaluate("navigator.clipboard.readText()") == environment.inner_text()
     studio.page.keyboard.press("Escape")
     expect(studio.at("connect-ros")).to_be_hidden()
+
+
+def a_window_outlives_a_reload_and_goes_with_the_page(studio: Studio) -> None:
+    page = studio.page
+    first = studio.pop_out("timeline")
+    expect(first.get_by_test_id("timeline")).to_be_visible()
+    with page.expect_popup() as again:
+        page.reload()
+    window = again.value
+    expect(
+        window.get_by_test_id("timeline").get_by_role("button", name=re.compile("^Forward,"))
+    ).to_be_visible()
+    assert first.is_closed()
+    studio.expect_state("application_running")
+    studio.end_session()
+    with window.expect_event("close"):
+        page.close(run_before_unload=True)
 
 
 def row(studio: Studio, name: str) -> Locator:

@@ -92,12 +92,12 @@ class SessionClient:
                 self.frames.append((time.monotonic(), frame))
                 self._changed.notify_all()
 
-    async def until(self, condition, timeout_s=30):
+    async def until(self, condition, timeout_s=60):
         async with asyncio.timeout(timeout_s), self._changed:
             await self._changed.wait_for(condition)
             return condition()
 
-    async def event(self, name, where=lambda data: True, *, after=0, timeout_s=30):
+    async def event(self, name, where=lambda data: True, *, after=0, timeout_s=60):
         """The first event of a name after the given place in `events`."""
 
         def find():
@@ -183,7 +183,7 @@ async def manager_process(*arguments, env=None):
     finally:
         if process.returncode is None:
             process.terminate()
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             await process.wait()
-        _, alive = psutil.wait_procs(family, timeout=5)
+        _, alive = psutil.wait_procs(family, timeout=60)
         assert alive == []

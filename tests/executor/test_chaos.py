@@ -91,12 +91,12 @@ class Storm:
 
     async def command(self):
         name = self.chance.choice(COMMANDS)
-        await self.client.ask(name, self.run if name == "run" else None, timeout_s=30)
+        await self.client.ask(name, self.run if name == "run" else None, timeout_s=60)
 
     async def is_true(self):
         """Waits until the ladder stands on living processes."""
         began_s = time.monotonic()
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             while not self._is_consistent():  # noqa: ASYNC110 - it looks at the process table
                 await asyncio.sleep(0.02)
         self.took_s.append(time.monotonic() - began_s)

@@ -44,7 +44,7 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
         client.stream.transport.resume_reading()
         last = FRAMES - 1
         await client.until(
-            lambda: {type(f) for _, f in client.frames if f.t == last} == {Camera, Poses}, timeout_s=30
+            lambda: {type(f) for _, f in client.frames if f.t == last} == {Camera, Poses}, timeout_s=60
         )
         assert len(client.frames) < FRAMES
         places = {}

@@ -1,6 +1,7 @@
 """`make test-python`: the browser's tests and all others beside each other, since each mostly waits.
 
-Every line of the two runs is shown as it comes, with its lane before it. Arguments go to both.
+Every line of the lanes is shown as it comes, with its lane before it, and what failed once more at the end.
+Arguments go to each run of pytest.
 """
 
 from __future__ import annotations
@@ -10,43 +11,67 @@ import sys
 import threading
 import time
 from pathlib import Path
-from typing import IO, Final
+from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
+# The browser's tests that the other lane does at its end: both are to end at about the same time.
+LATE: Final = [f"tests/e2e/test_{name}.py" for name in ("screens", "follow_person", "run_panels")]
+# What each lane gives to pytest, one run after the other.
 LANES: Final = {
-    "browser": ["tests/e2e"],
-    "others": ["tests", "--ignore", "tests/e2e"],
+    "browser": [["tests/e2e", *(f"--ignore={path}" for path in LATE)]],
+    "others": [["tests", "--ignore=tests/e2e"], LATE],
 }
+# How pytest's summary begins the line of what did not pass.
+FAILURES: Final = ("FAILED tests/", "ERROR tests/")
 
 
 def main(arguments: list[str]) -> int:
-    """Runs both lanes to their ends; returns 0 if both passed."""
+    """Runs the lanes to their ends; returns 0 if all passed."""
     began_s = time.monotonic()
-    lanes = {name: _start(paths, arguments) for name, paths in LANES.items()}
-    readers = [threading.Thread(target=_show, args=(name, lane.stdout)) for name, lane in lanes.items()]
-    for reader in readers:
-        reader.start()
+    lanes = [Lane(name, runs, arguments) for name, runs in LANES.items()]
     try:
-        results = {name: lane.wait() for name, lane in lanes.items()}
-        for reader in readers:
-            reader.join()
-    except KeyboardInterrupt:  # both lanes were interrupted too, and say what they did
-        for lane in lanes.values():
-            lane.wait()
+        for lane in lanes:
+            lane.start()
+        for lane in lanes:
+            lane.join()
+    except KeyboardInterrupt:  # the lanes' runs were interrupted too, and say what they did
+        for lane in lanes:
+            lane.is_ended = True
+            lane.join()
         return 130
-    told = [f"{name} {'passed' if code == 0 else f'FAILED ({code})'}" for name, code in results.items()]
-    print(", ".join(told), f"in {(time.monotonic() - began_s) / 60:.1f} min")
-    return max(results.values())
+    for lane in lanes:
+        print("".join(f"{lane.name:7} | {line}" for line in lane.failures), end="")
+    print(", ".join(map(str, lanes)), f"in {(time.monotonic() - began_s) / 60:.1f} min")
+    return max(lane.result for lane in lanes)
 
 
-def _start(paths: list[str], arguments: list[str]) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "pytest", *paths, *arguments]
-    return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+class Lane(threading.Thread):
+    """Runs of pytest, one after the other; a failed one keeps none of the rest from running."""
 
+    def __init__(self, name: str, runs: list[list[str]], arguments: list[str]) -> None:
+        super().__init__(name=name)
+        self.result = 0
+        self.is_ended = False
+        self.failures: list[str] = []
+        self._commands = [[sys.executable, "-m", "pytest", *run, *arguments] for run in runs]
 
-def _show(name: str, output: IO[str] | None) -> None:
-    for line in output or ():
-        print(f"{name:7} | {line}", end="", flush=True)
+    def run(self) -> None:
+        for command in self._commands:
+            if not self.is_ended:
+                self.result = max(self.result, self._show(command))
+
+    def _show(self, command: list[str]) -> int:
+        with subprocess.Popen(
+            command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        ) as process:
+            for line in process.stdout or ():
+                print(f"{self.name:7} | {line}", end="", flush=True)
+                if line.startswith(FAILURES):
+                    self.failures.append(line)
+        return abs(process.returncode)
+
+    def __str__(self) -> str:
+        return f"{self.name} {'passed' if self.result == 0 else f'FAILED ({self.result})'}"
 
 
 if __name__ == "__main__":

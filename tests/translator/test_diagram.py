@@ -132,7 +132,7 @@ def test_every_past_version_has_a_migration_and_a_fixture():
         assert [node.type for node in tree.walk()] == ["Sequence", "Forward"]
 
 
-@settings(max_examples=count("translator_round_trip"), deadline=None)
+@settings(max_examples=count("translator_round_trip"))
 @given(trees())
 def test_what_is_written_is_of_the_schema(tree):
     jsonschema.validate(json.loads(json.dumps(to_diagram(tree))), json_schema("diagram"))

@@ -23,8 +23,7 @@ from tree_gardener import Tree as RunningTree
 
 examples = settings(
     max_examples=count("translator_round_trip"),
-    deadline=None,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+    suppress_health_check=[HealthCheck.data_too_large, HealthCheck.too_slow],
 )
 
 

@@ -61,7 +61,7 @@ OPERATIONS = st.lists(
 
 
 @given(scopes(), OPERATIONS)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_remapping_is_that_of_a_naive_model(
     model: list[Scope], operations: list[tuple[str, int, str, int]]
 ) -> None:

@@ -125,7 +125,7 @@ def arithmetic(draw: st.DrawFn, depth: int = 4) -> tuple[str, float]:
 
 
 @given(arithmetic())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_arithmetic_is_that_of_doubles(case: tuple[str, float]) -> None:
     text, expected = case
     found = float(run(text))
@@ -133,7 +133,7 @@ def test_arithmetic_is_that_of_doubles(case: tuple[str, float]) -> None:
 
 
 @given(st.text(alphabet="ab1.'()+-*/&|^=<>!~?:;@ \n%", max_size=30))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_any_text_parses_or_is_refused_inside_of_it(text: str) -> None:
     try:
         program = parse(text)
@@ -146,7 +146,7 @@ def test_any_text_parses_or_is_refused_inside_of_it(text: str) -> None:
 
 
 @given(st.text(alphabet="ab1.'()+-*&=<>!?:; ", max_size=25))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_running_raises_nothing_but_script_errors(text: str) -> None:
     board = Blackboard()
     board["a"], board["b"] = 1, "text"

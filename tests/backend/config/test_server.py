@@ -7,6 +7,9 @@ import signal
 import socket
 import sqlite3
 import stat
+import subprocess
+import sys
+from pathlib import Path
 
 import psutil
 import psycopg
@@ -16,6 +19,8 @@ from websockets.sync.client import connect
 
 from backend.config.server import ServeError, await_database
 from tests.backend.serving import serving, start
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def failed(process):
@@ -37,18 +42,18 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
         assert server.token
         assert running[1].token
         assert server.token != running[1].token
-        me = requests.get(f"{server.base}/api/v1/me", headers=server.headers, timeout=10)
+        me = requests.get(f"{server.base}/api/v1/me", headers=server.headers, timeout=60)
         assert me.json()["mode"] == "local"
         browser = requests.Session()
-        page = browser.get(f"{server.base}/?token={server.token}", timeout=10)
+        page = browser.get(f"{server.base}/?token={server.token}", timeout=60)
         assert "token" not in page.url
-        assert browser.get(f"{server.base}/api/v1/projects", timeout=10).json()["items"] == []
+        assert browser.get(f"{server.base}/api/v1/projects", timeout=60).json()["items"] == []
         made = browser.post(
-            f"{server.base}/api/v1/projects", json={"name": "P"}, headers={"Origin": server.base}, timeout=10
+            f"{server.base}/api/v1/projects", json={"name": "P"}, headers={"Origin": server.base}, timeout=60
         )
         assert made.status_code == 201
         session = browser.post(
-            f"{server.base}/api/v1/projects/{made.json()['id']}/session", timeout=10
+            f"{server.base}/api/v1/projects/{made.json()['id']}/session", timeout=60
         ).json()
         assert session["state"] in {"starting", "ready"}
         control = "ws" + server.base.removeprefix("http") + session["control_url"]
@@ -60,6 +65,34 @@ def test_a_server_serves_and_ends_cleanly(tmp_path, running):
         assert server.token in out
         assert "Traceback" not in err
         assert not any(p.is_running() and p.status() != psutil.STATUS_ZOMBIE for p in family)
+
+
+def test_an_interrupt_that_python_would_drop_ends_a_server_that_starts():
+    """In the callback of a weak reference an exception is told and forgotten."""
+    script = """
+import os, signal, weakref
+from backend.config.server import ended_by_interrupt
+class Module: pass
+module = Module()
+watch = weakref.ref(module, lambda _: (os.kill(os.getpid(), signal.SIGINT), sum(range(10_000))))
+{}:
+    del module
+print("serves")
+"""
+
+    def ended(guard):
+        done = subprocess.run(
+            [sys.executable, "-c", script.format(guard)],
+            cwd=ROOT,
+            check=False,
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
+        return done.returncode, done.stdout
+
+    assert ended("if True") == (0, "serves\n")
+    assert ended("with ended_by_interrupt()") == (-signal.SIGINT, "")
 
 
 def test_the_database_is_in_wal_and_files_are_private(running):

@@ -124,10 +124,10 @@ def test_a_team_server_without_containers_says_that_there_is_none(host, with_act
 
 def test_an_open_project_hears_of_its_revisions(host, with_actions, api):
     with opened(host, f"/ws/projects/{with_actions}/notices") as page:
-        first = json.loads(page.socket.recv(timeout=30))
+        first = json.loads(page.socket.recv(timeout=60))
         assert first == {"type": "revision", "revision": 2, "author": "", "message": ""}
         api.save(with_actions, {"path": "a.txt", "base_revision": 0, "content": "a"}, message="Say something")
-        told = json.loads(page.socket.recv(timeout=30))
+        told = json.loads(page.socket.recv(timeout=60))
         assert (told["revision"], told["message"]) == (3, "Say something")
     with opened(host, "/ws/projects/00000000-0000-0000-0000-000000000000/notices") as page:
         assert page.ended() == 4404

@@ -110,7 +110,6 @@ def test_no_interleaving_of_two_clients_loses_an_update(db):
         settings=settings(
             max_examples=count("backend_revision_machine"),
             stateful_step_count=12,
-            deadline=None,
             suppress_health_check=list(HealthCheck),
             derandomize=True,
             database=None,

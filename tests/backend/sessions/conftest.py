@@ -20,7 +20,7 @@ def spec(**changes):
         "session_id": "s1",
         "token": "t0ken",
         "ros_domain_id": 51,
-        "start_timeout_s": 20,
+        "start_timeout_s": 60,
         "stop_timeout_s": 1,
     }
     return Spec(**values | changes)

@@ -85,7 +85,7 @@ def test_a_later_process_with_the_same_number_is_not_ours(launcher_of):
 )
 def test_a_manager_that_does_not_come_up_is_told_and_leaves_nothing(launcher_of, kind, says):
     with pytest.raises(LaunchError, match=says) as caught:
-        launcher_of(kind).start(spec(start_timeout_s=0.7 if kind == "never" else 20))
+        launcher_of(kind).start(spec(start_timeout_s=0.7 if kind == "never" else 60))
     assert caught.value.hint == "the fake manager starts" or kind == "never"
     assert psutil.Process().children(recursive=True) == []
 

@@ -30,5 +30,5 @@ def test_a_session_of_a_killed_server_leaves_no_process(tmp_path):
             assert family
             server.process.kill()
             server.process.wait()
-            _, alive = psutil.wait_procs(family, timeout=30)
+            _, alive = psutil.wait_procs(family, timeout=60)
             assert [p for p in alive if p.status() != psutil.STATUS_ZOMBIE] == []

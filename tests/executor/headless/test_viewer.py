@@ -33,7 +33,7 @@ TOKEN = "a-token"
 
 
 async def get(url, **more):
-    return await asyncio.to_thread(requests.get, url, timeout=10, **more)
+    return await asyncio.to_thread(requests.get, url, timeout=60, **more)
 
 
 def test_the_page_needs_nothing_from_elsewhere_and_runs_no_inline_script():
@@ -68,7 +68,7 @@ def test_a_late_viewer_gets_the_last_picture_and_figures_and_may_look_elsewhere(
         assert list(there.eye) == LOOK["eye"]
         assert await looks.get() is None
 
-    asyncio.run(asyncio.wait_for(served(use), 20))
+    asyncio.run(asyncio.wait_for(served(use), 60))
 
 
 @pytest.mark.parametrize(

@@ -37,7 +37,7 @@ async def test_a_manager_listens_at_the_socket_that_it_was_handed(gate):
         async with unix_connect(
             str(gate.path("s1")), "ws://localhost/control", additional_headers=headers
         ) as socket:
-            async with asyncio.timeout(30):
+            async with asyncio.timeout(60):
                 first = json.loads(await socket.recv())
         assert first["command"] == "introspection"
 

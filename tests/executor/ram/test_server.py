@@ -41,7 +41,7 @@ class Raw:
         await self.socket.send(json.dumps({"id": f"r{self.count}", "command": command, "data": data}))
         came = []
         while not came or came[-1][0] not in {"ack", "error"}:
-            message = json.loads(await asyncio.wait_for(self.socket.recv(), 20))
+            message = json.loads(await asyncio.wait_for(self.socket.recv(), 60))
             data = message["data"]
             short = {"state-changed": "state", "error": "message"}.get(message["command"])
             if message["command"] != "update":
@@ -247,5 +247,5 @@ async def test_random_frames_are_all_answered_and_the_client_is_served_still():
             await raw.socket.send(text)
             command = ""
             while command not in {"ack", "error"}:
-                command = json.loads(await asyncio.wait_for(raw.socket.recv(), 30))["command"]
+                command = json.loads(await asyncio.wait_for(raw.socket.recv(), 60))["command"]
         assert (await raw.ask("disconnect"))[-1] == ("ack", None)

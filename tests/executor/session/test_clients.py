@@ -54,6 +54,44 @@ def test_a_viewer_takes_over_when_the_driver_stays_away():
     assert play.sent("introspection", "v")[-1].role == "driver"
 
 
+def test_a_viewer_takes_over_and_the_driver_takes_it_back():
+    play = Play()
+    play.command("run")
+    play.happens(ClientJoined("v"))
+    assert play.reply(play.command("take_over", client="v")) == "ack"
+    assert [play.sent("introspection", client)[-1].role for client in "dv"] == ["viewer", "driver"]
+    assert play.reply(play.command("pause")) == "not_driver"
+    assert play.reply(play.command("pause", client="v")) == "ack"
+    play.command("take_over", client="d")
+    assert [play.sent("introspection", client)[-1].role for client in "dv"] == ["driver", "viewer"]
+    assert play.reply(play.command("resume")) == "ack"
+    assert play.state is State.APPLICATION_RUNNING
+
+
+def test_a_step_goes_on_while_another_takes_over_and_is_the_others_to_cancel():
+    play = Play(obedient=False)
+    play.happens(ClientJoined("v"))
+    run = play.command("run")
+    play.command("take_over", client="v")
+    assert play.reply(run) is None
+    assert play.reply(play.command("cancel")) == "not_driver"
+    assert play.reply(play.command("cancel", client="v")) == "ack"
+    assert play.reply(run) == "cancelled"
+
+
+def test_taking_over_from_nobody_tells_only_who_takes_over():
+    play = Play()
+    play.command("take_over")
+    assert len(play.sent("introspection", "d")) == 1, "the driver drives already"
+    play.happens(ClientJoined("v"))
+    play.happens(ClientLeft("d"))
+    play.command("take_over", client="v")
+    assert play.sent("introspection", "v")[-1].role == "driver"
+    assert len(play.sent("introspection", "d")) == 1
+    play.happens(ClientJoined("d"))
+    assert play.sent("introspection", "d")[-1].role == "viewer", "the other drives as long as it is there"
+
+
 def test_the_session_ends_when_nobody_comes_back():
     play = Play()
     play.command("run")

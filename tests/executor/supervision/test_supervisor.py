@@ -47,7 +47,7 @@ class Stage:
         self.supervisor.apply(Tell("application", 1, {"type": type_, **fields}))
 
     async def until(self, wanted):
-        async with asyncio.timeout(20):
+        async with asyncio.timeout(60):
             while True:
                 event = await self.events.get()
                 self.seen.append(event)
@@ -173,7 +173,7 @@ async def test_a_program_that_does_not_exist_is_told():
     events = asyncio.Queue()
     supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)
     supervisor.apply(Spawn("world", 1))
-    event = await asyncio.wait_for(events.get(), 10)
+    event = await asyncio.wait_for(events.get(), 60)
     assert "could not be started" in event.reason
     await supervisor.close()
 
@@ -196,7 +196,7 @@ asyncio.run(main())
     manager.kill()
     manager.wait()
     manager.stdout.close()
-    gone, alive = psutil.wait_procs([child], timeout=10)
+    gone, alive = psutil.wait_procs([child], timeout=60)
     assert (len(gone), alive) == (1, [])
 
 

@@ -89,6 +89,7 @@ def test_v3_is_exported_as_v4_with_each_change_told():
         assert line in text
     changes = [item for item in project.diagnostics if item.code == "BT0720"]
     assert len(changes) == 10
+    assert 'k="outer" is now k="{outer}".' in [item.message for item in changes]
     assert all(item.place.line and item.place.file == "imports/old.xml" for item in changes)
     assert from_xml(text).trees["M"].nodes.keys() == project.trees["M"].nodes.keys()
     assert to_xml(from_xml(text)) == text

@@ -55,7 +55,7 @@ def test_an_executor_starts_is_reached_and_ends(host_of):
 def test_an_executor_that_does_not_come_up_is_told_and_leaves_nothing(host_of, image, says):
     host = host_of(image)
     with pytest.raises(LaunchError, match=says) as caught:
-        host.launcher.start(session_spec(start_timeout_s=0.6 if image == "never" else 20))
+        host.launcher.start(session_spec(start_timeout_s=0.6 if image == "never" else 60))
     assert ("the fake executor starts" in caught.value.hint) == (image != "missing")
     assert host.docker.containers == {}
     assert host.sockets == []

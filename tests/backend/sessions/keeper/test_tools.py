@@ -18,7 +18,7 @@ TOKEN = "t" * 64
 
 
 def opened(host, tools_id=None):
-    return host.launcher.open_tools(tools_id or str(uuid4()), TOKEN, timeout_s=20)
+    return host.launcher.open_tools(tools_id or str(uuid4()), TOKEN, timeout_s=60)
 
 
 def names(host):

@@ -179,6 +179,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "publish_topic": PublishTopic,
     "describe_type": DescribeType,
     "restart_node": RestartNode,
+    "take_over": Empty,
 }
 
 

@@ -118,7 +118,9 @@ class Error(Struct):
 
 
 class Introspection(Struct):
-    """First message on a connection. `client_id` names this client when it opens the stream socket.
+    """First message on a connection, sent again when the client's role changes.
+
+    `client_id` names this client when it opens the stream socket.
 
     With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
     empty where the session is closed off.

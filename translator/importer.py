@@ -62,7 +62,7 @@ class _Import:
             elif target not in self.files:
                 self.found.append(diagnostic("BT0733", place, path=path))
             elif len(self.documents) > MAX_INCLUDES:
-                self.found.append(diagnostic("BT0705", place, what="included files", limit=MAX_INCLUDES))
+                self.found.append(diagnostic("BT0708", place, limit=MAX_INCLUDES))
             else:
                 yield target
 

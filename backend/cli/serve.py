@@ -55,12 +55,21 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
 
 def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
     from backend.config.environment import environment
-    from backend.config.server import bind, data_folder, migrate, run, warm_up, write_ready_file
+    from backend.config.server import (
+        bind,
+        data_folder,
+        ended_by_interrupt,
+        migrate,
+        run,
+        warm_up,
+        write_ready_file,
+    )
 
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     settings = environment()
     with bind(settings.host, settings.port) as listener, data_folder(settings.data_dir):
-        migrate()
+        with ended_by_interrupt():
+            migrate()
         port: int = listener.getsockname()[1]
         host = "127.0.0.1" if settings.published_on_loopback else settings.host
         name = f"[{host}]" if ":" in host else host

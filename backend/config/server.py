@@ -8,6 +8,7 @@ import gc
 import json
 import os
 import secrets
+import signal
 import socket
 import time
 from contextlib import contextmanager, suppress
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
 
+    import uvicorn
+
 GRACE_S: Final = 2
 GARBAGE_EVERY_S: Final = 24 * 3600
 DATABASE_PATIENCE_S: Final = 60.0
@@ -28,6 +31,22 @@ MIGRATION_LOCK: Final = 0x62742D73747564
 
 class ServeError(Exception):
     """The server cannot start; the text is for the user, with the remedy."""
+
+
+@contextmanager
+def ended_by_interrupt() -> Iterator[None]:
+    """Lets Ctrl+C end the process itself, as SIGTERM does, while it starts.
+
+    Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference, and imports have
+    many of those: the server would go on to serve.
+    """
+    before = signal.getsignal(signal.SIGINT)
+    if before is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
@@ -151,9 +170,15 @@ def _alone() -> Iterator[None]:
 
 def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
     """Serves until SIGINT or SIGTERM; then ends every session and returns."""
-    import uvicorn  # noqa: PLC0415
-
     set_up(log_level, environment().log_style)
+    with ended_by_interrupt():
+        server = _make_server(on_ready)
+    with suppress(KeyboardInterrupt):
+        server.run(sockets=[listener])
+
+
+def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
+    import uvicorn  # noqa: PLC0415 - slow to load
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
@@ -174,8 +199,7 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
         server_header=False,
         timeout_graceful_shutdown=GRACE_S,
     )
-    with suppress(KeyboardInterrupt):
-        Server(config).run(sockets=[listener])
+    return Server(config)
 
 
 def warm_up() -> None:

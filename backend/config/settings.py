@@ -185,6 +185,8 @@ MFA_SUPPORTED_TYPES = ["totp", "recovery_codes"]
 # Where no mail is sent, no address is ever verified.
 MFA_ALLOW_UNVERIFIED_EMAIL = not ENVIRONMENT.smtp_url.get_secret_value()
 MFA_TOTP_ISSUER = "BT Studio"
+# A code may change while one types it (RFC 6238, section 5.2: one step for delay and clocks).
+MFA_TOTP_TOLERANCE = 1
 
 REST_FRAMEWORK: dict[str, Any] = {
     "DEFAULT_AUTHENTICATION_CLASSES": ["backend.accounts.authentication.GuardAuthentication"],

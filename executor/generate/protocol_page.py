@@ -36,8 +36,9 @@ REP-103, times are simulated seconds.
   and before the `ack` of the command that caused it.
 * The first message is `introspection`, the second `snapshot`; what follows are deltas. A client that is too
   slow is sent a new `snapshot` in place of the deltas that it missed.
-* The first client drives, later ones are viewers. A client that lost its connection comes back with
-  `?client=<client_id>`; the stream socket is opened with it too.
+* The first client drives, later ones are viewers until they send `take_over`, or the driver stays away; who
+  drives from then on, and who did, get a new `introspection` with their roles. A client that lost its
+  connection comes back with `?client=<client_id>`; the stream socket is opened with it too.
 * A frame that is no command is answered with an error, and the socket stays.
 """
 _ERRORS: Final = {

@@ -93,6 +93,11 @@ def _restart_node(session: Session, event: CommandCame) -> None:
         session.send(event.client, messages.Ack(), event.request)
 
 
+def _take_over(session: Session, event: CommandCame) -> None:
+    for client in session.clients.take_over(event.client):
+        session.introspect(client)
+
+
 ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "set_tick_rate": _set_tick_rate,
     "set_speed": _set_speed,
@@ -106,6 +111,7 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "describe_type": _describe_type,
     "restart_node": _restart_node,
     "teleop": _teleop,
+    "take_over": _take_over,
 }
 
 ANSWER_LATER: Final = frozenset(

@@ -28,10 +28,10 @@ class _Client:
 
 
 class Clients:
-    """Keeps the clients by id. The first is the driver, later ones are viewers.
+    """Keeps the clients by id. The first is the driver, later ones are viewers until they take over.
 
     When the driver's connection is lost, whoever comes next drives (it may be the same page, loaded
-    again); a viewer that is already there takes over when the driver stays away.
+    again); a viewer that is already there becomes the driver when the driver stays away.
     """
 
     def __init__(self, now_s: float) -> None:
@@ -88,6 +88,13 @@ class Clients:
         if viewers:
             self._driver = viewers[0]
         return viewers[:1]
+
+    def take_over(self, client: str) -> list[str]:
+        """Makes a client the driver; returns whose role changed, of those who are there."""
+        before, self._driver = self._driver, client
+        if before == client:
+            return []
+        return [client, *(c for c in (before,) if c is not None and self._clients[c].is_here)]
 
     def is_abandoned(self, now_s: float, grace_s: float) -> bool:
         """Whether nobody has been there for the grace period (0: for ever is fine)."""

@@ -116,6 +116,7 @@ TABLE: Final[dict[str, Row]] = {
     "publish_topic": _act(WORLD_UP, "Publishes one message."),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
     "restart_node": _act(HAS_APPLICATION, "Starts an extra node of the launch files again."),
+    "take_over": _act(ANY, "Drives from now on; who drove looks on.", for_viewers=True),
 }
 
 

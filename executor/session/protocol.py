@@ -255,7 +255,7 @@ class Session:
         match event:
             case ClientJoined():
                 self.clients.join(event.client)
-                self._introspect(event.client)
+                self.introspect(event.client)
                 self.send(event.client, self.mirror.snapshot())
                 self.resume_echoes()
             case ClientLeft():
@@ -274,7 +274,8 @@ class Session:
             case TimePassed():
                 pass
 
-    def _introspect(self, client: str) -> None:
+    def introspect(self, client: str) -> None:
+        """Tells a client what the session is, and whether it drives."""
         payload = messages.Introspection(
             protocol=messages.PROTOCOL,
             client_id=client,
@@ -383,7 +384,7 @@ class Session:
     def _on_command(self, event: CommandCame) -> None:
         row = TABLE[event.command]
         if not row.for_viewers and self.clients.role(event.client) != "driver":
-            self.refuse(event, "not_driver", "Another client drives this session; you are a viewer.")
+            self.refuse(event, "not_driver", "Another client drives this session.", "Take over to drive it.")
         elif event.command == "cancel":
             self._cancel()
             self._ack(event.client, event.request)
@@ -470,7 +471,7 @@ class Session:
     def _expire(self) -> None:
         self._answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
         for client in self.clients.promote(self._now_s, self.about.promote_s):
-            self._introspect(client)
+            self.introspect(client)
         if self.clients.is_abandoned(self._now_s, self.about.grace_s):
             self._effects.append(EndSession("no client came back within the grace period"))
 

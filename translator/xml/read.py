@@ -177,8 +177,8 @@ class _Reader:
             upgraded = upgrade(type_, attributes)
             if upgraded.changes:
                 into.upgraded.add(node_id)
-                for change in upgraded.changes:
-                    self.report("BT0720", element, tree_id, node_id, change=change)
+                for before, after in upgraded.changes:
+                    self.report("BT0720", element, tree_id, node_id, before=before, after=after)
             type_, attributes = upgraded.type, upgraded.attributes
         fields: dict[str, Any] = from_attributes(attributes, is_subtree=type_ == SUBTREE)
         fields["id"] = node_id

@@ -157,11 +157,11 @@ class _Builder:
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
         if self.count > MAX_ELEMENTS:
-            self.refuse("BT0705", what="elements", limit=MAX_ELEMENTS)
+            self.refuse("BT0705", limit=MAX_ELEMENTS)
         if len(self.stack) >= MAX_DEPTH:
-            self.refuse("BT0705", what="levels", limit=MAX_DEPTH)
+            self.refuse("BT0706", limit=MAX_DEPTH)
         if len(attributes) > MAX_ATTRIBUTES:
-            self.refuse("BT0705", what="attributes of one node", limit=MAX_ATTRIBUTES)
+            self.refuse("BT0707", limit=MAX_ATTRIBUTES)
         start = self.parser.CurrentByteIndex
         match = _START_TAG.match(self.data, start)
         assert match is not None  # noqa: S101 - expat has just read this tag

@@ -27,13 +27,17 @@ PORTS = {
 CHECKS = {"BlackboardCheckInt", "BlackboardCheckDouble", "BlackboardCheckBool", "BlackboardCheckString"}
 
 
+# How something was written, and how it is written now.
+Change = tuple[str, str]
+
+
 @dataclass(frozen=True, slots=True)
 class Upgraded:
-    """A node as v4 has it, and what changed, one sentence each."""
+    """A node as v4 has it, and what changed."""
 
     type: str
     attributes: Mapping[str, str]
-    changes: tuple[str, ...] = ()
+    changes: tuple[Change, ...] = ()
 
 
 def upgrade(type_: str, attributes: Mapping[str, str]) -> Upgraded:
@@ -41,27 +45,27 @@ def upgrade(type_: str, attributes: Mapping[str, str]) -> Upgraded:
     if type_ in CHECKS:
         return _check(type_, attributes)
     new_type = TYPES.get(type_, type_)
-    changes = [f"{type_} is now {new_type}"] if new_type != type_ else []
+    changes = [(type_, new_type)] if new_type != type_ else []
     if new_type == "SubTree":
         attributes = _subtree(attributes, is_plus=type_ == "SubTreePlus", changes=changes)
     names = PORTS.get(new_type, {})
     renamed = {names.get(name, name): text for name, text in attributes.items()}
-    changes += [f"{name} is now {names[name]}" for name in attributes if name in names]
+    changes += [(name, names[name]) for name in attributes if name in names]
     return Upgraded(new_type, renamed, tuple(changes))
 
 
-def _subtree(attributes: Mapping[str, str], *, is_plus: bool, changes: list[str]) -> dict[str, str]:
+def _subtree(attributes: Mapping[str, str], *, is_plus: bool, changes: list[Change]) -> dict[str, str]:
     result: dict[str, str] = {}
     for name, text in attributes.items():
         if name in {"__shared_blackboard", "__autoremap"}:
             if text.lower() in {"true", "1"}:
                 result["_autoremap"] = "true"
-            changes.append(f"{name} is now _autoremap")
+            changes.append((name, "_autoremap"))
         elif name in {"ID", "name"} or name.startswith("_") or is_plus or pointer(text) is not None:
             result[name] = text
         else:  # a v3 SubTree names the caller's entry without braces
             result[name] = f"{{{text}}}"
-            changes.append(f"{name} is now written {{{text}}}")
+            changes.append((f'{name}="{text}"', f'{name}="{{{text}}}"'))
     return result
 
 
@@ -75,7 +79,7 @@ def _check(type_: str, attributes: Mapping[str, str]) -> Upgraded:
     }
     kept["if"] = f"{left} == {right}"
     kept["else"] = attributes.get("return_on_mismatch", "FAILURE")
-    return Upgraded("Precondition", kept, (f"{type_} is now Precondition",))
+    return Upgraded("Precondition", kept, ((type_, "Precondition"),))
 
 
 def _operand(text: str, *, quoted: bool) -> str:

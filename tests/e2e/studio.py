@@ -94,8 +94,11 @@ class Studio:
 
     def _type_command(self, window: Page, words: str) -> None:
         window.keyboard.press("Control+k")
-        expect(window.get_by_test_id("command-palette").get_by_role("combobox")).to_be_focused()
+        palette = window.get_by_test_id("command-palette")
+        expect(palette.get_by_role("combobox")).to_be_focused()
         window.keyboard.type(words)
+        # Some commands join the list late: the templates of a page that is being loaded.
+        expect(palette.get_by_role("option", selected=True, disabled=False)).to_have_count(1)
 
     def writing(self) -> None:
         """Waits until what is typed goes into a field."""

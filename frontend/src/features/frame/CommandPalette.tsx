@@ -32,9 +32,9 @@ function useCommands(page: Document): Command[] {
   const hasDocuments = useTabs((state) => state.model !== null);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
-  // Asked once, before the palette has taken the focus from where it was.
-  const [ready] = useState(() => {
-    const rows = Object.values(table).filter((action) => action.enabled?.() !== false);
+  // Asked once, before the palette has taken the focus from where it was; what joins the table later can be done.
+  const [unready] = useState(() => {
+    const rows = Object.values(table).filter((action) => action.enabled?.() === false);
     return new Set(rows.map(({ id }) => id));
   });
   return useMemo(() => {
@@ -49,7 +49,7 @@ function useCommands(page: Document): Command[] {
           label,
           icon,
           keys: keysOf(action),
-          isReady: ready.has(id),
+          isReady: !unready.has(id),
           run: () => perform(id, page),
         };
       });
@@ -65,7 +65,7 @@ function useCommands(page: Document): Command[] {
         open(`file:${path}`, t('palette.openFile', { name: path }), IconFileCode, { kind: 'file', path }),
       );
     return hasDocuments ? [...actions, ...trees, ...texts] : actions;
-  }, [table, files, diagrams, hasDocuments, t, page, ready]);
+  }, [table, files, diagrams, hasDocuments, t, page, unready]);
 }
 
 /** Those whose words fit best, first; among equals what can be done now, and else the order stays. */

@@ -6,7 +6,7 @@ const PATIENCE_MS = 30_000;
 const SETTLED_MS = 250;
 const RETRY_MS = 20;
 
-let request = 0;
+let pending = new AbortController();
 
 function focusableOf(tab: DocumentTab): HTMLElement | null {
   if (tab.kind === 'compare') return null;
@@ -24,27 +24,32 @@ function focusableOf(tab: DocumentTab): HTMLElement | null {
 
 /** Puts the keyboard where a document that was just opened is edited, once it is there. */
 export function focusDocument(tab: DocumentTab): void {
-  request += 1;
-  const mine = request;
+  pending.abort();
+  const mine = new AbortController();
+  pending = mine;
+  abortOnceChosen(mine);
   const started = performance.now();
   let firstSeen: number | null = null;
 
   const attempt = () => {
+    if (mine.signal.aborted) return;
     const now = performance.now();
-    if (mine !== request || now - started > PATIENCE_MS) return;
     const target = focusableOf(tab);
     if (target?.checkVisibility() && !document.querySelector('[role="dialog"][aria-modal="true"]')) {
       firstSeen ??= now;
       if (!target.contains(document.activeElement)) target.focus({ preventScroll: true });
     }
-    if (firstSeen === null || now - firstSeen < SETTLED_MS) setTimeout(attempt, RETRY_MS);
+    if (now - (firstSeen ?? now) < SETTLED_MS && now - started < PATIENCE_MS) setTimeout(attempt, RETRY_MS);
+    else mine.abort();
   };
-  // Whoever points elsewhere has chosen where to be.
-  const giveUp = () => {
-    if (mine === request) request += 1;
-  };
-  window.addEventListener('pointerdown', giveUp, { once: true, capture: true });
   setTimeout(attempt);
+}
+
+/** Whoever points elsewhere or walks on by Tab has chosen where to be; any other key is typing ahead. */
+function abortOnceChosen(request: AbortController): void {
+  const listen = { capture: true, signal: request.signal };
+  window.addEventListener('pointerdown', () => request.abort(), listen);
+  window.addEventListener('keydown', ({ key }) => key === 'Tab' && request.abort(), listen);
 }
 
 /** The first field of the selected block's properties, or the panel itself. */

@@ -1,0 +1,61 @@
+import { afterEach, beforeEach, expect, it, vi } from 'vitest';
+import { focusDocument } from './focus';
+
+const canvas = (): HTMLElement => document.querySelector('[data-testid="canvas"]')!;
+const button = (): HTMLElement => document.querySelector('button')!;
+
+beforeEach(() => {
+  vi.useFakeTimers();
+  // jsdom lays nothing out: whatever is in the page counts as seen.
+  Element.prototype.checkVisibility = () => true;
+  document.body.innerHTML = '<button>Run</button><div data-testid="canvas" data-tree="Main" tabindex="0"></div>';
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+  document.body.innerHTML = '';
+});
+
+function leave(how: Event): void {
+  window.dispatchEvent(how);
+  button().focus();
+}
+
+it('takes the focus back from a menu that closes late', () => {
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(50);
+  button().focus();
+  vi.advanceTimersByTime(50);
+  expect(document.activeElement).toBe(canvas());
+});
+
+it.each([
+  ['by Tab', () => new KeyboardEvent('keydown', { key: 'Tab' })],
+  ['by the pointer', () => new Event('pointerdown')],
+])('lets a user go who walks on %s', (_, how) => {
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(50);
+  expect(document.activeElement).toBe(canvas());
+  leave(how());
+  vi.advanceTimersByTime(1000);
+  expect(document.activeElement).toBe(button());
+});
+
+it('waits for a document that is on its way, while one types ahead', () => {
+  const late = canvas();
+  late.remove();
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(1000);
+  window.dispatchEvent(new KeyboardEvent('keydown', { key: 'a' }));
+  document.body.append(late);
+  vi.advanceTimersByTime(50);
+  expect(document.activeElement).toBe(late);
+});
+
+it('leaves the focus alone once it has settled', () => {
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(1000);
+  button().focus();
+  vi.advanceTimersByTime(1000);
+  expect(document.activeElement).toBe(button());
+});

@@ -38,7 +38,8 @@ REP-103, times are simulated seconds.
   slow is sent a new `snapshot` in place of the deltas that it missed.
 * The first client drives, later ones are viewers until they send `take_over`, or the driver stays away; who
   drives from then on, and who did, get a new `introspection` with their roles. A client that lost its
-  connection comes back with `?client=<client_id>`; the stream socket is opened with it too.
+  connection comes back with `?client=<client_id>`, also before the loss has been heard of: then the former
+  connection is closed with code 4409. The stream socket is opened with the same query.
 * A frame that is no command is answered with an error, and the socket stays.
 """
 _ERRORS: Final = {

@@ -49,6 +49,7 @@ _log = logging.getLogger(__name__)
 MAX_COMMAND_BYTES: Final = 128 << 20
 MAX_CLIENTS: Final = 32
 HEARTBEAT_S: Final = 15.0
+REPLACED: Final = 4409
 _encode = msgspec.json.Encoder().encode
 
 
@@ -66,6 +67,8 @@ class SessionServer:
         self._report = report
         self._token = token
         self._controls: dict[str, ControlOutbox] = {}
+        self._connections: dict[str, ServerConnection] = {}
+        self._closing: set[asyncio.Task[None]] = set()
         self._streams: dict[str, StreamOutbox] = {}
         self._seq = 0
         self.traffic = Traffic()
@@ -187,7 +190,10 @@ class SessionServer:
 
     async def _serve_control(self, connection: ServerConnection, asked: str | None) -> None:
         client = self._session.clients.client_id(asked)
+        if client in self._controls:
+            self._dismiss(client)
         outbox = self._controls[client] = ControlOutbox(lambda: self._snapshot_message(client))
+        self._connections[client] = connection
         self._report(ClientJoined(client))
         sender = asyncio.create_task(_send_all(connection, outbox))
         try:
@@ -195,8 +201,19 @@ class SessionServer:
                 self._take(client, frame)
         finally:
             sender.cancel()
-            del self._controls[client]
-            self._report(ClientLeft(client))
+            if self._controls.get(client) is outbox:
+                self._forget(client)
+
+    def _forget(self, client: str) -> None:
+        del self._controls[client], self._connections[client]
+        self._report(ClientLeft(client))
+
+    def _dismiss(self, client: str) -> None:
+        """Ends a connection that its client has lost before this end heard of it."""
+        closing = asyncio.create_task(self._connections[client].close(REPLACED, "the client came back"))
+        self._closing.add(closing)
+        closing.add_done_callback(self._closing.discard)
+        self._forget(client)
 
     async def _serve_stream(self, connection: ServerConnection, client: str | None) -> None:
         if client is None or client not in self._controls:

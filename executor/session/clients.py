@@ -40,10 +40,11 @@ class Clients:
         self._empty_since_s: float | None = now_s
 
     def client_id(self, resumed: str | None) -> str:
-        """Returns the id for a new connection: the old one for a client that comes back."""
-        if resumed is not None and resumed in self._clients and not self._clients[resumed].is_here:
-            return resumed
-        return uuid4().hex
+        """Returns the id for a new connection: the old one for a client that comes back.
+
+        It may come back before its lost connection has been heard of: who knows the id is that client.
+        """
+        return resumed if resumed is not None and resumed in self._clients else uuid4().hex
 
     def role(self, client: str) -> Role:
         """Whether the client drives."""

@@ -410,7 +410,9 @@ def a_lost_connection_comes_back(studio: Studio) -> None:
     expect(studio.at("banner")).to_contain_text("The server cannot be reached.")
     expect(studio.at("executor-state")).to_have_attribute("data-shown", "lost")
     studio.at("pause").click()
-    context.set_offline(False)
+    # It says who it was: the manager may not have heard of the loss yet.
+    with studio.page.expect_websocket(lambda socket: "/control?client=" in socket.url):
+        context.set_offline(False)
     # What the program's new start had to say, and neither the connection nor the key that came to nothing.
     expect(studio.at("banner")).to_contain_text("The node brief ended")
     studio.expect_state("application_running")

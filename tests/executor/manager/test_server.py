@@ -233,6 +233,23 @@ async def test_a_viewer_sees_all_and_drives_nothing():
         await viewer.close()
 
 
+async def test_a_client_comes_back_before_its_lost_connection_is_heard_of():
+    async with manager() as it:
+        lost = await SessionClient(it.port).open()
+        await lost.ask("run", RUN)
+        viewer = await SessionClient(it.port).open()
+        back = await SessionClient(it.port).open(client=lost.id)
+        assert back.id == lost.id
+        assert back.named("introspection")[0]["role"] == "driver"
+        await asyncio.wait_for(lost.control.wait_closed(), 60)
+        assert lost.control.close_code == 4409
+        assert await back.ask("pause") == "ack"
+        await viewer.event("state-changed", lambda d: d["state"] == "paused")
+        assert [d["role"] for d in viewer.named("introspection")] == ["viewer"]
+        await back.close()
+        await viewer.close()
+
+
 async def test_a_session_that_nobody_comes_back_to_ends():
     async with manager(grace_s=0.3) as it:
         client = await SessionClient(it.port).open()

@@ -8,7 +8,8 @@ beforeEach(() => {
   vi.useFakeTimers();
   // jsdom lays nothing out: whatever is in the page counts as seen.
   Element.prototype.checkVisibility = () => true;
-  document.body.innerHTML = '<button>Run</button><div data-testid="canvas" data-tree="Main" tabindex="0"></div>';
+  document.body.innerHTML =
+    '<button>Run</button><div data-testid="canvas" data-tree="Main" tabindex="0"></div>';
 });
 
 afterEach(() => {

@@ -20,6 +20,8 @@ const STREAMING: readonly State[] = ['visualization_ready', 'application_running
 
 let socket: ControlSocket | null = null;
 let session: SessionInfo | null = null;
+/** Who this page is in its session: by it the manager knows a page that comes back. */
+let clientId: string | null = null;
 let attempt = 0;
 /** The end of the session before: until then the server would give it out once more. */
 let ending: Promise<unknown> = Promise.resolve();
@@ -102,6 +104,7 @@ function disconnect(): void {
   socket?.close();
   socket = null;
   session = null;
+  clientId = null;
   isStreaming = false;
   isWorldUp = false;
   streams.close();
@@ -110,12 +113,18 @@ function disconnect(): void {
   resetSession();
 }
 
+/** The address of a session's socket for this page. */
+function addressFor(path: string): string {
+  const query = clientId === null ? '' : `?client=${encodeURIComponent(clientId)}`;
+  return socketUrl(path) + query;
+}
+
 /** Resolves when the manager has introduced itself; rejects if the socket closes before. */
 function openSocket(info: SessionInfo): Promise<void> {
   socket?.close();
   return new Promise((resolve, reject) => {
     let isIntroduced = false;
-    const opened = new ControlSocket(socketUrl(info.control_url), {
+    const opened = new ControlSocket(addressFor(info.control_url), {
       onOpen: () => undefined,
       onMessage: (message) => {
         receive(message);
@@ -138,9 +147,10 @@ function openSocket(info: SessionInfo): Promise<void> {
 
 function onIntroduced(info: SessionInfo, introspection: Introspection): void {
   attempt = 0;
+  clientId = introspection.client_id;
   rememberRun(info.id);
   set({ connection: 'open', connectionMessage: '', sessionId: info.id });
-  streams.open(info.stream_url, introspection.client_id);
+  streams.open(addressFor(info.stream_url));
   followStreams(introspection.state);
   followTopics(introspection.state);
 }
@@ -241,6 +251,7 @@ function onEnded(): void {
   streams.close();
   socket = null;
   session = null;
+  clientId = null;
   resetTopics();
   resetSession({ connection: 'lost' });
 }

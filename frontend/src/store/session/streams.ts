@@ -1,5 +1,4 @@
 import { PROTOCOL, type StreamName, type Subscribe } from '@/generated/messages';
-import { socketUrl } from '@/api/http';
 import { frames } from './frames';
 import type { FromWorker, ToWorker } from './stream.worker';
 
@@ -26,8 +25,8 @@ class Streams {
   private send: SendSubscription | null = null;
   private url: string | null = null;
 
-  open(streamUrl: string, clientId: string): void {
-    this.url = `${socketUrl(streamUrl)}?client=${encodeURIComponent(clientId)}`;
+  open(url: string): void {
+    this.url = url;
     this.worker ??= this.startWorker();
     this.post({ open: this.url, protocol: PROTOCOL });
   }

@@ -11,6 +11,7 @@ from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
 from tests.e2e.server import wait_until
+from tests.e2e.view_by_hand import HALF_VIEW
 
 if TYPE_CHECKING:
     from playwright.sync_api import Locator
@@ -107,7 +108,7 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
     assert canvas
     x, y = canvas["x"] + canvas["width"] / 2, canvas["y"] + canvas["height"] / 2
     view.focus()
-    looks(view, "t")
+    looks_from_above(view)
     keys.press("w")
     expect(studio.at("draw-walls")).to_have_attribute("aria-pressed", "true")
     for corner in (x - 100, x + 100):
@@ -118,20 +119,26 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
     [length] = numbers(studio, "size-0")
     metres = (length - 0.15) / 200  # a pixel
 
+    start, end = (x + 80, y + 100), (x + 180, y + 100)  # beside the rock
     studio.at("place-box").drag_to(
-        view, target_position={"x": canvas["width"] / 2, "y": y + 100 - canvas["y"]}
+        view, target_position={"x": start[0] - canvas["x"], "y": start[1] - canvas["y"]}
     )
     expect(studio.at("thing-box")).to_have_attribute("aria-selected", "true")
     dropped = numbers(studio, "x", "y")
     view.focus()
     keys.press("Escape")
-    drag(studio, (x, y + 100), (x + 100, y + 100))
+    drag(studio, start, end)
     expect(studio.at("thing-box")).to_have_attribute("aria-selected", "true")
     carried = numbers(studio, "x", "y")
     # Its top, by which it is carried, is nearer to the eye than the floor.
     assert (carried[0], -100 * metres < carried[1] - dropped[1] < -50 * metres) == (dropped[0], True)
     assert [round(part * 10, 6) % 1 for part in carried] == [0, 0], "on the grid of 0.1 m"
 
+    eye_m = canvas["height"] / 2 * metres / HALF_VIEW
+    nearer = eye_m / (eye_m - 0.3)  # its middle, by which it is held, is as high over the floor
+    right, down = start[0] - x + (dropped[1] - carried[1]) / metres, start[1] - y
+    middle = (x + right * nearer, y + down * nearer)
+    a_box_is_stretched(studio, middle, HANDLE * canvas["height"])
     field(studio.at("thing-fields"), "field-size-0", "0.8")
     studio.at("thing-fields").get_by_role("textbox", name="Colour").fill("#ff8800")
     keys.press("Enter")
@@ -143,6 +150,35 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
     view.focus()
     keys.press("Control+z")
     expect(studio.at("thing-robot_2")).to_have_count(0)
+
+
+def a_box_is_stretched(studio: Studio, at: tuple[float, float], reach: float) -> None:
+    """By its handle along x, which is up as seen from above, to twice its length; a step back undoes it."""
+    keys, handle = studio.page.keyboard, (at[0], at[1] - reach)
+    before = numbers(studio, "x", "y", "size-0", "size-1", "size-2")
+    studio.at("universe-view").focus()
+    keys.press("s")
+    drag(studio, handle, (at[0], at[1] - 2 * reach))
+    x, y, *size = numbers(studio, "x", "y", "size-0", "size-1", "size-2")
+    assert 1.5 * before[2] < size[0] < 2.5 * before[2]
+    assert (x, y, *size[1:]) == (*before[:2], *before[3:]), "nothing else"
+    studio.picture("universe-stretched-light")
+    keys.press("Control+z")
+    assert numbers(studio, "size-0") == before[2:3]
+    keys.press("m")
+
+
+def looks_from_above(view: Locator) -> None:
+    """Again until nothing changes any more: meshes that arrive later are looked at, too."""
+
+    def is_settled() -> bool:
+        view.press("t")
+        before = view.screenshot()
+        view.page.wait_for_timeout(500)
+        view.press("t")
+        return view.screenshot() == before
+
+    wait_until(is_settled, "all of it is seen from above")
 
 
 def looks(view: Locator, key: str) -> None:

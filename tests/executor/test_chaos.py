@@ -72,9 +72,17 @@ class Storm:
         at = len(self.client.events)
         with contextlib.suppress(ProcessLookupError):
             os.kill(victim.pid, signal.SIGKILL)
+        await self.has_ended(victim.pid)
         if is_used and self.session.state.reaches(State.UNIVERSE_READY):
             # Whoever looks on is told what died, and of what.
             await self.client.event("fault", lambda d: "SIGKILL" in d["message"], after=at)
+
+    @staticmethod
+    async def has_ended(pid):
+        """Waits for a killed process: on a busy machine it lives on for a while."""
+        async with asyncio.timeout(60):
+            while pid in {process.pid for process in supervised()}:  # noqa: ASYNC110 - the process table
+                await asyncio.sleep(0.02)
 
     async def stall(self):
         living = supervised()

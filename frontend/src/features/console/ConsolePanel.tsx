@@ -42,7 +42,7 @@ export function ConsolePanel() {
 
   const size = rows.getTotalSize();
   const top = useRef(0);
-  const { isHeld, hold } = useHold();
+  const { isHeld, isScrolling, onHand } = useHand();
   useEffect(() => {
     const element = scroller.current;
     if (isFollowing && !isHeld && element) element.scrollTop = element.scrollHeight;
@@ -53,8 +53,8 @@ export function ConsolePanel() {
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
     const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
-    // Only who goes up wants to stay: lines that come or are measured, and a panel that shrinks, scroll too.
-    if (isAtEnd || scrollTop < top.current) setFollowing(isAtEnd);
+    // Only who goes up wants to stay: lines that are filtered or measured, and a panel that was hidden, scroll too.
+    if (isAtEnd || (scrollTop < top.current && isScrolling())) setFollowing(isAtEnd);
     top.current = scrollTop;
   };
 
@@ -109,7 +109,7 @@ export function ConsolePanel() {
         ref={scroller}
         className={classes['scroller']}
         onScroll={onScroll}
-        onPointerDown={hold}
+        {...onHand}
         role="log"
         aria-label={t('label')}
         // A region that scrolls has to be reachable by keyboard.
@@ -146,9 +146,16 @@ export function ConsolePanel() {
   );
 }
 
-/** Whether a finger or a button of the mouse is down: what it is on must not run away before it is up again. */
-function useHold() {
+/** So long after a wheel or a key the user's scrolling goes on. */
+const HAND_MS = 1000;
+
+/** What the user's hand does to the lines. */
+function useHand() {
   const [isHeld, setHeld] = useState(false);
+  const lastMove = useRef(-Infinity);
+  const move = () => {
+    lastMove.current = performance.now();
+  };
   const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
     // The click comes after it, and has to find what was pressed.
     const release = () => setTimeout(() => setHeld(false));
@@ -156,7 +163,13 @@ function useHold() {
     for (const end of ['pointerup', 'pointercancel'])
       ownerDocument.addEventListener(end, release, { once: true });
   };
-  return { isHeld, hold };
+  return {
+    /** A finger or a button of the mouse is down: what it is on must not run away before it is up again. */
+    isHeld,
+    /** It is the user who scrolls. */
+    isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,
+    onHand: { onPointerDown: hold, onWheel: move, onTouchMove: move, onKeyDown: move },
+  };
 }
 
 /** The sources to choose from, with each extra node of the run, and the chosen one also when it is gone. */

@@ -128,7 +128,11 @@ describe('ConsolePanel', () => {
     scroll(400, 500);
     scroll(410, 900);
     expect(toEnd()).toBeNull();
+    // Fewer lines after a search, or a panel that was hidden.
     scroll(300, 900);
+    expect(toEnd()).toBeNull();
+    fireEvent.wheel(scroller);
+    scroll(200, 900);
     expect(toEnd()).not.toBeNull();
     scroll(790, 900);
     expect(toEnd()).toBeNull();

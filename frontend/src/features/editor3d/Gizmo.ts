@@ -93,6 +93,8 @@ export class Gizmo {
     this.controls.setTranslationSnap(grid || null);
     this.controls.setRotationSnap(grid ? TURN_STEP : null);
     this.controls.attach(this.pivot);
+    // What can be grasped is where it will be drawn, also before it is.
+    this.controls.getHelper().updateMatrixWorld(true);
   }
 
   /** Puts everything back while it is held; tells whether it was. */

@@ -1,0 +1,59 @@
+import { afterAll, beforeAll, beforeEach, expect, it, vi } from 'vitest';
+import type { NodeStatus, ServerMessage } from '@/generated/messages';
+import { useLiveStore } from '@/store/project/live';
+import { feedLive, showDueStatuses } from './liveFeed';
+import { setStatusRate } from './statusRate';
+
+const NODE = { uid: 1, parent: 0, type: 'Go', kind: 'Action', name: 'Go', path: 'Go' };
+
+function hear(command: ServerMessage['command'], data: unknown): void {
+  feedLive({ id: 'e1', command, data, seq: 1, t: 0 } as ServerMessage);
+  showDueStatuses();
+}
+
+const tick = (status: NodeStatus): void =>
+  hear('tick', { n: 1, changed: [[1, status]], flashed: [], duration_ms: 1 });
+const shown = (): NodeStatus | undefined => useLiveStore.getState().statuses.get('Main/n1');
+
+beforeAll(() => {
+  vi.useFakeTimers();
+});
+
+beforeEach(() => {
+  setStatusRate(0);
+  // Long after whatever was shown before.
+  vi.advanceTimersByTime(10_000);
+  hear('tree', { nodes: [{ ...NODE, tree_id: 'Main', node_id: 'n1' }] });
+});
+
+afterAll(() => {
+  vi.useRealTimers();
+});
+
+it('shows every status where no rate is set', () => {
+  for (const status of ['RUNNING', 'SUCCESS', 'FAILURE'] as const) {
+    tick(status);
+    expect(shown()).toBe(status);
+  }
+});
+
+it('shows statuses twice a second where the user wants no more, and then the latest', () => {
+  setStatusRate(2);
+  tick('RUNNING');
+  expect(shown()).toBe('RUNNING');
+  vi.advanceTimersByTime(100);
+  tick('SUCCESS');
+  tick('FAILURE');
+  vi.advanceTimersByTime(390);
+  expect(shown()).toBe('RUNNING');
+  vi.advanceTimersByTime(20);
+  expect(shown()).toBe('FAILURE');
+});
+
+it('shows at once how a stopped tree ends, whatever the rate', () => {
+  setStatusRate(2);
+  tick('RUNNING');
+  tick('SUCCESS');
+  hear('state-changed', { state: 'paused' });
+  expect(shown()).toBe('SUCCESS');
+});

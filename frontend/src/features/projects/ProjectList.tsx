@@ -89,7 +89,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
       {isPending && !error ? (
         <div className={classes['grid']} aria-hidden="true">
           {[1, 2, 3].map((key) => (
-            <Skeleton key={key} height={206} radius="lg" />
+            <Skeleton key={key} height={194} radius="lg" />
           ))}
         </div>
       ) : null}

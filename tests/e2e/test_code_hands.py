@@ -10,7 +10,6 @@ from playwright.sync_api import expect
 
 from tests.e2e.accessibility import expect_accessible
 from tests.e2e.canvas_by_hand import block
-from tests.e2e.server import wait_until
 from tests.e2e.studio import Studio
 from tests.e2e.test_code import expect_help, line, spot
 
@@ -360,12 +359,12 @@ def a_piece_is_text(studio: Studio) -> None:
     keys.press("Control+a")
     keys.press("Control+c")
     tab(studio, "MainTree").click()
-    wait_until(lambda: takes_keys(studio, "ReactiveSequence"), "the canvas has the focus")
+    block(studio, "ReactiveSequence").click()
     keys.press("Control+v")
     expect(block(studio, "Sleep")).to_be_visible()
     studio.at("undo").click()
     expect(block(studio, "Sleep")).to_have_count(0)
-    wait_until(lambda: takes_keys(studio, "Inverter"), "the canvas has the focus")
+    block(studio, "Inverter").click()
     keys.press("Control+c")
     open_editor(studio, "assets/piece.xml")
     keys.press("Control+a")
@@ -374,14 +373,6 @@ def a_piece_is_text(studio: Studio) -> None:
     expect(line(studio, "<CheckObstacle")).to_be_visible()
     studio.saved()
     tab(studio, "MainTree").click()
-
-
-def takes_keys(studio: Studio, type_: str) -> bool:
-    """Presses a block; whether keys go to the canvas a moment later: a tab that comes forward takes them."""
-    block(studio, type_).click()
-    studio.page.wait_for_timeout(300)
-    within = "document.activeElement?.closest('[data-testid=canvas]') !== null"
-    return bool(studio.page.evaluate(within))
 
 
 def choose_source(studio: Studio, name: str) -> None:

@@ -14,7 +14,6 @@ import { Announcer } from './Announcer';
 import { Block } from './block/Block';
 import { Breadcrumbs } from './Breadcrumbs';
 import { CanvasToolbar } from './CanvasToolbar';
-import { clipboardHandlers } from './clipboardHandlers';
 import { BlockMenu, type MenuPoint } from './BlockMenu';
 import { Dots } from './Dots';
 import { EmptyTree } from './EmptyTree';
@@ -185,7 +184,6 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
       onMouseDown={(event) => {
         if (isTool(event.target as HTMLElement)) event.preventDefault();
       }}
-      {...clipboardHandlers}
       onDragOver={palette.onDragOver}
       onDragLeave={palette.onDragLeave}
       onDrop={palette.onDrop}

@@ -17,7 +17,9 @@ import { setLayout, tidy } from '@/model/edits';
 import { activeDiagram, change } from '@/store/project/commands';
 import { isMinimapShown, setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { blockActions, isOnCanvas, isTreeInFront } from './blockActions';
+import { blockActions } from './blockActions';
+import { followClipboard } from './clipboard';
+import { isOnCanvas, isTreeInFront } from './inFront';
 import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from './views';
 
 const state = () => useProjectStore.getState();
@@ -159,7 +161,8 @@ const views: readonly UserAction[] = [
   },
 ];
 
-/** Adds the editor's commands to the table; the returned function takes them out again. */
+/** Adds the editor's commands to the table, and the clipboard's; the returned function takes them out again. */
 export function registerCanvasActions(): () => void {
-  return registerActions([...rows, ...blockActions, ...views]);
+  const ends = [registerActions([...rows, ...blockActions, ...views]), followClipboard()];
+  return () => ends.forEach((end) => end());
 }

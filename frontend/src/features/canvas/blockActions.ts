@@ -33,7 +33,8 @@ import { setEditor, useEditorStore } from '@/store/project/editor';
 import { extractSelection, inlineSelection } from '@/store/project/subtrees';
 import { useProjectStore } from '@/store/project';
 import { editSelected, firstSelected, openBlock, toggleFolded, toggleInside } from './blockCommands';
-import { pasteHere } from './clipboardHandlers';
+import { pasteHere } from './clipboard';
+import { isOnCanvas, isTreeInFront } from './inFront';
 import { openQuickAddHere } from './quickAdd/open';
 
 /** What can be done with a block: a row of the table of actions that the menu of a block has, too. */
@@ -55,16 +56,8 @@ const isExtractable = () => childCount() > 0 || state().selection.length > 1;
 const isLookedInside = () =>
   useEditorStore.getState().expanded[state().activeTree ?? '']?.has(firstSelected() ?? '') === true;
 
-/** Keys for blocks count only while the canvas has the focus: elsewhere they belong to text. */
-export const isOnCanvas = () => document.activeElement?.closest('[data-testid="canvas"]') !== null;
 const hasSelection = () => state().selection.length > 0;
 const selectedOnCanvas = () => isOnCanvas() && hasSelection();
-
-/** Whether the tree itself is to be seen, and not a text in its place. */
-export const isTreeInFront = () =>
-  document
-    .querySelector(`[data-testid="canvas"][data-tree="${CSS.escape(state().activeTree ?? '')}"]`)
-    ?.checkVisibility() === true;
 const selectedInFront = () => hasSelection() && isTreeInFront();
 
 const always = (words: string) => () => words;

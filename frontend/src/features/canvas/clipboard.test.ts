@@ -1,0 +1,72 @@
+import { afterEach, beforeEach, expect, it } from 'vitest';
+import '@/i18n';
+import { emptyDiagram, type Diagram } from '@/model/diagram';
+import { useProjectStore } from '@/store/project';
+import { followClipboard } from './clipboard';
+
+const main: Diagram = {
+  ...emptyDiagram('Main'),
+  root: 'r',
+  nodes: { r: { type: 'Sequence', children: [] } },
+};
+const types = (): string[] =>
+  Object.values(useProjectStore.getState().diagrams['Main']?.nodes ?? {}).map(({ type }) => type);
+
+const words = (): Element => document.querySelector('p')!;
+
+let unfollow: () => void;
+
+beforeEach(() => {
+  // jsdom lays nothing out: whatever is in the page counts as seen.
+  Element.prototype.checkVisibility = () => true;
+  document.body.innerHTML =
+    '<div data-testid="canvas" data-tree="Main" tabindex="0"><input /></div><p>words</p>';
+  useProjectStore.getState().close();
+  useProjectStore.getState().addFile('trees/Main.json', JSON.stringify(main));
+  useProjectStore.getState().setActiveTree('Main');
+  useProjectStore.getState().select('Main', ['r']);
+  unfollow = followClipboard();
+});
+
+afterEach(() => {
+  unfollow();
+  document.body.innerHTML = '';
+});
+
+/** What the browser says at Ctrl+C, X or V; answers whether somebody took it, and the text it holds then. */
+function clipboard(type: 'copy' | 'cut' | 'paste', text = '', target: Element = document.body) {
+  let held = text;
+  const clipboardData = { getData: () => held, setData: (_: string, value: string) => void (held = value) };
+  const event = Object.assign(new Event(type, { bubbles: true, cancelable: true }), { clipboardData });
+  target.dispatchEvent(event);
+  return { isTaken: event.defaultPrevented, text: held };
+}
+
+it('is for the blocks while the canvas has the focus, wherever the caret was left', () => {
+  document.querySelector<HTMLElement>('[data-testid="canvas"]')?.focus();
+  const { text } = clipboard('copy', '', words());
+  expect(text).toContain('<Sequence');
+  expect(clipboard('paste', '<Sleep msec="5"/>', words()).isTaken).toBe(true);
+  expect(types()).toContain('Sleep');
+  useProjectStore.getState().select('Main', ['r']);
+  clipboard('cut', '', words());
+  expect(types()).not.toContain('Sequence');
+});
+
+it('is for the tree in front where nothing has the focus and no words are marked', () => {
+  expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(true);
+  expect(types()).toContain('Sleep');
+  expect(clipboard('copy', '', words()).isTaken).toBe(false);
+});
+
+it('is for the text of a field of the canvas', () => {
+  const field = document.querySelector('input')!;
+  field.focus();
+  expect(clipboard('paste', '<Sleep msec="5"/>', field).isTaken).toBe(false);
+});
+
+it('leaves everything alone while another document is in front', () => {
+  document.querySelector('[data-testid="canvas"]')?.remove();
+  expect(clipboard('paste', '<Sleep msec="5"/>').isTaken).toBe(false);
+  expect(types()).toEqual(['Sequence']);
+});

@@ -1,0 +1,12 @@
+import { useProjectStore } from '@/store/project';
+
+/** Keys for blocks count only while the canvas has the focus: elsewhere they belong to text. */
+export const isOnCanvas = (): boolean => document.activeElement?.closest('[data-testid="canvas"]') !== null;
+
+/** Whether the tree itself is to be seen, and not a text in its place. */
+export const isTreeInFront = (): boolean =>
+  document
+    .querySelector(
+      `[data-testid="canvas"][data-tree="${CSS.escape(useProjectStore.getState().activeTree ?? '')}"]`,
+    )
+    ?.checkVisibility() === true;

@@ -344,6 +344,7 @@ def paste(studio: Studio, text: str) -> None:
             const clipboardData = new DataTransfer();
             clipboardData.setData('text/plain', text);
             const how = {clipboardData, bubbles: true, cancelable: true};
+            canvas.focus();
             canvas.dispatchEvent(new ClipboardEvent('paste', how));
         }""",
         text,

@@ -8,7 +8,7 @@ import {
   type TabNode,
 } from 'flexlayout-react';
 import { IconChevronsDown, IconFileCode, IconFileText, IconGitFork, IconHistory } from '@tabler/icons-react';
-import { useEffect, useMemo, useRef } from 'react';
+import { useCallback, useEffect, useMemo, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import 'flexlayout-react/style/light.css';
 import './dock.css';
@@ -19,6 +19,8 @@ import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts } from './popouts';
 import { documentOf, followFront, keepOpen, useTabs } from './tabs';
+
+const KEEP_AFTER_MS = 300;
 
 interface DockProps {
   readonly model: Model;
@@ -74,22 +76,45 @@ function translated(key: string): string {
   return isOurs && translates(`frame:${word}`) ? t(`frame:${word}`) : word;
 }
 
+/** Does the last of many things a moment later, or at once when the page goes; nothing once the panels are gone. */
+function useLater(): (act: () => void) => void {
+  const waiting = useRef<{ act: () => void; timer: ReturnType<typeof setTimeout> } | null>(null);
+  const cancel = useCallback(() => {
+    clearTimeout(waiting.current?.timer);
+    waiting.current = null;
+  }, []);
+  const flush = useCallback(() => {
+    const act = waiting.current?.act;
+    cancel();
+    act?.();
+  }, [cancel]);
+  useEffect(() => {
+    window.addEventListener('pagehide', flush);
+    return () => {
+      window.removeEventListener('pagehide', flush);
+      cancel();
+    };
+  }, [flush, cancel]);
+  return (act) => {
+    cancel();
+    waiting.current = { act, timer: setTimeout(flush, KEEP_AFTER_MS) };
+  };
+}
+
 /** The panels, docked as the user likes them. */
 export function Dock({ model, width }: DockProps) {
   useTranslation('frame');
-  const keeping = useRef<ReturnType<typeof setTimeout>>(undefined);
-  useEffect(() => () => clearTimeout(keeping.current), []);
+  const keepSoon = useLater();
 
   const popouts = useMemo(() => new Popouts(model), [model]);
 
   const onModelChange = (changed: Model, _action: Action) => {
     followFront(changed);
-    clearTimeout(keeping.current);
-    keeping.current = setTimeout(() => {
-      const { projectId } = useProjectStore.getState();
+    const { projectId } = useProjectStore.getState();
+    keepSoon(() => {
       keepLayout(width, changed);
       if (projectId) keepOpen(projectId, changed);
-    }, 300);
+    });
   };
 
   return (

@@ -10,10 +10,18 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from pathlib import Path
 
-__all__ = ["is_abandoned"]
+__all__ = ["is_abandoned", "is_young"]
 
 # An owner needs a moment from creating the file to locking it.
 YOUNGEST_S: Final = 1.0
+
+
+def is_young(file: Path) -> bool:
+    """Whether a file was made just now, or is gone."""
+    try:
+        return _is_recent(file.stat(follow_symlinks=False))
+    except OSError:
+        return True
 
 
 def is_abandoned(lock: Path) -> bool:
@@ -23,7 +31,7 @@ def is_abandoned(lock: Path) -> bool:
     except OSError:
         return False
     try:
-        if os.fstat(descriptor).st_mtime > time.time() - YOUNGEST_S:
+        if _is_recent(os.fstat(descriptor)):
             return False
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -31,3 +39,7 @@ def is_abandoned(lock: Path) -> bool:
     finally:
         os.close(descriptor)
     return True
+
+
+def _is_recent(status: os.stat_result) -> bool:
+    return status.st_mtime > time.time() - YOUNGEST_S

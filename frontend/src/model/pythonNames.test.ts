@@ -22,6 +22,8 @@ describe('importsName', () => {
     ['from Turn import Turn', true],
     ['    from actions import Go, Turn', true],
     ['import actions.Turn', true],
+    ['from actions import (\n    Go,\n    Turn,\n)', true],
+    ['from actions import (\n    Go,\n)\nTurn()', false],
     ['import TurnLeft  # Turn', false],
     ['Turn = 1', false],
   ])('%s: %s', (source, expected) => {

@@ -28,8 +28,10 @@ export function withName(source: string, from: string, to: string): string {
     });
 }
 
-/** Whether a source imports something of that name. */
-export const importsName = (source: string, name: string): boolean =>
-  new RegExp(String.raw`^\s*(?:from|import)\s[^\n#]*(?<![\p{L}\p{N}_])${name}(?![\p{L}\p{N}_])`, 'mu').test(
-    source,
-  );
+/** Whether a source imports something of that name, on one line or in parentheses over several. */
+export function importsName(source: string, name: string): boolean {
+  const asWord = String.raw`(?<![\p{L}\p{N}_])${name}(?![\p{L}\p{N}_])`;
+  const onLine = String.raw`^[ \t]*(?:from|import)\s[^\n#]*${asWord}`;
+  const inParentheses = String.raw`^[ \t]*from\s[^\n#(]*\([^)]*${asWord}`;
+  return new RegExp(`${onLine}|${inParentheses}`, 'mu').test(source);
+}

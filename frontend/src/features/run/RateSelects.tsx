@@ -6,10 +6,8 @@ import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
-import { SPEEDS, TICK_RATES } from './rates';
+import { DEFAULT_TICK_HZ, SPEEDS, TICK_RATES } from './rates';
 import classes from './run.module.css';
-
-const DEFAULT_TICK_HZ = 20;
 
 interface RateSelectProps {
   readonly label: string;

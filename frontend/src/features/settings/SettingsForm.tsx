@@ -2,13 +2,12 @@ import { Button, Group, Radio, Select, Stack, Textarea, TextInput } from '@manti
 import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectSettings } from '@/api/types';
-import { TICK_RATES } from '@/features/run/rates';
+import { DEFAULT_TICK_HZ, TICK_RATES } from '@/features/run/rates';
 import { useProjectStore } from '@/store/project';
 import { setTickRate } from '@/store/run/commands';
 import { projectNameProblem } from './names';
 import { closeSettings } from './settingsDialog';
 
-const DEFAULT_TICK_HZ = 20;
 const FINISHES = ['stop', 'repeat'] as const;
 const ERRORS = ['stop', 'failure'] as const;
 

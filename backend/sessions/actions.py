@@ -11,7 +11,7 @@ from contextlib import suppress
 from datetime import timedelta
 from functools import lru_cache
 from threading import Lock
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from django.conf import settings
 from django.db import IntegrityError, connection, transaction
@@ -151,6 +151,8 @@ def end_session(session: Session, why: str = "") -> Session:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
         launch.result()
+    # It may have started since it was looked up.
+    with suppress(Session.DoesNotExist):
         session.refresh_from_db()
     if session.launcher_state:
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
@@ -261,8 +263,7 @@ def _launch(session: Session) -> None:
     except HostFullError as error:
         # The host knows better than our count. The session keeps its turn.
         log.info("session %s waits: %s", session.id, error.detail)
-        session.state, session.ros_domain_id = SessionState.QUEUED, None
-        session.save(update_fields=["state", "ros_domain_id"])
+        _note_launch(session, state=SessionState.QUEUED, ros_domain_id=None)
     except LaunchError as error:
         log.warning("session %s: %s", session.id, error.detail)
         _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
@@ -270,13 +271,18 @@ def _launch(session: Session) -> None:
         log.exception("session %s", session.id)
         _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
     else:
-        session.address, session.launcher_state = started.address, started.state
-        session.state, session.used_at = SessionState.READY, timezone.now()
-        session.save(update_fields=["address", "launcher_state", "state", "used_at"])
+        ready = {"state": SessionState.READY, "used_at": timezone.now()}
+        if not _note_launch(session, address=started.address, launcher_state=started.state, **ready):
+            launcher().stop(started.state, timeout_s=limits.session_stop_timeout_s)
     finally:
         with _launches_lock:
             _launches.pop(session.id, None)
         connection.close()
+
+
+def _note_launch(session: Session, **fields: Any) -> bool:
+    """Writes down how a start went; False when another web server has ended the session meanwhile."""
+    return Session.objects.filter(id=session.id, state=SessionState.STARTING).update(**fields) == 1
 
 
 def _finish(session: Session, state: SessionState, error: str = "") -> None:

@@ -48,6 +48,26 @@ def test_a_session_can_be_ended_while_it_starts(api, project, fake_manager):
     assert psutil.Process().children(recursive=True) == []
 
 
+def test_a_session_can_be_ended_by_who_saw_it_start(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    seen = Session.objects.get()
+    seen.state, seen.launcher_state = SessionState.STARTING, {}
+    actions.end_session(seen)
+    assert Session.objects.get().state == "ended"
+    assert psutil.Process().children(recursive=True) == []
+
+
+def test_a_session_that_another_server_ended_while_it_started_stays_ended(api, project, fake_manager):
+    fake_manager("slow")
+    started = api.post(f"projects/{project['id']}/session")
+    Session.objects.update(state=SessionState.ENDED)
+    launched(started["id"])
+    assert Session.objects.get().state == "ended"
+    assert psutil.Process().children(recursive=True) == []
+
+
 def test_a_failed_start_says_why_and_another_may_follow(api, project, fake_manager):
     fake_manager("failing")
     started = api.post(f"projects/{project['id']}/session")

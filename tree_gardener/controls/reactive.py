@@ -1,13 +1,40 @@
 """ReactiveSequence and ReactiveFallback."""
 
+from typing import ClassVar
+
 from tree_gardener.node import Control
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 
 
 class _Reactive(Control):
-    """Ticks its children from the first at every tick."""
+    """Ticks its children from the first at every tick.
+
+    It goes on after one that returned `GOES_ON`, and ends at one that returned `ENDS`. A SKIPPED child is
+    halted at once; if all were skipped in this tick, it is SKIPPED, else `GOES_ON`.
+    """
 
     __slots__ = ()
+    GOES_ON: ClassVar[Status]
+    ENDS: ClassVar[Status]
+
+    def execute(self) -> Status:
+        if self.status is not RUNNING:
+            self.status = RUNNING
+            if self.journal is not None:
+                self.journal.touched.append(self)
+        goes_on, ends = self.GOES_ON, self.ENDS
+        all_skipped = True
+        for index, tick in enumerate(self.ticks):
+            status = tick()
+            if status is goes_on:
+                all_skipped = False
+            elif status is RUNNING:
+                return self.running_at(index)
+            elif status is ends:
+                return self.finish(ends)
+            else:
+                self.reset_child(index)
+        return self.finish_skipped() if all_skipped else self.finish(goes_on)
 
     def running_at(self, index: int) -> Status:
         """A child is RUNNING: all others are halted, the earlier ones too, so that they start afresh."""
@@ -30,24 +57,8 @@ class ReactiveSequence(_Reactive):
     """
 
     __slots__ = ()
-
-    def execute(self) -> Status:
-        if self.status is not RUNNING:
-            self.status = RUNNING
-            if self.journal is not None:
-                self.journal.touched.append(self)
-        all_skipped = True
-        for index, tick in enumerate(self.ticks):
-            status = tick()
-            if status is SUCCESS:
-                all_skipped = False
-            elif status is RUNNING:
-                return self.running_at(index)
-            elif status is FAILURE:
-                return self.finish(FAILURE)
-            else:
-                self.reset_child(index)
-        return self.finish_skipped() if all_skipped else self.finish(SUCCESS)
+    GOES_ON = SUCCESS
+    ENDS = FAILURE
 
 
 class ReactiveFallback(_Reactive):
@@ -59,21 +70,5 @@ class ReactiveFallback(_Reactive):
     """
 
     __slots__ = ()
-
-    def execute(self) -> Status:
-        if self.status is not RUNNING:
-            self.status = RUNNING
-            if self.journal is not None:
-                self.journal.touched.append(self)
-        all_skipped = True
-        for index, tick in enumerate(self.ticks):
-            status = tick()
-            if status is FAILURE:
-                all_skipped = False
-            elif status is RUNNING:
-                return self.running_at(index)
-            elif status is SUCCESS:
-                return self.finish(SUCCESS)
-            else:
-                self.reset_child(index)
-        return self.finish_skipped() if all_skipped else self.finish(FAILURE)
+    GOES_ON = FAILURE
+    ENDS = SUCCESS

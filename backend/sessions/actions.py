@@ -141,7 +141,9 @@ def refresh(session: Session) -> Session:
             launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
             why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
             died = f"The executor ended by itself (status {status}).{why}" if status else ""
-            _finish(session, SessionState.FAILED if died else SessionState.ENDED, died)
+            state = SessionState.FAILED if died else SessionState.ENDED
+            if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
+                _look_again(session)  # it did not end by itself: somebody ended it
     return session
 
 
@@ -151,9 +153,7 @@ def end_session(session: Session, why: str = "") -> Session:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
         launch.result()
-    # It may have started since it was looked up.
-    with suppress(Session.DoesNotExist):
-        session.refresh_from_db()
+    _look_again(session)  # it may have started since it was looked up
     if session.launcher_state:
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
     if session.state in LIVE_STATES:
@@ -263,7 +263,7 @@ def _launch(session: Session) -> None:
     except HostFullError as error:
         # The host knows better than our count. The session keeps its turn.
         log.info("session %s waits: %s", session.id, error.detail)
-        _note_launch(session, state=SessionState.QUEUED, ros_domain_id=None)
+        _moved(session, SessionState.STARTING, state=SessionState.QUEUED, ros_domain_id=None)
     except LaunchError as error:
         log.warning("session %s: %s", session.id, error.detail)
         _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
@@ -271,8 +271,9 @@ def _launch(session: Session) -> None:
         log.exception("session %s", session.id)
         _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
     else:
-        ready = {"state": SessionState.READY, "used_at": timezone.now()}
-        if not _note_launch(session, address=started.address, launcher_state=started.state, **ready):
+        where = {"address": started.address, "launcher_state": started.state}
+        ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
+        if not _moved(session, SessionState.STARTING, **ready):
             launcher().stop(started.state, timeout_s=limits.session_stop_timeout_s)
     finally:
         with _launches_lock:
@@ -280,9 +281,18 @@ def _launch(session: Session) -> None:
         connection.close()
 
 
-def _note_launch(session: Session, **fields: Any) -> bool:
-    """Writes down how a start went; False when another web server has ended the session meanwhile."""
-    return Session.objects.filter(id=session.id, state=SessionState.STARTING).update(**fields) == 1
+def _look_again(session: Session) -> None:
+    with suppress(Session.DoesNotExist):  # it has gone with its project or user
+        session.refresh_from_db()
+
+
+def _moved(session: Session, before: SessionState, **fields: Any) -> bool:
+    """Changes a session that is still in the state `before`; False when somebody has ended it meanwhile."""
+    if Session.objects.filter(id=session.id, state=before).update(**fields) == 0:
+        return False
+    for name, value in fields.items():
+        setattr(session, name, value)
+    return True
 
 
 def _finish(session: Session, state: SessionState, error: str = "") -> None:

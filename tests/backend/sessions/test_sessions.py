@@ -95,6 +95,16 @@ def test_an_executor_that_dies_fails_its_session(api, project, fake_manager):
     api.delete(f"sessions/{again['id']}")
 
 
+def test_an_executor_that_was_ended_did_not_die_by_itself(api, project, fake_manager):
+    fake_manager("echo")
+    started = api.post(f"projects/{project['id']}/session")
+    launched(started["id"])
+    seen = Session.objects.get()
+    api.delete(f"sessions/{started['id']}")
+    assert actions.refresh(seen).state == "ended"
+    assert Session.objects.get().error == ""
+
+
 def test_deleting_a_project_ends_its_session(api, project, fake_manager):
     fake_manager("echo")
     started = api.post(f"projects/{project['id']}/session")

@@ -16,6 +16,7 @@ interface Words {
 
 interface CopyFormProps {
   readonly items: readonly UniverseInfo[];
+  /** What is chosen at first, and shown first: it is to be seen without scrolling. */
   readonly first: string;
   /** Ids that are taken, in small letters. */
   readonly taken: ReadonlySet<string>;
@@ -50,6 +51,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
     error: null,
   });
   const shown = name ?? freeName(`my_${base === 'template' ? 'robot' : base}`, taken);
+  const ordered = [...items].sort((a, b) => Number(b.id === first) - Number(a.id === first));
   const problem = !ID.test(shown) ? t('problem.name') : taken.has(shown.toLowerCase()) ? words.taken : null;
 
   const submit = (event: FormEvent) => {
@@ -63,7 +65,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
     <form onSubmit={submit}>
       <Stack gap="md" data-testid={`${testId}-form`}>
         <Text size="sm">{words.hint}</Text>
-        <ChoiceCards label={t('copy.base')} items={items} chosen={base} onChoose={setBase} />
+        <ChoiceCards label={t('copy.base')} items={ordered} chosen={base} onChoose={setBase} />
         <Stack gap="sm" className={universe['decision'] ?? ''}>
           <TextInput
             data-autofocus

@@ -1,16 +1,13 @@
 import { MantineProvider } from '@mantine/core';
-import { QueryClient, QueryClientProvider } from '@tanstack/react-query';
+import { QueryClientProvider } from '@tanstack/react-query';
 import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
+import { queries } from './api/queries';
 import { t } from './i18n';
 import './ui/global.css';
 import { stylesArrive } from '@/ui/parts';
 import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { App } from './App';
-
-const queries = new QueryClient({
-  defaultOptions: { queries: { retry: 1, refetchOnWindowFocus: true, staleTime: 2000 } },
-});
 
 /** A page without its style is none: it is waited for, and missed in words that need no style. */
 async function start(root: HTMLElement): Promise<void> {

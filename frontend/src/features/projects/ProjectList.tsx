@@ -33,14 +33,13 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
   const [sort, setSort] = useState<ProjectSort>('-updated_at');
   const [wanted] = useDebouncedValue(search.trim(), 200);
   const [shelf, setShelf] = useState<ProjectShelf>('current');
-  const { data, error, isPending, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = useProjects(
-    wanted,
-    sort,
-    shelf,
-  );
+  const found = useProjects(wanted, sort, shelf);
+  const { data, error, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = found;
   const projects = data?.pages.flatMap((page) => page.items) ?? [];
   const total = data?.pages[0]?.total ?? 0;
-  const isEmpty = data !== undefined && projects.length === 0;
+  // That there were none when one looked before says nothing.
+  const isKnown = found.isFetchedAfterMount || found.isPlaceholderData;
+  const isEmpty = isKnown && data !== undefined && projects.length === 0;
 
   return (
     <section aria-labelledby="projects-heading">
@@ -86,7 +85,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
           </Button>
         </Alert>
       ) : null}
-      {isPending && !error ? (
+      {!isKnown && !error && projects.length === 0 ? (
         <div className={classes['grid']} aria-hidden="true">
           {[1, 2, 3].map((key) => (
             <Skeleton key={key} height={194} radius="lg" />

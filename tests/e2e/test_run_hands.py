@@ -314,6 +314,7 @@ def the_console_leads_to_block_and_line(studio: Studio) -> None:
     expect(code).to_have_attribute("data-path", "actions/Work.py")
     console.get_by_role("button", name="worker").first.click()
     expect(studio.at("inspector")).to_have_attribute("aria-label", "worker")
+    console.get_by_role("searchbox").click()  # as a hand goes there: the canvas, which was shown, lets go
     console.get_by_role("searchbox").fill("")
     console.get_by_role("combobox", name="Level").select_option("error")
     expect(lines).to_contain_text("take care")

@@ -4,6 +4,7 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { findNodes } from '@/model/find';
 import { setEditor } from '@/store/project/editor';
+import { letGoOfDocument } from '@/features/frame/focus';
 import { useProjectStore } from '@/store/project';
 import classes from './Canvas.module.css';
 
@@ -17,6 +18,7 @@ export function FindBar({ treeId, onClose }: FindBarProps) {
   const { t } = useTranslation('canvas');
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => {
+    letGoOfDocument();
     field.current?.focus();
   }, []);
   const [text, setText] = useState('');

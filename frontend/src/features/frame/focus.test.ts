@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, it, vi } from 'vitest';
-import { focusDocument } from './focus';
+import { focusDocument, focusInspector, letGoOfDocument } from './focus';
 
 const canvas = (): HTMLElement => document.querySelector('[data-testid="canvas"]')!;
 const button = (): HTMLElement => document.querySelector('button')!;
@@ -59,4 +59,22 @@ it('leaves the focus alone once it has settled', () => {
   button().focus();
   vi.advanceTimersByTime(1000);
   expect(document.activeElement).toBe(button());
+});
+
+it('gives way to what is opened by a key right after', () => {
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(50);
+  letGoOfDocument();
+  button().focus();
+  vi.advanceTimersByTime(1000);
+  expect(document.activeElement).toBe(button());
+});
+
+it('gives way to the fields of the block, too', () => {
+  document.body.insertAdjacentHTML('beforeend', '<div data-testid="inspector"><input /></div>');
+  focusDocument({ kind: 'tree', id: 'Main' });
+  vi.advanceTimersByTime(50);
+  focusInspector();
+  vi.advanceTimersByTime(1000);
+  expect(document.activeElement).toBe(document.querySelector('input'));
 });

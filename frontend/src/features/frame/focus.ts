@@ -52,8 +52,14 @@ function abortOnceChosen(request: AbortController): void {
   window.addEventListener('keydown', ({ key }) => key === 'Tab' && request.abort(), listen);
 }
 
+/** Lets whatever asks for the keyboard next have it, although a document was just opened. */
+export function letGoOfDocument(): void {
+  pending.abort();
+}
+
 /** The first field of the selected block's properties, or the panel itself. */
 export function focusInspector(): void {
+  letGoOfDocument();
   const panel = document.querySelector<HTMLElement>('[data-testid="inspector"]');
   const field =
     panel?.querySelector<HTMLElement>('[data-testid^="port-"]') ??

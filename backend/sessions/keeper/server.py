@@ -72,11 +72,11 @@ class _Handler(BaseHTTPRequestHandler):
         return 200, keeper.look(self._session_id())
 
     def _post(self) -> tuple[int, object]:
+        body = self._body()
         if self.path == "/tools":
-            return self._post_tools(self._body())
+            return self._post_tools(body)
         if self.path != "/sessions":
             raise KeeperError(404, "not_found", "There is no such address.")
-        body = self._body()
         domain_id: Any = body.get("domain_id")
         is_valid = (
             type(domain_id) is int

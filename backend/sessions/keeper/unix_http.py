@@ -5,6 +5,7 @@ from __future__ import annotations
 import http.client
 import json
 import socket
+from contextlib import suppress
 from typing import Any
 
 
@@ -36,7 +37,8 @@ def ask(
     try:
         data = None if body is None else json.dumps(body).encode()
         headers = {} if body is None else {"Content-Type": "application/json"}
-        connection.request(method, target, data, headers)
+        with suppress(BrokenPipeError):  # who refuses a request may answer before all of it is read
+            connection.request(method, target, data, headers)
         response = connection.getresponse()
         return response.status, response.read()
     finally:

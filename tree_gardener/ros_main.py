@@ -4,6 +4,7 @@ import contextlib
 import hashlib
 import importlib
 import pathlib
+import re
 import signal
 import sys
 import threading
@@ -12,8 +13,15 @@ from typing import TYPE_CHECKING, Any
 from lxml import etree
 
 from tree_gardener.actions import load_actions
-from tree_gardener.errors import LoadError
+from tree_gardener.errors import LoadError, TickError
 from tree_gardener.ros import RosClock, RosRunner
+from tree_gardener.ros_parameters import (
+    ParameterError,
+    RunParameters,
+    declare_parameters,
+    read_arguments,
+    sim_time_problem,
+)
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
 
@@ -44,53 +52,91 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
 ) -> int:
     """Ticks a tree by ROS time until it ends, or the process is asked to.
 
-    The node has the parameters ``tick_hz`` and ``tree`` (path of the file), and ROS 2's own ``use_sim_time``.
+    The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish`` and ``on_error``, and
+    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; ``tick_hz:=5.0`` and the
+    like on the command line go before all.
 
     Args:
         tree_file: the document; a self-contained one brings the sources of its actions.
         node_name: the name of the node.
         actions: a folder of sources, which go before those in the document.
-        tick_hz: ticks a second, unless the parameter says otherwise.
+        tick_hz: ticks a second.
         on_finish: ``stop`` or ``repeat``, as `Runner` has it.
         on_error: ``stop`` or ``failure``, as `Runner` has it.
-        args: the command line for rclpy; that of the process if None.
+        args: the command line; that of the process, without the program, if None.
 
     Returns:
         The exit status: 0 when the tree ended or was stopped, 1 after an error.
     """
     import rclpy  # noqa: PLC0415 - the engine works without ROS
+    from rclpy.logging import get_logger  # noqa: PLC0415
     from rclpy.signals import SignalHandlerOptions  # noqa: PLC0415
 
     _import_messages()
-    # Our own handlers, since rclpy's would end the context before the tree could stop the robot.
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    node = rclpy.create_node(node_name)
-    stop = threading.Event()
+    defaults = RunParameters(pathlib.Path(tree_file), tick_hz, on_finish, on_error)
+    words = list(sys.argv[1:] if args is None else args)
+    log = get_logger(node_name)
     try:
-        with _handled_signals(stop):
-            rate = float(node.declare_parameter("tick_hz", float(tick_hz)).value)
-            path = pathlib.Path(str(node.declare_parameter("tree", str(tree_file)).value))
-            runner = _load(node, path, actions, stop, tick_hz=rate, on_finish=on_finish, on_error=on_error)
-            if runner is None:
-                return 1
-            while rclpy.ok() and not stop.is_set():
-                rclpy.spin_once(node, timeout_sec=_POLL_S)
-            failed = runner.runner.error is not None
-            runner.shutdown()
-            return 1 if failed else 0
+        # Our own handlers, since rclpy's would end the context before the tree could stop the robot.
+        rclpy.init(args=words, signal_handler_options=SignalHandlerOptions.NO)
+        node = _made(node_name, words)
+    except Exception as error:
+        log.error(f"the node cannot start: {_in_one_line(error)}")
+        rclpy.try_shutdown()
+        return 1
+    try:
+        settings = declare_parameters(node, defaults, words)
+        return _run(node, settings, actions)
+    except ParameterError as error:
+        log.error(str(error))
+        return 1
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
 
 
+def _made(name: str, words: "list[str]") -> Any:
+    import rclpy  # noqa: PLC0415
+    from rclpy.exceptions import InvalidParameterTypeException  # noqa: PLC0415
+    from rclpy.parameter import Parameter  # noqa: PLC0415
+    from rclpy.utilities import remove_ros_args  # noqa: PLC0415
+
+    given = read_arguments(remove_ros_args(words))
+    overrides = [Parameter(key, value=value) for key, value in given.items()]
+    try:
+        return rclpy.create_node(name, parameter_overrides=overrides)
+    except InvalidParameterTypeException as error:
+        # At this point rclpy has declared parameters of its own only.
+        problem = sim_time_problem(words) if "'use_sim_time'" in str(error) else str(error)
+        raise ParameterError(problem) from error
+
+
+def _in_one_line(error: Exception) -> str:
+    """The message of an error of rclpy; the C library adds where in its own sources it arose."""
+    text = re.sub(r", at \S+:\d+", "", " ".join(str(error).split()))
+    return text or type(error).__name__
+
+
+def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
+    import rclpy  # noqa: PLC0415
+
+    stop = threading.Event()
+    with _handled_signals(stop):
+        runner = _load(node, settings, actions, stop)
+        if runner is None:
+            return 1
+        while rclpy.ok() and not stop.is_set():
+            rclpy.spin_once(node, timeout_sec=_POLL_S)
+        failed = runner.runner.error is not None
+        runner.shutdown()
+        return 1 if failed else 0
+
+
 def _load(
-    node: Any,
-    path: pathlib.Path,
-    actions: "str | pathlib.Path | None",
-    stop: threading.Event,
-    **settings: Any,
+    node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: threading.Event
 ) -> "RosRunner | None":
     log = node.get_logger()
+    path = settings.tree
 
     def finished(status: Status) -> None:
         log.info(f"the tree ended with {status.name}")
@@ -100,12 +146,21 @@ def _load(
         text = path.read_bytes()
         classes = load_actions(_sources(text, pathlib.Path(actions), log)) if actions is not None else {}
         tree = Tree.from_xml(text, nodes=classes, clock=RosClock(node), name=str(path))
-        return RosRunner(tree, node, finished=finished, **settings)
+        return RosRunner(
+            tree,
+            node,
+            tick_hz=settings.tick_hz,
+            on_finish=settings.on_finish,
+            on_error=settings.on_error,
+            finished=finished,
+        )
     except OSError as error:
         log.error(f"{path} cannot be read: {error.strerror}")
     except LoadError as error:
         for problem in error.diagnostics:
             log.error(str(problem))
+    except TickError as error:  # the `setup` of an action; its traceback is for who wrote it
+        log.error(f"{error}\n{error.traceback_text}")
     return None
 
 

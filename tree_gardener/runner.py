@@ -59,8 +59,8 @@ OnFinish = Callable[[Status], None]
 OnFault = Callable[[TickError], None]
 OnOverrun = Callable[[Overrun], None]
 
-_ON_FINISH: Final = ("stop", "repeat")
-_ON_ERROR: Final = ("stop", "failure")
+ON_FINISH: Final = ("stop", "repeat")
+ON_ERROR: Final = ("stop", "failure")
 
 
 class Runner:
@@ -89,10 +89,10 @@ class Runner:
         overrun: OnOverrun | None = None,
         measure: Callable[[], float] = time.perf_counter,
     ) -> None:
-        if on_finish not in _ON_FINISH:
-            raise ValueError(f"on_finish is {on_finish!r}, not one of {', '.join(_ON_FINISH)}")
-        if on_error not in _ON_ERROR:
-            raise ValueError(f"on_error is {on_error!r}, not one of {', '.join(_ON_ERROR)}")
+        if on_finish not in ON_FINISH:
+            raise ValueError(f"on_finish is {on_finish!r}, not one of {', '.join(ON_FINISH)}")
+        if on_error not in ON_ERROR:
+            raise ValueError(f"on_error is {on_error!r}, not one of {', '.join(ON_ERROR)}")
         self.tree = tree
         self.period_s = _period(tick_hz)
         self.repeats = on_finish == "repeat"

@@ -1,25 +1,31 @@
 """The launch files of a project as parts of its ROS 2 package.
 
 In the project a node may be a Python file, named by its path (`exec: launch/talker.py`). In the package such
-a file is installed as an executable of the package, and the launch file names it so.
+a file is installed as an executable of the package, and the launch file names it so. All else in `launch/`
+is installed beside the launch files, where `$(dirname)` finds it.
 """
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Mapping  # noqa: TC003
+from collections.abc import Iterator, Mapping  # noqa: TC003
 from pathlib import PurePosixPath
+from posixpath import normpath
+from xml.sax.saxutils import quoteattr
+
+import yaml
 
 from translator.diagnostic import Diagnostic, Place, diagnostic
 
 FOLDER = "launch/"
 DEPENDENCIES = {".py": (), ".yaml": ("launch_yaml",), ".yml": ("launch_yaml",), ".xml": ("launch_xml",)}
-_LAUNCH_FILE = re.compile(r"launch/.+\.launch\.(py|ya?ml|xml)")
+_LAUNCH_FILE = re.compile(r"launch/.+\.launch\.(py|ya?ml|xml)", re.DOTALL)
 _SHEBANG = b"#!/usr/bin/env python3\n"
-_NAMED = re.compile(r"""\bexec(?:utable)?\s*[:=]\s*["']?(?P<path>[^\s"',}#]+\.py)""")
-_BLOCK = re.compile(
-    r"""^(?P<indent>\s*(?:-\s+)?)exec:\s*(?P<quote>["']?)(?P<path>[^\s"'#]+\.py)(?P=quote)(?P<rest>\s*(?:\#.*)?)$"""
-)
+_PLAIN = re.compile(r"[A-Za-z_][\w.]*")
+_XML_NODE = re.compile(r"<node\b[^>]*>")
+_XML_EXEC = re.compile(r"""\bexec\s*=\s*(?P<quote>["'])(?P<path>[^"']+)(?P=quote)""")
+_HERE = "$(dirname)/"
 
 
 def launch_files(files: Mapping[str, bytes]) -> list[str]:
@@ -34,12 +40,23 @@ def dependencies_of(paths: list[str]) -> set[str]:
 
 def programs(files: Mapping[str, bytes]) -> dict[str, str]:
     """Returns the Python files beside the launch files, each with the name of its executable."""
-    paths = [p for p in sorted(files) if p.startswith(FOLDER) and p.endswith(".py")]
-    return {
-        path: path.removeprefix(FOLDER).replace("/", "_")
-        for path in paths
-        if not _LAUNCH_FILE.fullmatch(path)
-    }
+    named: dict[str, str] = {}
+    for path in sorted(files):
+        if path.startswith(FOLDER) and path.endswith(".py") and not _LAUNCH_FILE.fullmatch(path):
+            name = path.removeprefix(FOLDER).replace("/", "_")
+            while name in named.values():
+                name = f"_{name}"
+            named[path] = name
+    return named
+
+
+def companions(files: Mapping[str, bytes]) -> list[str]:
+    """Returns what lies beside the launch files and is neither of them nor a program, such as parameters."""
+    return [
+        path
+        for path in sorted(files)
+        if path.startswith(FOLDER) and not path.endswith(".py") and not _LAUNCH_FILE.fullmatch(path)
+    ]
 
 
 def as_program(raw: bytes) -> bytes:
@@ -54,30 +71,84 @@ def in_package(
 
     Also returns a warning for each that is named in a way that is not understood.
     """
-    if path.endswith(".py"):
-        return raw, []
-    found: list[Diagnostic] = []
-    lines = []
-    for number, line in enumerate(raw.decode("utf-8", "replace").splitlines(keepends=True), 1):
-        body = line.rstrip("\r\n")
-        named = _NAMED.search(body)
-        program = named and _program(named["path"], known)
-        block = _BLOCK.match(body)
-        if program and block:
-            indent = re.sub(r"\S", " ", block["indent"])
-            ending = line[len(body) :] or "\n"
-            lines += [
-                f"{block['indent']}pkg: {package}{ending}",
-                f"{indent}exec: {program}{block['rest']}{ending}",
-            ]
+    text = raw.decode("utf-8", "surrogateescape")
+    folder = str(PurePosixPath(path).parent)
+    if path.endswith((".yaml", ".yml")):
+        changes = _in_yaml(text, folder, package, known)
+    elif path.endswith(".xml"):
+        changes = _in_xml(text, folder, package, known)
+    else:
+        changes = []
+    for start, end, new in sorted(set(changes), reverse=True):
+        text = text[:start] + new + text[end:]
+    return text.encode("utf-8", "surrogateescape"), list(_left(path, raw, text, package, known))
+
+
+def _in_yaml(text: str, folder: str, package: str, known: Mapping[str, str]) -> list[tuple[int, int, str]]:
+    """Changes as (start, end, new text): `pkg` before each `exec` that names a program, and its new name."""
+    try:
+        root = yaml.compose(text, Loader=yaml.SafeLoader)
+    except yaml.YAMLError:
+        return []  # which `launch` tells better
+    ending = "\r\n" if "\r\n" in text else "\n"
+    changes = []
+    for mapping in _mappings(root):
+        keys = {key.value: (key, value) for key, value in mapping.value if isinstance(key.value, str)}
+        key, value = keys.get("exec", (None, None))
+        if key is None or "pkg" in keys or not isinstance(value, yaml.ScalarNode):
             continue
-        if program and named:
-            place = Place(path, line=number, column=named.start("path") + 1)
-            found.append(diagnostic("BT0911", place, file=named["path"], package=package, program=program))
-        lines.append(line)
-    return "".join(lines).encode(), found
+        if program := _program(value.value, folder, known):
+            between = ", " if mapping.flow_style else ending + " " * key.start_mark.column
+            name = program if _PLAIN.fullmatch(program) else json.dumps(program)
+            changes += [
+                (key.start_mark.index, key.start_mark.index, f"pkg: {package}{between}"),
+                (value.start_mark.index, value.end_mark.index, name),
+            ]
+    return changes
 
 
-def _program(path: str, known: Mapping[str, str]) -> str | None:
+def _mappings(root: yaml.Node | None) -> Iterator[yaml.MappingNode]:
+    """Every mapping of a document once, whatever refers to it."""
+    seen: set[int] = set()
+    stack = [root] if root is not None else []
+    while stack:
+        node = stack.pop()
+        if id(node) in seen:
+            continue
+        seen.add(id(node))
+        if isinstance(node, yaml.MappingNode):
+            yield node
+            stack.extend(part for pair in node.value for part in pair)
+        elif isinstance(node, yaml.SequenceNode):
+            stack.extend(node.value)
+
+
+def _in_xml(text: str, folder: str, package: str, known: Mapping[str, str]) -> list[tuple[int, int, str]]:
+    changes = []
+    for tag in _XML_NODE.finditer(text):
+        named = _XML_EXEC.search(tag.group())
+        program = named and _program(named["path"], folder, known)
+        if named and program and not re.search(r"\bpkg\s*=", tag.group()):
+            new = f"pkg={quoteattr(package)} exec={quoteattr(program)}"
+            changes.append((tag.start() + named.start(), tag.start() + named.end(), new))
+    return changes
+
+
+def _left(path: str, raw: bytes, text: str, package: str, known: Mapping[str, str]) -> Iterator[Diagnostic]:
+    """Warnings for the programs that the launch file of the package still names by their path."""
+    lines = raw.decode("utf-8", "replace").splitlines()
+    for program_path, program in known.items():
+        if not any(program_path in line.partition("#")[0] for line in text.splitlines()):
+            continue
+        for number, line in enumerate(lines, 1):
+            column = line.partition("#")[0].find(program_path) + 1
+            if column:
+                place = Place(path, line=number, column=column)
+                yield diagnostic("BT0911", place, file=program_path, package=package, program=program)
+
+
+def _program(named: str, folder: str, known: Mapping[str, str]) -> str | None:
     """The executable that a path means, which is looked for from the project, then from the launch file."""
-    return known.get(path) or known.get(FOLDER + path)
+    if named.startswith(_HERE):
+        return known.get(normpath(f"{folder}/{named.removeprefix(_HERE)}"))
+    return known.get(normpath(named)) or known.get(normpath(f"{folder}/{named}"))

@@ -13,11 +13,15 @@ from xml.sax.saxutils import escape
 import jinja2
 
 from translator.action import inspect_action
+from translator.endpoints import Endpoint, endpoints
 from translator.export import require_sound, write_self_contained
 from translator.package.app import is_action_source
 from translator.package.engine import engine_files
+from translator.package.interfaces import absolute_names, interface_rows, parameter_rows, unknown_names
 from translator.package.launch_files import (
+    FOLDER,
     as_program,
+    companions,
     dependencies_of,
     in_package,
     launch_files,
@@ -78,6 +82,7 @@ class _Builder:
         self.sources = {path: raw for path, raw in sorted(project.files.items()) if is_action_source(path)}
         self.launch_files = launch_files(project.files)
         self.programs = programs(project.files)
+        self.companions = companions(project.files)
 
     def files(self) -> dict[str, bytes]:
         inner = f"{self.name}/{self.name}"
@@ -116,13 +121,13 @@ class _Builder:
                 self.found.extend(found)
             elif path in self.programs:
                 result[f"{self.name}/scripts/{self.programs[path]}"] = as_program(raw)
-            elif path.startswith("assets/") or path == "requirements.txt":
+            elif path.startswith("assets/") or path in (*self.companions, "requirements.txt"):
                 result[f"{self.name}/{path}"] = raw
         return result
 
     def own_launch_name(self, path: str) -> str:
-        """Returns the name of a launch file of the project, apart from that of the package."""
-        name = PurePosixPath(path).name
+        """Returns the path of a launch file of the project from `launch`, apart from that of the package."""
+        name = path.removeprefix(FOLDER)
         return f"project_{name}" if name == f"{self.name}.launch.py" else name
 
     def packages(self) -> list[str]:
@@ -146,6 +151,8 @@ class _Builder:
         own_launch = [self.own_launch_name(path) for path in self.launch_files]
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
         always |= dependencies_of(self.launch_files)
+        opened = self.endpoints()
+        rows = interface_rows(opened)
         return {
             "name": self.name,
             "title": settings.name,
@@ -158,6 +165,12 @@ class _Builder:
             "packages": [folder.replace("/", ".") for folder in self.packages()],
             "data_files": list(self.data_files(own_launch)),
             "own_launch": own_launch,
+            "absolute_names": absolute_names(opened),
+            "interfaces": rows,
+            "example_name": rows[0][0] if rows else "",
+            "unknown_names": unknown_names(opened),
+            "action_parameters": parameter_rows(opened),
+            "programs": sorted(self.programs.values()),
             "scripts": [f"scripts/{name}" for name in self.programs.values()],
             "tick_hz": float(settings.tick_hz),
             "on_finish": settings.on_finish,
@@ -167,6 +180,17 @@ class _Builder:
             "actions": sorted(self.project.actions),
         }
 
+    def endpoints(self) -> list[Endpoint]:
+        """Returns what the actions and the programs open, in order of file and line."""
+        paths = {path: path for path in self.sources} | {
+            path: f"scripts/{name}" for path, name in self.programs.items()
+        }
+        return [
+            item
+            for path, shown in paths.items()
+            for item in endpoints(self.project.files[path].decode("utf-8-sig", "replace"), shown)
+        ]
+
     def data_files(self, own_launch: list[str]) -> Iterator[tuple[str, list[str]]]:
         """Yields the files to install below `share`, by folder."""
         share = f"share/{self.name}"
@@ -175,13 +199,13 @@ class _Builder:
         yield share, ["package.xml", *extra]
         yield f"{share}/trees", [f"trees/{self.name}.xml"]
         yield f"{share}/config", ["config/params.yaml"]
-        yield f"{share}/launch", [f"launch/{name}" for name in [f"{self.name}.launch.py", *own_launch]]
+        paths = [f"{FOLDER}{name}" for name in (f"{self.name}.launch.py", *own_launch)]
+        paths += [*self.companions, *sorted(p for p in self.project.files if p.startswith("assets/"))]
         folders: dict[str, list[str]] = {}
-        for path in sorted(self.project.files):
-            if path.startswith("assets/"):
-                folders.setdefault(str(PurePosixPath(path).parent), []).append(path)
-        for folder, paths in folders.items():
-            yield f"{share}/{folder}", paths
+        for path in paths:
+            folders.setdefault(str(PurePosixPath(path).parent), []).append(path)
+        for folder, held in folders.items():
+            yield f"{share}/{folder}", held
 
 
 @cache

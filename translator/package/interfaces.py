@@ -1,0 +1,75 @@
+"""What the README and the launch file of a package say of its topics, services, actions and parameters."""
+
+from __future__ import annotations
+
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from translator.endpoints import Endpoint
+
+PARAMETER = "parameter"
+_WORDS = {
+    "publisher": "publishes",
+    "subscription": "subscribes to",
+    "client": "calls the service",
+    "service": "offers the service",
+    "action client": "calls the action",
+    "action server": "offers the action",
+}
+# Names that all robots of a system share by custom; a namespace leaves them where they are.
+_SHARED = frozenset({"/clock", "/diagnostics", "/parameter_events", "/rosout", "/tf", "/tf_static"})
+
+
+def absolute_names(opened: Iterable[Endpoint]) -> list[str]:
+    """Returns the names that begin with a slash, which ROS leaves out of a namespace by itself."""
+    names = {item.name for item in opened if item.known and item.kind != PARAMETER}
+    return sorted(
+        name for name in names - _SHARED if name.startswith("/") and len(name) > 1 and not _has_blank(name)
+    )
+
+
+def interface_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str, str]]:
+    """Returns (name, type, what is done with it, by whom) of all names that are certain."""
+    by: dict[tuple[str, str, str], set[str]] = {}
+    for item in opened:
+        if item.known and item.kind != PARAMETER:
+            key = (item.name, item.type or "not stated in the source", _WORDS[item.kind])
+            by.setdefault(key, set()).add(_who(item))
+    return [
+        (_cell(name), _cell(kind), verb, ", ".join(sorted(who)))
+        for (name, kind, verb), who in sorted(by.items())
+    ]
+
+
+def unknown_names(opened: Iterable[Endpoint]) -> list[str]:
+    """Returns a sentence for each name that is made while the program runs."""
+    return [
+        f"{item.path}, line {item.line}: {_WORDS[item.kind]} `{_cell(item.name)}`"
+        + (f" of type `{item.type}`" if item.type else "")
+        for item in opened
+        if not item.known
+    ]
+
+
+def parameter_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str]]:
+    """Returns (name, default, by whom) of the parameters that the Python of the package declares."""
+    rows = {(_cell(item.name), _cell(item.type), _who(item)) for item in opened if item.kind == PARAMETER}
+    return sorted(rows)
+
+
+def _who(item: Endpoint) -> str:
+    return (
+        PurePosixPath(item.path).name.removesuffix(".py") if item.path.startswith("actions/") else item.path
+    )
+
+
+def _cell(text: str) -> str:
+    """The text as inline code in a table's cell."""
+    return " ".join(text.split()).replace("|", "\\|").replace("`", "'")
+
+
+def _has_blank(text: str) -> bool:
+    return any(character.isspace() for character in text)

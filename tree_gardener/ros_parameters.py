@@ -1,0 +1,145 @@
+"""The parameters of the node that ticks a tree: read once and checked; a wrong one is said with its place.
+
+An argument (`tick_hz:=5.0`, outside of `--ros-args`) goes before every file of parameters. Among files, and
+with ROS 2's own `-p`, the last does not always win: rcl keeps the whole number of one file beside the decimal
+one of the next and takes the former, and sections count in the order in which they first stood in a file.
+"""
+
+import dataclasses
+import math
+import pathlib
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tree_gardener.runner import ON_ERROR, ON_FINISH
+
+SIM_TIME = "use_sim_time"
+
+
+class ParameterError(Exception):
+    """A parameter that the node cannot use; the text says which, why and where."""
+
+
+@dataclasses.dataclass(frozen=True)
+class RunParameters:
+    """How a tree is run.
+
+    Attributes:
+        tree: the tree's XML.
+        tick_hz: ticks a second.
+        on_finish: ``stop`` or ``repeat``.
+        on_error: ``stop`` or ``failure``.
+    """
+
+    tree: pathlib.Path
+    tick_hz: float
+    on_finish: str
+    on_error: str
+
+
+NAMES = (*(field.name for field in dataclasses.fields(RunParameters)), SIM_TIME)
+
+
+def read_arguments(words: Sequence[str]) -> dict[str, Any]:
+    """Returns the parameters that the words of a command line give, without those for ROS.
+
+    Raises:
+        ParameterError: A word is no parameter, or a switch is neither true nor false.
+    """
+    values: dict[str, Any] = {}
+    for word in words:
+        name, sign, text = word.partition(":=")
+        if not sign or name not in NAMES:
+            known = ", ".join(f"{each}:=…" for each in NAMES)
+            raise ParameterError(f"the argument {word!r} is not known; there are {known}")
+        values[name] = text
+    if "tick_hz" in values:
+        values["tick_hz"] = _number(values["tick_hz"])
+    if SIM_TIME in values:
+        if values[SIM_TIME].lower() not in {"true", "false"}:
+            raise ParameterError(f"the argument {SIM_TIME}:={values[SIM_TIME]} has to be true or false")
+        values[SIM_TIME] = values[SIM_TIME].lower() == "true"
+    return values
+
+
+def declare_parameters(node: Any, defaults: RunParameters, words: Sequence[str]) -> RunParameters:
+    """Declares the parameters on a node and returns their values.
+
+    They are read-only: they are looked at when the run begins, and ``ros2 param set`` says so.
+
+    Args:
+        node: the rclpy node.
+        defaults: what holds for those that are not given.
+        words: the command line, to find where a wrong value stands.
+
+    Raises:
+        ParameterError: A value has the wrong type, or is none that the run knows.
+    """
+    values = {
+        field.name: _declared(node, field.name, getattr(defaults, field.name))
+        for field in dataclasses.fields(defaults)
+    }
+    problems = [
+        f"the parameter {name} is {_shown(values[name])}, but has to be {wanted}{_place(name, words)}"
+        for name, wanted in _problems(values)
+    ]
+    if problems:
+        raise ParameterError("; ".join(problems))
+    return RunParameters(
+        pathlib.Path(values["tree"]), float(values["tick_hz"]), values["on_finish"], values["on_error"]
+    )
+
+
+def sim_time_problem(words: Sequence[str]) -> str:
+    """What is wrong where rclpy refuses to make a node for its ``use_sim_time``."""
+    return f"the parameter {SIM_TIME} has to be true or false, without quotes{_place(SIM_TIME, words)}"
+
+
+def _declared(node: Any, name: str, default: Any) -> Any:
+    from rcl_interfaces.msg import ParameterDescriptor  # noqa: PLC0415 - the engine works without ROS
+
+    # Any type is let in, so that it is this module that judges it: a whole number is a number too.
+    descriptor = ParameterDescriptor(name=name, read_only=True, dynamic_typing=True)
+    value = str(default) if isinstance(default, pathlib.Path) else default
+    return node.declare_parameter(name, value, descriptor).value
+
+
+def _problems(values: Mapping[str, Any]) -> list[tuple[str, str]]:
+    found = []
+    rate = values["tick_hz"]
+    if isinstance(rate, bool) or not isinstance(rate, int | float) or not 0 < rate < math.inf:
+        found.append(("tick_hz", "a number above 0"))
+    if not isinstance(values["tree"], str) or not values["tree"]:
+        found.append(("tree", "the path of a file"))
+    for name, choices in (("on_finish", ON_FINISH), ("on_error", ON_ERROR)):
+        if values[name] not in choices:
+            found.append((name, " or ".join(choices)))
+    return found
+
+
+def _number(text: str) -> "float | str":
+    try:
+        return float(text)
+    except ValueError:
+        return text  # which is judged with the rest
+
+
+def _shown(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else repr(value)
+
+
+def _place(name: str, words: Sequence[str]) -> str:
+    """Where the command line gives it: an argument, or the last file of parameters, with the line."""
+    if any(word.startswith(f"{name}:=") for word in words):
+        return " (an argument)"
+    files = [words[i + 1] for i, word in enumerate(words[:-1]) if word == "--params-file"]
+    for file in reversed(files):
+        try:
+            lines = pathlib.Path(file).read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError:
+            continue
+        for number, line in reversed(list(enumerate(lines, 1))):
+            if re.match(rf"""\s*["']?{name}["']?\s*:""", line):
+                return f" ({file}, line {number})"
+    return ""

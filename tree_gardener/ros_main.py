@@ -8,6 +8,7 @@ import re
 import signal
 import sys
 import threading
+import time
 from typing import TYPE_CHECKING, Any
 
 from lxml import etree
@@ -38,6 +39,7 @@ _MESSAGES = (
     "visualization_msgs",
 )
 _POLL_S = 0.1
+_CLOCK_S = 5.0
 
 
 def run_tree(  # noqa: PLR0913 - what main.py states of one package
@@ -53,7 +55,7 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     """Ticks a tree by ROS time until it ends, or the process is asked to.
 
     The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish`` and ``on_error``, and
-    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; ``tick_hz:=5.0`` and the
+    ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; ``--tick_hz=5.0`` and the
     like on the command line go before all.
 
     Args:
@@ -125,11 +127,34 @@ def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None
         runner = _load(node, settings, actions, stop)
         if runner is None:
             return 1
+        patience = _ClockPatience(node)
         while rclpy.ok() and not stop.is_set():
             rclpy.spin_once(node, timeout_sec=_POLL_S)
+            patience.look()
         failed = runner.runner.error is not None
         runner.shutdown()
         return 1 if failed else 0
+
+
+class _ClockPatience:
+    """Says once that simulated time does not come, without which a tree would wait in silence."""
+
+    def __init__(self, node: Any) -> None:
+        self._node = node
+        self._waits = bool(node.get_parameter("use_sim_time").value)
+        self._end_s = time.monotonic() + _CLOCK_S
+
+    def look(self) -> None:
+        """Looks at the clock, from time to time."""
+        if not self._waits:
+            return
+        if self._node.get_clock().now().nanoseconds > 0:
+            self._waits = False
+        elif time.monotonic() > self._end_s:
+            self._waits = False
+            self._node.get_logger().warning(
+                f"use_sim_time is true, but no time came on /clock in {_CLOCK_S:.0f} s; the tree waits for it"
+            )
 
 
 def _load(

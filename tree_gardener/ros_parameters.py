@@ -1,6 +1,6 @@
 """The parameters of the node that ticks a tree: read once and checked; a wrong one is said with its place.
 
-An argument (`tick_hz:=5.0`, outside of `--ros-args`) goes before every file of parameters. Among files, and
+An argument (`--tick_hz=5.0`, outside of `--ros-args`) goes before every file of parameters. Among files, and
 with ROS 2's own `-p`, the last does not always win: rcl keeps the whole number of one file beside the decimal
 one of the next and takes the former, and sections count in the order in which they first stood in a file.
 """
@@ -49,16 +49,16 @@ def read_arguments(words: Sequence[str]) -> dict[str, Any]:
     """
     values: dict[str, Any] = {}
     for word in words:
-        name, sign, text = word.partition(":=")
-        if not sign or name not in NAMES:
-            known = ", ".join(f"{each}:=…" for each in NAMES)
+        name, sign, text = word.removeprefix("--").partition("=")
+        if not word.startswith("--") or not sign or name not in NAMES:
+            known = ", ".join(f"--{each}=…" for each in NAMES)
             raise ParameterError(f"the argument {word!r} is not known; there are {known}")
         values[name] = text
     if "tick_hz" in values:
         values["tick_hz"] = _number(values["tick_hz"])
     if SIM_TIME in values:
         if values[SIM_TIME].lower() not in {"true", "false"}:
-            raise ParameterError(f"the argument {SIM_TIME}:={values[SIM_TIME]} has to be true or false")
+            raise ParameterError(f"the argument --{SIM_TIME}={values[SIM_TIME]} has to be true or false")
         values[SIM_TIME] = values[SIM_TIME].lower() == "true"
     return values
 
@@ -131,7 +131,7 @@ def _shown(value: Any) -> str:
 
 def _place(name: str, words: Sequence[str]) -> str:
     """Where the command line gives it: an argument, or the last file of parameters, with the line."""
-    if any(word.startswith(f"{name}:=") for word in words):
+    if any(word.startswith(f"--{name}=") for word in words):
         return " (an argument)"
     files = [words[i + 1] for i, word in enumerate(words[:-1]) if word == "--params-file"]
     for file in reversed(files):

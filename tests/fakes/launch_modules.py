@@ -1,95 +1,245 @@
-"""Stand-ins for ROS 2's `launch` and `launch_ros`, of which there are no wheels; they note what is asked.
+"""Stand-ins for ROS 2's `launch` and `launch_ros`, of which there are no wheels: they say what would run.
 
-They know the names and the arguments of the real classes that our launch file uses, and nothing else.
+They know the classes and arguments that our launch files use, and nothing else. `tests/ros_launch` compares
+the command lines that they give with those of the real ones, from a checkout of these.
 """
 
 from __future__ import annotations
 
 import sys
 import types
-from typing import Any
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+
+@dataclass(frozen=True)
+class Process:
+    """What would be started: an executable of a package, with the words after it."""
+
+    package: str
+    executable: str
+    words: list[str]
+    respawn: bool
+    respawn_delay: float
+
+
+@dataclass(frozen=True)
+class Included:
+    """A launch file that would be included, and what it would find set."""
+
+    path: Path
+    configurations: dict[str, Any]
+
+
+@dataclass
+class Context:
+    """launch.LaunchContext, and what came of the launch."""
+
+    launch_configurations: dict[str, Any]
+    processes: list[Process] = field(default_factory=list)
+    included: list[Included] = field(default_factory=list)
 
 
 class Entity:
-    """Base of all: keeps its arguments."""
+    """Base of all."""
 
-    def __init__(self, **values: Any) -> None:
-        self.values = values
+    def execute(self, context: Context) -> list[Entity] | None:
+        raise NotImplementedError
+
+
+@dataclass
+class LaunchDescription(Entity):
+    """launch.LaunchDescription."""
+
+    entities: list[Entity]
+
+    def execute(self, context: Context) -> list[Entity]:
+        return self.entities
 
 
 class DeclareLaunchArgument(Entity):
     """launch.actions.DeclareLaunchArgument."""
 
-    def __init__(
-        self, name: str, *, default_value: str | None = None, description: str | None = None
-    ) -> None:
-        assert default_value is None or isinstance(default_value, str)
-        super().__init__(name=name, default_value=default_value, description=description)
+    def __init__(self, name: str, *, default_value: str, description: str) -> None:
+        assert isinstance(name, str)
+        assert isinstance(default_value, str)
+        assert isinstance(description, str)
+        self.name = name
+        self.default_value = default_value
+
+    def execute(self, context: Context) -> None:
+        context.launch_configurations.setdefault(self.name, self.default_value)
 
 
+class OpaqueFunction(Entity):
+    """launch.actions.OpaqueFunction."""
+
+    def __init__(self, *, function: Callable[[Context], list[Entity]]) -> None:
+        self.function = function
+
+    def execute(self, context: Context) -> list[Entity]:
+        return self.function(context)
+
+
+@dataclass
+class GroupAction(Entity):
+    """launch.actions.GroupAction: what its actions set is gone after it."""
+
+    actions: list[Entity]
+
+    def execute(self, context: Context) -> None:
+        before = context.launch_configurations
+        context.launch_configurations = dict(before)
+        visit(self.actions, context)
+        context.launch_configurations = before
+
+
+@dataclass
+class UnsetLaunchConfiguration(Entity):
+    """launch.actions.UnsetLaunchConfiguration."""
+
+    name: str
+
+    def execute(self, context: Context) -> None:
+        context.launch_configurations.pop(self.name, None)
+
+
+@dataclass
+class AnyLaunchDescriptionSource:
+    """launch.launch_description_sources.AnyLaunchDescriptionSource."""
+
+    launch_file_path: str
+
+
+@dataclass
 class IncludeLaunchDescription(Entity):
     """launch.actions.IncludeLaunchDescription."""
 
-    def __init__(self, launch_description_source: Entity, *, launch_arguments: Any = None) -> None:
-        super().__init__(source=launch_description_source, arguments=launch_arguments)
+    launch_description_source: AnyLaunchDescriptionSource
+
+    def execute(self, context: Context) -> None:
+        path = Path(self.launch_description_source.launch_file_path)
+        assert path.is_file(), path
+        context.included.append(Included(path, dict(context.launch_configurations)))
 
 
-class AnyLaunchDescriptionSource(Entity):
-    """launch.launch_description_sources.AnyLaunchDescriptionSource."""
-
-    def __init__(self, launch_file_path: str) -> None:
-        super().__init__(path=launch_file_path)
-
-
-class LaunchConfiguration(Entity):
+@dataclass
+class LaunchConfiguration:
     """launch.substitutions.LaunchConfiguration."""
 
-    def __init__(self, variable_name: str, *, default: str | None = None) -> None:
-        super().__init__(name=variable_name, default=default)
+    variable_name: str
+
+    def perform(self, context: Context) -> str:
+        return context.launch_configurations[self.variable_name]
 
 
-class LaunchDescription(Entity):
-    """launch.LaunchDescription."""
+@dataclass
+class PushRosNamespace(Entity):
+    """launch_ros.actions.PushRosNamespace."""
 
-    def __init__(self, initial_entities: list[Entity] | None = None) -> None:
-        super().__init__(entities=list(initial_entities or []))
+    namespace: str
 
-
-class ParameterValue(Entity):
-    """launch_ros.parameter_descriptions.ParameterValue."""
-
-    def __init__(self, value: Any, *, value_type: type | None = None) -> None:
-        super().__init__(value=value, value_type=value_type)
+    def execute(self, context: Context) -> None:
+        base = context.launch_configurations.get("ros_namespace", "")
+        whole = self.namespace if self.namespace.startswith("/") else f"{base.rstrip('/')}/{self.namespace}"
+        context.launch_configurations["ros_namespace"] = whole
 
 
+@dataclass
+class SetParameter(Entity):
+    """launch_ros.actions.SetParameter."""
+
+    name: str
+    value: Any
+
+    def execute(self, context: Context) -> None:
+        added(context, "global_params", ["-p", f"{self.name}:={self.value}"])
+
+
+@dataclass
+class SetParametersFromFile(Entity):
+    """launch_ros.actions.SetParametersFromFile."""
+
+    filename: str
+
+    def execute(self, context: Context) -> None:
+        added(context, "global_params", ["--params-file", str(Path(self.filename).absolute())])
+
+
+@dataclass
+class SetRemap(Entity):
+    """launch_ros.actions.SetRemap."""
+
+    src: str
+    dst: str
+
+    def execute(self, context: Context) -> None:
+        added(context, "ros_remaps", ["-r", f"{self.src}:={self.dst}"])
+
+
+def added(context: Context, name: str, words: list[str]) -> None:
+    """Appends to a list that a group sees without changing that of the group around it."""
+    values = context.launch_configurations
+    values[name] = [*values.get(name, []), *words]
+
+
+@dataclass(kw_only=True)
 class Node(Entity):
     """launch_ros.actions.Node."""
 
-    def __init__(
-        self, *, package: str, executable: str, name: str, output: str, parameters: list[Any]
-    ) -> None:
-        super().__init__(
-            package=package, executable=executable, name=name, output=output, parameters=parameters
+    package: str
+    executable: str
+    name: str
+    output: str
+    arguments: Sequence[str]
+    respawn: bool
+    respawn_delay: float
+
+    def execute(self, context: Context) -> None:
+        values = context.launch_configurations
+        words = [*self.arguments, "--ros-args", "-r", f"__node:={self.name}"]
+        if "ros_namespace" in values:
+            words += ["-r", f"__ns:={values['ros_namespace']}"]
+        words += [*values.get("global_params", []), *values.get("ros_remaps", [])]
+        context.processes.append(
+            Process(self.package, self.executable, words, self.respawn, self.respawn_delay)
         )
 
 
+def visit(entities: Sequence[Entity], context: Context) -> None:
+    """Carries out actions, and those that they give."""
+    for entity in entities:
+        visit(entity.execute(context) or [], context)
+
+
 MODULES = {
-    "launch": {"LaunchDescription": LaunchDescription},
-    "launch.actions": {
-        "DeclareLaunchArgument": DeclareLaunchArgument,
-        "IncludeLaunchDescription": IncludeLaunchDescription,
-    },
-    "launch.launch_description_sources": {"AnyLaunchDescriptionSource": AnyLaunchDescriptionSource},
-    "launch.substitutions": {"LaunchConfiguration": LaunchConfiguration},
-    "launch_ros": {},
-    "launch_ros.actions": {"Node": Node},
-    "launch_ros.parameter_descriptions": {"ParameterValue": ParameterValue},
+    "launch": [LaunchDescription],
+    "launch.actions": [
+        DeclareLaunchArgument,
+        GroupAction,
+        IncludeLaunchDescription,
+        OpaqueFunction,
+        UnsetLaunchConfiguration,
+    ],
+    "launch.launch_description_sources": [AnyLaunchDescriptionSource],
+    "launch.substitutions": [LaunchConfiguration],
+    "launch_ros": [],
+    "launch_ros.actions": [Node, PushRosNamespace, SetParameter, SetParametersFromFile, SetRemap],
 }
 
 
-def install(monkeypatch: Any) -> None:
-    """Makes the stand-ins importable for one test."""
+def launch(monkeypatch: Any, path: Path, arguments: dict[str, str]) -> Context:
+    """Reads a launch file and works out what it would start."""
     for name, members in MODULES.items():
         module = types.ModuleType(name)
-        module.__dict__.update(members)
+        module.__dict__.update({member.__name__: member for member in members})
         monkeypatch.setitem(sys.modules, name, module)
+    space: dict[str, Any] = {}
+    exec(compile(path.read_text(), str(path), "exec"), space)  # noqa: S102 - as `launch` does
+    context = Context(dict(arguments))
+    visit([space["generate_launch_description"]()], context)
+    return context

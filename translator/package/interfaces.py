@@ -6,7 +6,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from translator.endpoints import Endpoint
 
@@ -42,6 +42,13 @@ def interface_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str, str]
         (_cell(name), _cell(kind), verb, ", ".join(sorted(who)))
         for (name, kind, verb), who in sorted(by.items())
     ]
+
+
+def example_name(opened: Sequence[Endpoint]) -> str:
+    """Returns a name to show how names are changed; that of an action rather than of a program."""
+    known = [item for item in opened if item.known and item.kind != PARAMETER and not _has_blank(item.name)]
+    best = sorted(known, key=lambda item: (not item.path.startswith("actions/"), item.kind != "publisher"))
+    return best[0].name if best else ""
 
 
 def unknown_names(opened: Iterable[Endpoint]) -> list[str]:

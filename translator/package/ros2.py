@@ -17,7 +17,13 @@ from translator.endpoints import Endpoint, endpoints
 from translator.export import require_sound, write_self_contained
 from translator.package.app import is_action_source
 from translator.package.engine import engine_files
-from translator.package.interfaces import absolute_names, interface_rows, parameter_rows, unknown_names
+from translator.package.interfaces import (
+    absolute_names,
+    example_name,
+    interface_rows,
+    parameter_rows,
+    unknown_names,
+)
 from translator.package.launch_files import (
     FOLDER,
     as_program,
@@ -38,7 +44,7 @@ if TYPE_CHECKING:
     from translator.project import Project
 
 ENGINE = "tree_gardener"
-ENGINE_DEPENDENCIES = ("py_trees", "python3-lxml", "rclpy")
+ENGINE_DEPENDENCIES = ("py_trees", "python3-lxml", "rcl_interfaces", "rclpy")
 VERSION = "0.1.0"
 _VERSION = re.compile(rb'^__version__(?::[^=]+)? = "([^"]+)"', re.MULTILINE)
 
@@ -152,7 +158,6 @@ class _Builder:
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
         always |= dependencies_of(self.launch_files)
         opened = self.endpoints()
-        rows = interface_rows(opened)
         return {
             "name": self.name,
             "title": settings.name,
@@ -166,8 +171,8 @@ class _Builder:
             "data_files": list(self.data_files(own_launch)),
             "own_launch": own_launch,
             "absolute_names": absolute_names(opened),
-            "interfaces": rows,
-            "example_name": rows[0][0] if rows else "",
+            "interfaces": interface_rows(opened),
+            "example_name": example_name(opened),
             "unknown_names": unknown_names(opened),
             "action_parameters": parameter_rows(opened),
             "programs": sorted(self.programs.values()),

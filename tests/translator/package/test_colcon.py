@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -11,11 +12,14 @@ from pathlib import Path
 
 import pytest
 
-from tests.fakes import launch_modules
+from tests.fakes.launch_modules import launch
 from tests.translator.conftest import EXAMPLES, example_files
+from tests.translator.package.patrol import LAUNCH_FILE, NAME, SPEED, patrol
 from translator import load, open_path, to_app_zip, to_ros2_package
 
 pytestmark = pytest.mark.timeout(400)
+
+OBSERVER = Path(__file__).with_name("observer.py")
 
 LISTENER = """
 import sys, time
@@ -58,13 +62,14 @@ class Wave(py_trees.behaviour.Behaviour):
 
 
 def packages(folder):
-    """Both examples, and an XML file with a folder of actions, as packages."""
+    """Both examples, a project with all that a package can hold, and an XML file with a folder of actions."""
     (folder / "actions").mkdir()
     (folder / "actions" / "Wave.py").write_text(WAVE)
     (folder / "actions" / "shared.py").write_text("def scaled(value):\n    return 2 * value\n")
     (folder / "wave hand.xml").write_text(XML)
     wave = open_path(folder / "wave hand.xml", actions=folder / "actions", stubs=False)
-    return [*(to_ros2_package(load(example_files(name))) for name in EXAMPLES), to_ros2_package(wave)]
+    examples = [to_ros2_package(load(example_files(name))) for name in EXAMPLES]
+    return [*examples, patrol(), to_ros2_package(wave)]
 
 
 @pytest.fixture(scope="module")
@@ -107,7 +112,7 @@ def environment(folder):
     }
 
 
-@pytest.mark.parametrize("name", [*EXAMPLES, "wave_hand"])
+@pytest.mark.parametrize("name", [*EXAMPLES, "wave_hand", NAME])
 def test_the_installed_program_publishes(workspace, name):
     env = environment(workspace)
     listener = subprocess.Popen(
@@ -128,7 +133,8 @@ def test_the_installed_program_publishes(workspace, name):
         out, errors = program.communicate(timeout=30)
     assert program.returncode == 0, out + errors
     linear, angular = map(float, heard.split())
-    assert (linear, angular) == (0.0, 0.5 if name == "wave_hand" else turning_speed(name))
+    speeds = {"wave_hand": 0.5, NAME: SPEED}
+    assert (linear, angular) == (0.0, speeds[name] if name in speeds else turning_speed(name))
 
 
 def turning_speed(name):
@@ -158,20 +164,142 @@ def test_an_older_engine_is_refused_by_name(workspace):
     assert "needs tree_gardener 90.1.0 or newer" in done.stderr
 
 
+@pytest.fixture
+def launched(workspace, monkeypatch):
+    """Works out what a launch file starts with arguments."""
+
+    def start(name, **arguments):
+        monkeypatch.setenv("AMENT_PREFIX_PATH", f"{workspace}/install/{name}")
+        path = workspace / "install" / name / "share" / name / "launch" / f"{name}.launch.py"
+        return launch(monkeypatch, path, arguments)
+
+    return start
+
+
+def installed_params(workspace, name):
+    return str(workspace / "install" / name / "share" / name / "config" / "params.yaml")
+
+
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_the_launch_file_describes_the_node(workspace, name, monkeypatch):
-    launch_modules.install(monkeypatch)
-    monkeypatch.setenv("AMENT_PREFIX_PATH", f"{workspace}/install/{name}")
-    path = workspace / "install" / name / "share" / name / "launch" / f"{name}.launch.py"
-    space = {}
-    exec(compile(path.read_text(), str(path), "exec"), space)  # noqa: S102 - as `launch` does
-    *arguments, node = space["generate_launch_description"]().values["entities"]
-    assert [item.values["name"] for item in arguments] == ["tick_hz", "tree", "use_sim_time"]
-    assert Path(arguments[1].values["default_value"]).is_file()
-    assert node.values["package"] == node.values["executable"] == node.values["name"] == name
-    params, values = node.values["parameters"]
-    assert Path(params).is_file()
-    assert set(values) == {"tick_hz", "tree", "use_sim_time"}
+def test_without_arguments_the_file_of_parameters_decides(workspace, launched, name):
+    (process,) = launched(name).processes
+    assert (process.package, process.executable, process.respawn) == (name, name, False)
+    params = installed_params(workspace, name)
+    assert process.words == ["--ros-args", "-r", f"__node:={name}", "--params-file", params]
+
+
+def test_each_argument_that_is_given_goes_before_the_file(launched, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.yaml").touch()
+    (tmp_path / "mine.xml").touch()
+    parameters = {"tick_hz": "5.5", "on_finish": "repeat", "on_error": "failure", "use_sim_time": "True"}
+    given = {
+        **parameters,
+        "tree": "mine.xml",
+        "params_file": "mine.yaml",
+        "namespace": "robot1/",
+        "remaps": " /said:=/loud,  chatter:=say",
+        "respawn": "true",
+        "respawn_delay": "0.5",
+    }
+    (process,) = launched(NAME, **given).processes
+    assert (process.respawn, process.respawn_delay) == (True, 0.5)
+    own = process.words[: process.words.index("--ros-args")]
+    expected = {**parameters, "tree": f"{tmp_path}/mine.xml"}
+    assert set(own) == {f"--{name}={text}" for name, text in expected.items()}
+    assert process.words[len(own) :] == [
+        *("--ros-args", "-r", "__node:=patrol", "-r", "__ns:=/robot1"),
+        *("--params-file", f"{tmp_path}/mine.yaml", "-p", "use_sim_time:=True"),
+        # The user's rules, the first of which wins in ROS; then the names with a slash, into the namespace.
+        *("-r", "/said:=/loud", "-r", "chatter:=say"),
+        *("-r", "/chatter:=chatter", "-r", "/cmd_vel:=cmd_vel", "-r", "/said:=said"),
+    ]
+
+
+def test_a_launch_file_of_the_project_is_included_without_arguments_that_were_not_given(launched):
+    context = launched(NAME, namespace="a", rate="9.0", use_sim_time="true")
+    (included,) = context.included
+    assert included.path.name == LAUNCH_FILE
+    seen = included.configurations
+    assert (seen["ros_namespace"], seen["rate"], seen["use_sim_time"]) == ("/a", "9.0", "true")
+    assert "params_file" not in seen
+    assert "tick_hz" not in seen
+    assert (included.path.parent / "flow.yaml").is_file()
+    assert "ros_namespace" not in context.launch_configurations
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"params_file": "none.yaml"}, "params_file: there is no file /.*/none.yaml"),
+        ({"tree": "~/none.xml"}, "tree: there is no file /.*/none.xml"),
+        ({"use_sim_time": "yes"}, "use_sim_time: 'yes' is neither true nor false"),
+        ({"respawn": "1"}, "respawn: '1' is neither true nor false"),
+        ({"respawn_delay": "soon"}, "respawn_delay: 'soon' is not a number from 0 on"),
+        ({"respawn_delay": "-1"}, "respawn_delay: '-1' is not a number from 0 on"),
+        ({"remaps": "/a:=/b /c"}, "remaps: '/c' is no rule; write OLD:=NEW"),
+        ({"remaps": ":=/b"}, "remaps: ':=/b' is no rule"),
+    ],
+)
+def test_a_wrong_argument_is_refused_by_name(launched, arguments, said):
+    with pytest.raises(RuntimeError, match=said):
+        launched(NAME, **arguments)
+
+
+def test_the_node_starts_with_the_words_of_the_launch_file(workspace, launched, tmp_path):
+    """Its parameters, as another process reads them, and its topics."""
+    (tmp_path / "mine.yaml").write_text(
+        "/**:\n  ros__parameters:\n    tick_hz: 40\n    on_error: failure\n    text: from the file\n"
+    )
+    given = {"namespace": "/robot1", "tick_hz": "12.5", "remaps": "/said:=/loud", "on_finish": "repeat"}
+    (process,) = launched(NAME, params_file=str(tmp_path / "mine.yaml"), **given).processes
+    program = [f"{workspace}/install/{NAME}/lib/{NAME}/{NAME}", *process.words]
+    values = observed(workspace, program, "/robot1/patrol")
+    assert values["parameters"] == {
+        "tick_hz": 12.5,
+        "on_finish": "repeat",
+        "on_error": "failure",
+        "text": "from the file",
+        "use_sim_time": False,
+    }
+    assert values["publishes"] == ["/loud", "/robot1/cmd_vel"]
+    assert values["subscribes"] == ["/ear"]
+
+
+def test_programs_of_the_project_are_executables_of_the_package(workspace):
+    folder = workspace / "install" / NAME / "lib" / NAME
+    assert sorted(path.name for path in folder.iterdir()) == ["my talker.py", NAME, "tools_it's.py"]
+    values = observed(workspace, [str(folder / "my talker.py")], "/talker")
+    assert values["publishes"] == ["/chatter"]
+
+
+def observed(workspace, command, node):
+    """Starts a program in the workspace and returns what another process sees of its node."""
+    env = environment(workspace)
+    script = f'source "{workspace}/install/setup.bash" && exec "$@"'
+    program = subprocess.Popen(
+        ["bash", "-c", script, "bash", *command],
+        env=env,
+        cwd="/",
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    try:
+        seen = subprocess.run(
+            [sys.executable, OBSERVER, node],
+            env=env,
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+    finally:
+        program.send_signal(signal.SIGINT)
+        said, _ = program.communicate(timeout=60)
+    assert seen.returncode == 0, seen.stderr + said
+    assert program.returncode == 0, said
+    return json.loads(seen.stdout)
 
 
 def test_the_app_for_the_manager_runs_by_itself(tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import io
+import re
 import zipfile
 
 import pytest
@@ -127,8 +128,9 @@ def test_programs_of_launch_files_become_executables_of_the_package(make_project
     nodes = [action["node"] for action in yaml.safe_load(text)["launch"]]
     assert nodes[0] == {"pkg": "test_bt", "exec": "talker.py", "name": "talker"}
     assert nodes[2] == {"pkg": "demo_nodes_py", "exec": "listener"}
-    (found,) = package.diagnostics
-    assert (found.code, found.place.file, found.place.line) == ("BT0911", "launch/nodes.launch.yaml", 5)
+    assert nodes[1] == {"pkg": "test_bt", "exec": "tools_listener.py"}
+    assert "# ours" in text
+    assert package.diagnostics == ()
     setup = package.files["test_bt/setup.py"].decode()
     assert "scripts=['scripts/talker.py', 'scripts/tools_listener.py']" in setup
     assert package.files["test_bt/scripts/talker.py"].startswith(b"#!/usr/bin/env python3\nimport rclpy")
@@ -137,6 +139,132 @@ def test_programs_of_launch_files_become_executables_of_the_package(make_project
     assert "launch_yaml" in manifest
     assert "python3-opencv" in manifest
     assert b"nodes.launch.yaml" in package.files["test_bt/launch/test_bt.launch.py"]
+
+
+XML_LAUNCH = b"""<launch>
+  <node name="a" exec="launch/my &amp; talker.py"/>
+  <node pkg="other" exec="launch/talker.py"/>
+  <node
+    exec = 'talker.py' name="b"/>
+</launch>"""
+
+
+def launched_as(make_project, path, raw, *programs):
+    files = {f"launch/{path}": raw, **{f"launch/{name}": b"import rclpy" for name in programs}}
+    package = to_ros2_package(make_project(LEAF, files=files))
+    return package, package.files[f"test_bt/launch/{path}"].decode()
+
+
+def test_launch_files_in_xml_name_executables_too(make_project):
+    _, text = launched_as(make_project, "n.launch.xml", XML_LAUNCH, "talker.py")
+    assert """exec="launch/my &amp; talker.py"/>""" in text
+    assert """<node pkg="other" exec="launch/talker.py"/>""" in text
+    assert """<node\n    pkg="test_bt" exec="talker.py" name="b"/>""" in text
+
+
+@pytest.mark.parametrize(
+    ("entry", "node"),
+    [
+        ("exec: launch/talker.py", {"exec": "talker.py"}),
+        ("exec: ./launch/talker.py", {"exec": "talker.py"}),
+        ("exec: talker.py", {"exec": "talker.py"}),
+        ("exec: $(dirname)/talker.py", {"exec": "talker.py"}),
+        ("exec: 'launch/it''s mine.py'", {"exec": "it's mine.py"}),
+        ('"exec": "launch/it\'s mine.py"', {"exec": "it's mine.py"}),
+        ("exec:\n        launch/r\u00f6bot.py", {"exec": "r\u00f6bot.py"}),
+        ("name: \u00f6\n      exec: launch/talker.py\n      # more", {"exec": "talker.py", "name": "\u00f6"}),
+    ],
+)
+@pytest.mark.parametrize("ending", ["\n", "\r\n"])
+def test_programs_are_known_however_yaml_writes_them(make_project, entry, node, ending):
+    raw = f"launch:\n  - node:\n      {entry}\n".replace("\n", ending).encode()
+    programs = ("talker.py", "it's mine.py", "r\u00f6bot.py")
+    package, text = launched_as(make_project, "n.launch.yaml", raw, *programs)
+    assert yaml.safe_load(text)["launch"] == [{"node": {"pkg": "test_bt", **node}}]
+    assert package.diagnostics == ()
+    assert text.count(ending) == text.count("\n")
+
+
+@pytest.mark.parametrize(
+    ("path", "raw"),
+    [
+        ("n.launch.yaml", b"launch:\n- executable: {cmd: python3 launch/talker.py}\n"),
+        ("n.launch.yaml", b"launch: [\n- node: {exec: launch/talker.py}\n"),
+        ("n.launch.py", b"import launch_ros\nNode(executable='launch/talker.py')\n"),
+        ("n.launch.xml", b"<launch>\n<executable cmd='launch/talker.py'/></launch>"),
+    ],
+)
+def test_a_program_named_in_another_way_is_reported_with_its_line(make_project, path, raw):
+    package, text = launched_as(make_project, path, raw, "talker.py")
+    (found,) = package.diagnostics
+    assert (found.code, found.place.file, found.place.line) == ("BT0911", f"launch/{path}", 2)
+    assert text.encode() == raw
+
+
+def test_files_of_the_same_name_in_folders_of_launch_stay_apart(make_project):
+    paths = ["a/n.launch.py", "b/n.launch.py", "a/b.py", "a_b.py", "a/params.yaml", "robot.rviz"]
+    files = {f"launch/{path}": f"# {path}\n".encode() for path in paths}
+    package = to_ros2_package(make_project(LEAF, files=files))
+    for path in ("a/n.launch.py", "b/n.launch.py", "a/params.yaml", "robot.rviz"):
+        assert package.files[f"test_bt/launch/{path}"] == f"# {path}\n".encode()
+    programs = {path: raw for path, raw in package.files.items() if "/scripts/" in path}
+    assert {path: raw.splitlines()[-1] for path, raw in programs.items()} == {
+        "test_bt/scripts/a_b.py": b"# a/b.py",
+        "test_bt/scripts/_a_b.py": b"# a_b.py",
+    }
+    setup = package.files["test_bt/setup.py"].decode()
+    assert "('share/test_bt/launch/a', ['launch/a/n.launch.py', 'launch/a/params.yaml'])" in setup
+
+
+ENDS = """
+import py_trees
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
+
+
+class Act(py_trees.behaviour.Behaviour):
+    def setup(self, **kwargs):
+        node = kwargs["node"]
+        node.create_publisher(Twist, "/cmd_vel", 10)
+        node.create_publisher(Twist, "/a|b", 10)
+        node.create_subscription(LaserScan, "scan", print, 10)
+        node.create_subscription(LaserScan, self.ports["topic"], print, 10)
+        node.create_publisher(TFMessage, "/tf", 10)
+        node.declare_parameter("gain", 2.0)
+
+    def update(self):
+        return py_trees.common.Status.SUCCESS
+"""
+
+
+def test_the_readme_lists_what_the_actions_open(make_project):
+    package = to_ros2_package(make_project(LEAF, actions={"Act": ENDS}))
+    readme = package.files["test_bt/README.md"].decode()
+    assert "| `/cmd_vel` | `geometry_msgs/msg/Twist` | publishes | Act |" in readme
+    assert "| `/a\\|b` | `geometry_msgs/msg/Twist` | publishes | Act |" in readme
+    assert "| `scan` | `sensor_msgs/msg/LaserScan` | subscribes to | Act |" in readme
+    assert "| `/tf` | `not stated in the source` | publishes | Act |" in readme
+    assert "* actions/Act.py, line 13: subscribes to `self.ports['topic']` of type `sensor_msgs" in readme
+    assert "| `gain` | `2.0` | declared by Act |" in readme
+    assert 'remaps:="/cmd_vel:=/my_robot/cmd_vel"' in readme
+    assert "--ros-args -r /cmd_vel:=/my_robot/cmd_vel" in readme
+    text = package.files["test_bt/launch/test_bt.launch.py"].decode()
+    names = ast.literal_eval(text.partition("ABSOLUTE_NAMES = ")[2].partition("]")[0] + "]")
+    assert names == ["/a|b", "/cmd_vel"]
+
+
+def test_parameters_reach_every_node_and_are_those_of_the_project(make_project):
+    package = to_ros2_package(make_project(LEAF, tick_hz=12.5, on_finish="repeat", on_error="failure"))
+    params = yaml.safe_load(package.files["test_bt/config/params.yaml"])
+    values = {"tick_hz": 12.5, "on_finish": "repeat", "on_error": "failure", "use_sim_time": False}
+    assert params == {"/**": {"ros__parameters": values}}
+
+
+def test_only_the_engine_names_where_the_package_comes_from(make_project):
+    files = {"launch/talker.py": b"import rclpy\n"}
+    for path, raw in to_ros2_package(make_project(LEAF, files=files)).files.items():
+        if not path.startswith("tree_gardener/"):
+            assert not re.search(rb"bt[ _-]?studio", raw, re.IGNORECASE), path
 
 
 @pytest.mark.parametrize(

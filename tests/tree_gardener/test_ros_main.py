@@ -1,0 +1,162 @@
+"""A tree file run as a node, as exported packages do: its parameters, and what it says of wrong ones."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tree_gardener.ros_main import run_tree
+
+ROOT = Path(__file__).resolve().parents[2]
+
+os.environ.setdefault("ROS_DOMAIN_ID", "11")
+os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+
+# One of rclpy's own dependencies uses it.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+TREE = '<root BTCPP_format="4"><BehaviorTree ID="T"><Note/></BehaviorTree></root>'
+NOTE = """
+import json
+import pathlib
+
+import py_trees
+
+
+class Note(py_trees.behaviour.Behaviour):
+    def setup(self, **kwargs):
+        node = kwargs["node"]
+        node.declare_parameter("gain", 2.0)
+        names = ("tick_hz", "on_finish", "on_error", "use_sim_time", "gain")
+        values = {name: node.get_parameter(name).value for name in names}
+        result = node.set_parameters([type(node.get_parameter("tick_hz"))("tick_hz", value=1.0)])
+        values["settable"] = result[0].successful
+        pathlib.Path("FOLDER/values.json").write_text(json.dumps(values))
+
+    def update(self):
+        return py_trees.common.Status.SUCCESS
+"""
+
+
+@pytest.fixture
+def run(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Any:
+    """Runs the tree with a file of parameters and words; gives status, values seen, and what was said."""
+    (tmp_path / "tree.xml").write_text(TREE)
+    (tmp_path / "actions").mkdir()
+    (tmp_path / "actions" / "Note.py").write_text(NOTE.replace("FOLDER", str(tmp_path)))
+
+    def ran(parameters: str, *words: str, **defaults: Any) -> tuple[int, Any, str]:
+        tree = (tmp_path / "tree.xml").read_text()
+        (tmp_path / "tree.xml").write_text(
+            tree.replace("</root>", '<Code><Action name="Note"/></Code></root>')
+        )
+        (tmp_path / "params.yaml").write_text(parameters)
+        args = [*words, "--ros-args", "--params-file", str(tmp_path / "params.yaml")]
+        status = run_tree(
+            tmp_path / "tree.xml", node_name="noting", actions=tmp_path / "actions", args=args, **defaults
+        )
+        values = tmp_path / "values.json"
+        return status, json.loads(values.read_text()) if values.is_file() else None, capfd.readouterr().err
+
+    return ran
+
+
+def under(header: str, **values: str) -> str:
+    return f"{header}:\n  ros__parameters:\n" + "".join(f"    {k}: {v}\n" for k, v in values.items())
+
+
+def test_what_is_not_given_is_what_the_package_says(run: Any) -> None:
+    status, values, _ = run(under("/**", gain="0.5"), tick_hz=50.0, on_error="failure")
+    assert status == 0
+    assert values == {
+        "tick_hz": 50.0,
+        "on_finish": "stop",
+        "on_error": "failure",
+        "use_sim_time": False,
+        "gain": 0.5,
+        "settable": False,
+    }
+
+
+@pytest.mark.parametrize("header", ["/**", "/noting", "noting", "/*"])
+def test_a_file_of_parameters_goes_before_that(run: Any, header: str) -> None:
+    _, values, _ = run(under(header, tick_hz="40", on_error="failure"), tick_hz=50.0)
+    assert (values["tick_hz"], values["on_error"]) == (40, "failure")
+
+
+@pytest.mark.parametrize("header", ["/**", "/noting"])
+def test_an_argument_goes_before_the_file_whatever_its_sections_and_types(run: Any, header: str) -> None:
+    file = under(header, tick_hz="40", on_error="failure") + under("/**/noting", tick_hz="41")
+    _, values, _ = run(file, "--tick_hz=33.5", "--on_error=stop")
+    assert (values["tick_hz"], values["on_error"]) == (33.5, "stop")
+
+
+@pytest.mark.parametrize(
+    ("file", "words", "said"),
+    [
+        (
+            under("/**", tick_hz="fast"),
+            [],
+            "tick_hz is 'fast', but has to be a number above 0 (FILE, line 3)",
+        ),
+        (under("/**", tick_hz="true"), [], "tick_hz is true, but has to be a number above 0 (FILE, line 3)"),
+        (under("/**", tick_hz="0"), [], "tick_hz is 0, but"),
+        (under("/**", tick_hz=".inf"), [], "tick_hz is inf, but"),
+        (under("/**", tick_hz="[1.0]"), [], "but has to be a number above 0 (FILE, line 3)"),
+        (under("/**", on_finish="never"), [], "on_finish is 'never', but has to be stop or repeat (FILE"),
+        (under("/**", on_error="off"), [], "on_error is false, but has to be stop or failure (FILE"),
+        (under("/**", tree="7"), [], "tree is 7, but has to be the path of a file (FILE, line 3)"),
+        (under("/**", tree="/none.xml"), [], "/none.xml cannot be read: No such file"),
+        (
+            under("/**", use_sim_time="'yes'"),
+            [],
+            "use_sim_time has to be true or false, without quotes (FILE",
+        ),
+        (under("/**", gain="high"), [], "'gain' to 'high'"),
+        ("tick_hz: 1\n", [], "the node cannot start: failed to initialize rcl: Couldn't parse params file"),
+        ("a: [", [], "Couldn't parse params file"),
+        ("", ["--tick_hz=fast"], "tick_hz is 'fast', but has to be a number above 0 (an argument)"),
+        ("", ["--on_finish="], "on_finish is '', but has to be stop or repeat (an argument)"),
+        ("", ["--use_sim_time=yes"], "--use_sim_time=yes has to be true or false"),
+        ("", ["--tick_rate=5"], "the argument '--tick_rate=5' is not known; there are --tree=…, --tick_hz=…"),
+        ("", ["tick_hz"], "the argument 'tick_hz' is not known"),
+    ],
+)
+def test_a_wrong_parameter_is_said_with_its_place(
+    run: Any, tmp_path: Path, file: str, words: list[str], said: str
+) -> None:
+    status, _, err = run(file, *words)
+    assert status == 1
+    assert said.replace("FILE", str(tmp_path / "params.yaml")) in err
+    # Where an action raised, its lines are for who wrote it.
+    assert "Traceback" not in err or "gain" in said
+
+
+def test_simulated_time_that_does_not_come_is_said(tmp_path: Path) -> None:
+    (tmp_path / "tree.xml").write_text(TREE.replace("Note", "AlwaysSuccess"))
+    script = (
+        "import sys; from tree_gardener import ros_main; ros_main._CLOCK_S = 0.2;"
+        "sys.exit(ros_main.run_tree('tree.xml', node_name='waiting'))"
+    )
+    program = subprocess.Popen(
+        [sys.executable, "-c", script, "--use_sim_time=true"],
+        cwd=tmp_path,
+        env={**os.environ, "ROS_DOMAIN_ID": "12", "PYTHONPATH": str(ROOT)},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert program.stderr is not None
+        heard = next((line for line in program.stderr if "/clock" in line), "")
+        assert "use_sim_time is true, but no time came on /clock" in heard
+    finally:
+        program.send_signal(signal.SIGINT)
+        program.communicate(timeout=60)
+    assert program.returncode == 0

@@ -17,6 +17,7 @@ from xml.sax.saxutils import quoteattr
 import yaml
 
 from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.package.rosdep import rosdep_table
 
 FOLDER = "launch/"
 DEPENDENCIES = {".py": (), ".yaml": ("launch_yaml",), ".yml": ("launch_yaml",), ".xml": ("launch_xml",)}
@@ -26,6 +27,12 @@ _PLAIN = re.compile(r"[A-Za-z_][\w.]*")
 _XML_NODE = re.compile(r"<node\b[^>]*>")
 _XML_EXEC = re.compile(r"""\bexec\s*=\s*(?P<quote>["'])(?P<path>[^"']+)(?P=quote)""")
 _HERE = "$(dirname)/"
+# `pkg: x` and `pkg="x"`, `$(find-pkg-share x)`, and what Python says instead.
+_PACKAGES = re.compile(
+    r"""\bpkg["']?\s*[:=]\s*["']?(\w+)|\$\(find-pkg-(?:share|prefix) (\w+)\)"""
+    r"""|\bpackage\s*=\s*["'](\w+)["']"""
+    r"""|\b(?:FindPackage(?:Share|Prefix)|get_package_(?:share_directory|prefix))\(\s*["'](\w+)["']"""
+)
 
 
 def launch_files(files: Mapping[str, bytes]) -> list[str]:
@@ -33,9 +40,12 @@ def launch_files(files: Mapping[str, bytes]) -> list[str]:
     return sorted(path for path in files if _LAUNCH_FILE.fullmatch(path))
 
 
-def dependencies_of(paths: list[str]) -> set[str]:
-    """Returns the packages that read these launch files, beside `launch` itself."""
-    return {name for path in paths for name in DEPENDENCIES[PurePosixPath(path).suffix]}
+def dependencies_of(files: Mapping[str, bytes]) -> set[str]:
+    """Returns the packages that launch files take: those that read them, and those whose nodes they start."""
+    readers = {name for path in launch_files(files) for name in DEPENDENCIES[PurePosixPath(path).suffix]}
+    texts = (files[path].decode("utf-8", "replace") for path in launch_files(files))
+    named = {name for text in texts for groups in _PACKAGES.findall(text) for name in groups}
+    return readers | (named & rosdep_table().ros_packages)
 
 
 def programs(files: Mapping[str, bytes]) -> dict[str, str]:

@@ -149,14 +149,14 @@ class _Builder:
         models = [
             inspect_action(raw.decode("utf-8-sig", "replace"), path)
             for path, raw in project_files.items()
-            if path in self.sources or path in self.programs
+            if path.endswith(".py") and path in {*self.sources, *self.programs, *self.launch_files}
         ]
         own = {PurePosixPath(path).parts[1].removesuffix(".py") for path in self.sources}
         keys, found = dependencies(models, own)
         self.found.extend(found)
         own_launch = [self.own_launch_name(path) for path in self.launch_files]
         always = {"ament_index_python", "launch", "launch_ros", *ENGINE_DEPENDENCIES, ENGINE}
-        always |= dependencies_of(self.launch_files)
+        always |= dependencies_of(project_files)
         opened = self.endpoints()
         return {
             "name": self.name,

@@ -45,6 +45,7 @@ from std_msgs.msg import String
 rclpy.init()
 node = rclpy.create_node("talker")
 node.declare_parameter("rate", 1.0)
+node.declare_parameter("text", "hello")
 publisher = node.create_publisher(String, "/chatter", 10)
 try:
     rclpy.spin(node)

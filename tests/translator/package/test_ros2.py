@@ -201,6 +201,23 @@ def test_a_program_named_in_another_way_is_reported_with_its_line(make_project, 
     assert text.encode() == raw
 
 
+def test_packages_of_launch_files_are_dependencies(make_project, tmp_path):
+    files = {
+        "launch/a.launch.yaml": b"launch:\n- node: {pkg: demo_nodes_py, exec: talker}\n"
+        b"- include: {file: $(find-pkg-share nav2_bringup)/launch/x.launch.py}\n"
+        b"- node: {pkg: of_my_workspace, exec: talker}\n",
+        "launch/b.launch.xml": b'<launch><node pkg="turtlesim" exec="turtlesim_node"/></launch>',
+        "launch/c.launch.py": b"from nav2_common.launch import RewrittenYaml\n"
+        b"Node(package='joy', executable='joy_node')\nFindPackageShare('slam_toolbox')\n",
+    }
+    package = to_ros2_package(make_project(LEAF, files=files))
+    assert package.diagnostics == ()
+    names = {item.name for item in parsed(package, tmp_path).exec_depends}
+    assert names >= {"demo_nodes_py", "nav2_bringup", "turtlesim", "nav2_common", "joy", "slam_toolbox"}
+    assert names >= {"launch_yaml", "launch_xml"}
+    assert "of_my_workspace" not in names
+
+
 def test_files_of_the_same_name_in_folders_of_launch_stay_apart(make_project):
     paths = ["a/n.launch.py", "b/n.launch.py", "a/b.py", "a_b.py", "a/params.yaml", "robot.rviz"]
     files = {f"launch/{path}": f"# {path}\n".encode() for path in paths}

@@ -100,6 +100,7 @@ class Launch:
             self.program.send_signal(signal.SIGINT)
         status = self.program.wait(60)
         self.reader.join()
+        self.program.stdout.close()
         return status
 
 

@@ -106,6 +106,10 @@ class Blackboard(MutableMapping[str, Any]):
             raise KeyError(path)
         return self.root.scopes(path)
 
+    def child(self) -> "Blackboard":
+        """A scope inside this one, of the same class."""
+        return type(self)(self)
+
     def find(self, key: str) -> Entry | None:
         """The entry that a name in this scope stands for, or None."""
         board = self

@@ -10,8 +10,9 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Final
 
-from tree_gardener.blackboard import Blackboard, Entry
+from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.conditions import CONDITIONS, Guard, compile_conditions
+from tree_gardener.decorators.loop import Loop
 from tree_gardener.document import Element
 from tree_gardener.errors import Diagnostic, ScriptError, describe
 from tree_gardener.forest import Forest
@@ -43,7 +44,6 @@ if TYPE_CHECKING:
 MAX_PROBLEMS: Final = 100
 _INTEGER = re.compile(r"-?[0-9]+\Z")
 _REAL = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?\Z")
-_SCRIPTS: Final = {("Script", "code"), ("ScriptCondition", "code"), ("Precondition", "if")}
 _IDENTITY: Final = frozenset(("name", "ID"))
 _LOG = logging.getLogger(__name__)
 
@@ -62,7 +62,7 @@ class Builder:
         self.nodes: list[Node] = []
         self.boards: list[Blackboard] = [tree.blackboard]
         self.definition: Definition
-        self.names: set[tuple[int, str]] = set()
+        self.paths = {""}  # of the SubTrees; the main tree has none
         self.depths: list[int] = []
 
     def report(  # noqa: PLR0913 - one diagnostic
@@ -142,6 +142,8 @@ class Builder:
             if attribute in CONDITIONS:
                 self.guard(node)
                 break
+        if node.NEEDS:
+            self.construct(node)
         if isinstance(node, BehaviourLeaf):
             self.bind(node, kind)
         return node
@@ -206,7 +208,7 @@ class Builder:
                 message = f"the output port '{spec.name}' needs an entry, not '{text}'"
                 self.report(element, "TG304", message, f"write {{{text or 'key'}}}", spec.name)
             return
-        if (kind.name, spec.name) in _SCRIPTS:
+        if spec.name == kind.node_class.CODE:
             self.check_script(element, spec.name, text)
         elif spec.type is not STATUS:
             try:
@@ -228,6 +230,28 @@ class Builder:
         """Reports a script that does not parse, at the very place."""
         message = f"in the script of '{attribute}': {error.message}"
         self.report(element, "TG401", message, error.hint, attribute, error.span[0])
+
+    def construct(self, node: Node) -> None:
+        """Looks for what BehaviorTree.CPP's constructor of the node would miss."""
+        port, element = node.NEEDS, node.element
+        given = node.ports.get(port)
+        if given is None or (not given and not node.CODE and not isinstance(node, Loop)):
+            hint = f'write {port}="…"'
+            self.report(element, "TG302", f"the port '{port}' of {node.type} needs a value", hint, port)
+        elif node.CODE and (key := pointer_key(given, port)) is not None:
+            entry = node.board.find(key)
+            if entry is None or entry.value is EMPTY:
+                message = (
+                    f"the script of {node.type} is read when the tree is built, and '{key}' has no value then"
+                )
+                hint = "write the script itself, or give it to the SubTree as a constant"
+                self.report(element, "TG307", message, hint, port)
+            elif isinstance(entry.value, str) and entry.value:
+                try:
+                    compile_script(entry.value)
+                except ScriptError as error:
+                    message = f"in the script that '{key}' holds: {error.message}"
+                    self.report(element, "TG401", message, error.hint, port)
 
     def declare(self, element: Element, kind: NodeType, board: Blackboard) -> None:
         """Makes the entries that the ports lead to, and compares their types."""
@@ -294,14 +318,13 @@ class Builder:
     def scope(self, node: Node, instance: Instance) -> Blackboard:
         """Makes the blackboard of a SubTree's body."""
         element = node.element
-        name = element.attributes.get("name")
-        if name is not None:
-            key = (id(instance), name)
-            if key in self.names:
-                message = f"two SubTrees here are named '{name}'"
-                self.report(element, "TG501", message, "give each its own name, or none", "name")
-            self.names.add(key)
-        board = Blackboard(instance.board)
+        path = node.path
+        if path in self.paths:
+            name = element.attributes.get("name", "")
+            message = f"two SubTrees here are named '{name}'" if path else "the SubTree's name is empty"
+            self.report(element, "TG501", message, "give each its own name, or none", "name")
+        self.paths.add(path)
+        board = instance.board.child()
         board.locate = lambda: node.path
         self.boards.append(board)
         board.autoremap = self.autoremap(element)

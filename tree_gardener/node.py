@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 
 from tree_gardener.errors import PortError, TickError
 from tree_gardener.ports import Manifest, read_port, write_port
-from tree_gardener.status import IDLE, RUNNING, SKIPPED, SUCCESS, Status
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
 
 if TYPE_CHECKING:
     from tree_gardener.blackboard import Blackboard
@@ -87,8 +87,12 @@ class Node:
 
     KIND: ClassVar[Kind]
     RULE: ClassVar[str] = ""
-    MARKS_RUNNING: ClassVar[bool] = True
-    """Whether the node makes itself RUNNING before it ticks its children."""
+    MARKS_RUNNING: ClassVar[tuple[Status, ...]] = (IDLE, SUCCESS, FAILURE)
+    """The statuses from which the node makes itself RUNNING before it ticks its children."""
+    NEEDS: ClassVar[str] = ""
+    """The port without which the node cannot be made: BehaviorTree.CPP reads it in the constructor."""
+    CODE: ClassVar[str] = ""
+    """The port that holds a script, which is read when the node is made."""
 
     tree: "Tree"
 
@@ -222,7 +226,7 @@ class Node:
             try:
                 guard.after(self, status)
             except TickError:
-                self.status = RUNNING if self.MARKS_RUNNING else before
+                self.status = RUNNING if before in self.MARKS_RUNNING else before
                 raise
             return status
         if forced is SKIPPED:
@@ -360,7 +364,7 @@ class Leaf(Node):
 
     __slots__ = ()
     KIND = Kind.ACTION
-    MARKS_RUNNING = False
+    MARKS_RUNNING = ()
 
     def halt(self) -> None:
         """Makes itself IDLE."""

@@ -105,6 +105,9 @@ class StructureCheck:
             self.report(
                 element, "TG204", f"the ID '{tree_id}' {problem}", "use letters, digits and '_'", "ID"
             )
+        elif tree_id in self.registry:
+            message = f"the tree's ID '{tree_id}' is the name of a node"
+            self.report(element, "TG224", message, "give the tree another ID", "ID")
         if len(element.children) != 1:
             message = (
                 f"the tree '{self.tree}' has {len(element.children)} nodes at its root and needs exactly 1"
@@ -227,7 +230,7 @@ class StructureCheck:
             name = port.attributes.get("name", "")
             if not name:
                 self.report(port, "TG218", f"an <{port.tag}> has no name", 'write name="…"')
-            elif not name[0].isalpha() or name in _RESERVED or name_problem(name):
+            elif name[0].isdigit() or name in _RESERVED or _FORBIDDEN.search(name):
                 hint = "begin with a letter; use letters, digits and '_'"
                 self.report(port, "TG219", f"a port cannot be named '{name}'", hint, "name")
             else:

@@ -10,6 +10,7 @@ from typing import Any
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.clock import ManualClock
+from tree_gardener.conformance.deviations import WatchedBlackboard
 from tree_gardener.conformance.leaves import Trace, leaves
 from tree_gardener.errors import LoadError, PortError, ScriptError, TickError
 from tree_gardener.script import Environment, compile_script
@@ -22,15 +23,27 @@ _TYPES = {"queue_int": "list[int]", "queue_string": "list[string]", "queue_doubl
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
-    """What came of a case: `differences` is empty if it passed."""
+    """What came of a case.
+
+    Attributes:
+        name: of the case.
+        differences: what is not as BehaviorTree.CPP has it.
+        deviation: the name of the known reason of the differences (`DEVIATIONS`), or "".
+    """
 
     name: str
     differences: tuple[str, ...]
+    deviation: str = ""
 
     @property
     def passed(self) -> bool:
         """Whether nothing differs."""
         return not self.differences
+
+    @property
+    def failed(self) -> bool:
+        """Whether something differs without a known reason."""
+        return bool(self.differences) and not self.deviation
 
 
 def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
@@ -50,11 +63,17 @@ def run_case(case: dict[str, Any]) -> Outcome:
     if "rejected_410" in case:
         return _run_load_case(case)
     try:
-        return Outcome(case["name"], tuple(_Run(case).differences()))
+        run = _Run(case)
+        return _outcome(case["name"], tuple(run.differences()), run)
     except LoadError as error:
         if case.get("load_error"):
             return Outcome(case["name"], ())
         return Outcome(case["name"], (f"it does not load: {error}",))
+
+
+def _outcome(name: str, differences: tuple[str, ...], run: "_Run") -> Outcome:
+    reasons = sorted(run.board.deviations) if differences else []
+    return Outcome(name, differences, reasons[0] if reasons else "")
 
 
 def _run_load_case(case: dict[str, Any]) -> Outcome:
@@ -74,7 +93,8 @@ def _run_load_case(case: dict[str, Any]) -> Outcome:
         found = f"exception: {error}"
     wants_error = expected is not None and expected not in Status.__members__
     same = found.startswith("exception") if wants_error else expected in (None, found)
-    return Outcome(case["name"], () if same else (f"first tick: expected {expected}, got {found}",))
+    differences = () if same else (f"first tick: expected {expected}, got {found}",)
+    return _outcome(case["name"], differences, run)
 
 
 class _Run:
@@ -85,7 +105,7 @@ class _Run:
         self.trace = Trace()
         self.clock = ManualClock()
         self.enums = case.get("enums", {})
-        board = Blackboard()
+        self.board = board = WatchedBlackboard()
         for key, (kind, value) in case.get("bb", {}).items():
             _preset(board, key, kind, value)
         if "init_script" in case:

@@ -24,7 +24,7 @@ class Switch(Control):
     """
 
     __slots__ = ("running",)
-    MARKS_RUNNING = False
+    MARKS_RUNNING = ()
 
     def prepare(self) -> None:
         super().prepare()

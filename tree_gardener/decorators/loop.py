@@ -22,6 +22,7 @@ class Loop(Decorator):
     """
 
     __slots__ = ("busy", "queue")
+    NEEDS = "queue"
 
     def prepare(self) -> None:
         super().prepare()
@@ -36,7 +37,9 @@ class Loop(Decorator):
             self.refill(starts)
             if not self.queue:
                 return self.empty()
-            self.put("value", self.queue.popleft())
+            element = self.queue.popleft()
+            if "value" in self.ports:
+                self.put("value", element)
         if self.status is not RUNNING:
             self.start()
         tick = self.tick_child

@@ -14,7 +14,8 @@ class Precondition(Decorator):
     """
 
     __slots__ = ("environment", "open")
-    MARKS_RUNNING = False
+    MARKS_RUNNING = ()
+    NEEDS = CODE = "if"
 
     def prepare(self) -> None:
         super().prepare()

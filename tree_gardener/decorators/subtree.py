@@ -1,7 +1,7 @@
 """SubTree."""
 
 from tree_gardener.node import Decorator, Kind
-from tree_gardener.status import RUNNING, SKIPPED, Status
+from tree_gardener.status import IDLE, RUNNING, SKIPPED, Status
 
 
 class SubTree(Decorator):
@@ -15,6 +15,7 @@ class SubTree(Decorator):
 
     __slots__ = ()
     KIND = Kind.SUBTREE
+    MARKS_RUNNING = (IDLE,)
 
     @property
     def local_path(self) -> str:
@@ -23,10 +24,12 @@ class SubTree(Decorator):
         return name if name is not None else f"{attributes['ID']}::{self.uid}"
 
     def execute(self) -> Status:
-        if self.status is not RUNNING:
+        if self.status is IDLE:
             self.start()
         tick = self.tick_child
         status = tick()
         if status is RUNNING:
+            if self.status is not RUNNING:
+                self.start()
             return RUNNING
         return self.skipped() if status is SKIPPED else self.finish(status)

@@ -11,7 +11,8 @@ class _WhenUpdated(Decorator):
     """Ticks its child if an entry was written since the last look."""
 
     __slots__ = ("busy", "key", "seen")
-    MARKS_RUNNING = False
+    MARKS_RUNNING = ()
+    NEEDS = "entry"
     OTHERWISE: ClassVar[Status]
 
     def prepare(self) -> None:

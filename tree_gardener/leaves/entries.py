@@ -77,6 +77,7 @@ class WasEntryUpdated(SyncLeaf):
     """Succeeds if a blackboard entry was written since the last look, else fails."""
 
     __slots__ = ("key", "seen")
+    NEEDS = "entry"
 
     def prepare(self) -> None:
         self.seen = 0

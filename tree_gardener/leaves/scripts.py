@@ -9,10 +9,12 @@ from tree_gardener.status import FAILURE, SUCCESS, Status
 class Script(SyncLeaf):
     """Runs a script on the blackboard and succeeds.
 
-    The text may come from an entry: ``code="{key}"``. An empty script does nothing.
+    The text may come from an entry, ``code="{key}"``, which must have a value when the tree is built, such as
+    a constant that the SubTree is given. An empty script does nothing.
     """
 
     __slots__ = ("environment",)
+    NEEDS = CODE = "code"
 
     def prepare(self) -> None:
         self.environment = Environment(self.board, self.tree.enums, self.uid)
@@ -36,6 +38,7 @@ class ScriptCondition(SyncLeaf):
 
     __slots__ = ("environment",)
     KIND = Kind.CONDITION
+    NEEDS = CODE = "code"
 
     def prepare(self) -> None:
         self.environment = Environment(self.board, self.tree.enums, self.uid)

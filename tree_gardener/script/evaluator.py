@@ -337,6 +337,9 @@ def _assignment(expression: Assignment) -> Evaluator:
                 raise ScriptError(target.span, f"there is no entry '{name}'", "create it with :=")
             entry = environment.board.create(name, None)
         right = value(environment)
+        if right is EMPTY:
+            hint = "'..' gives no value for two numbers" if isinstance(expression.value, Binary) else ""
+            raise ScriptError(expression.value.span, f"there is no value to assign to '{name}'", hint)
         if symbol in (":=", "="):
             result = _assigned(entry, right, environment, span)
         else:

@@ -14,12 +14,12 @@ OPERATORS: Final = (
 _TOKEN = re.compile(
     r"(?P<blank>[ \t\r\n]+)"
     r"|(?P<real>[0-9]+(?:\.[0-9]+(?:[eE][+-]?[0-9]+)?|[eE][+-]?[0-9]+)(?![0-9A-Za-z_]))"
-    r"|(?P<integer>(?:0[xX][0-9a-fA-F]+|[0-9]+)(?![0-9A-Za-z_]))"
+    r"|(?P<integer>(?:0[xX][0-9a-fA-F]+(?!\.)|[0-9]+)(?![0-9A-Za-z_]))"
     r"|(?P<string>'[^']*')"
     r"|(?P<name>[A-Za-z_@][A-Za-z0-9_]*)"
     rf"|(?P<operator>{'|'.join(map(re.escape, OPERATORS))})"
 )
-_BAD_NUMBER = re.compile(r"[0-9][0-9A-Za-z_]*")
+_BAD_NUMBER = re.compile(r"0[xX][0-9A-Za-z_.]*|[0-9][0-9A-Za-z_]*")
 
 _HINTS: Final = {
     "%": "there is no remainder; there are + - * / & | ^ ..",

@@ -1,0 +1,43 @@
+"""Where the engine differs from BehaviorTree.CPP on purpose, and how a run is known to be one of these.
+
+A case whose differences have such a reason is no failure: its outcome carries the reason's name.
+"""
+
+from typing import Final
+
+from tree_gardener.blackboard import Blackboard, Entry
+from tree_gardener.values import ValueType
+
+DEVIATIONS: Final = {
+    "global-through-remap": (
+        'an entry that is made through a remap to a global (x="{@g}") is the global here; '
+        "BehaviorTree.CPP 4.10 makes one that is literally named '@g', and what is written there is lost"
+    ),
+}
+
+
+class WatchedBlackboard(Blackboard):
+    """A blackboard that notes the deviations that a run comes to."""
+
+    __slots__ = ("deviations",)
+
+    def __init__(self, parent: Blackboard | None = None) -> None:
+        super().__init__(parent)
+        self.deviations: set[str] = parent.deviations if isinstance(parent, WatchedBlackboard) else set()
+
+    def create(self, key: str, kind: ValueType | None) -> Entry:
+        """Declares an entry, and notes when a remap leads to a global."""
+        if _leads_to_global(self, key):
+            self.deviations.add("global-through-remap")
+        return super().create(key, kind)
+
+
+def _leads_to_global(board: Blackboard, key: str) -> bool:
+    while board.parent is not None and key[:1] != "@" and key not in board.entries:
+        outer = board.remapping.get(key)
+        if outer is None and (not board.autoremap or key[:1] == "_"):
+            return False
+        board, key = board.parent, key if outer is None else outer
+        if key[:1] == "@":
+            return True
+    return False

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, MutableMapping
 from typing import Any, Final
 
 from tree_gardener.errors import PortError
-from tree_gardener.values import ANY, STRING, ConversionError, ValueType, type_name_of
+from tree_gardener.values import ANY, STRING, ConversionError, ValueType, as_number, type_name_of
 
 
 class _Empty:
@@ -215,19 +215,37 @@ class Blackboard(MutableMapping[str, Any]):
         return sum(1 for _ in self)
 
 
+def _kept_kind(entry: Entry, value: Any) -> Any:
+    """A value as the kind of number that the entry holds; BT.CPP's ``Any::copyInto``."""
+    old, number = as_number(entry.value), as_number(value)
+    if old is None or isinstance(entry.value, bool):
+        return value
+    if number is None:
+        if isinstance(value, str):
+            raise PortError(f"entry '{entry.key}' holds a number, and a string cannot take its place")
+        return value
+    if isinstance(old, float):
+        return float(number)
+    if isinstance(number, float) and not number.is_integer():
+        raise PortError(f"entry '{entry.key}' holds an integer, and {number} is none")
+    return value if isinstance(value, bool) else int(number)
+
+
 def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> None:
     """Writes to an entry that exists in the very scope, as `kind`."""
     declared = entry.type
     if declared is None or not declared.is_strong:
         entry.type = ANY if kind is None else kind
-    elif kind is not None and kind.is_strong and kind is not declared:
+        entry.write(value, writer)
+        return
+    if kind is not None and kind.is_strong and kind is not declared:
         try:
             # Numbers convert to numbers when nothing is lost, and a string is parsed; the rest is a mistake.
-            if kind is not STRING and isinstance(entry.value, str):
+            if kind is not STRING and (declared is STRING or isinstance(entry.value, str)):
                 raise ConversionError(f"a value of type {kind.name} is not a string")
             value = declared.parse(value) if kind is STRING else declared.convert(value)
         except ConversionError as error:
             raise PortError(
                 f"entry '{entry.key}' was declared as {declared.name} and is written as {kind.name}: {error}"
             ) from None
-    entry.write(value, writer)
+    entry.write(value if kind is None else _kept_kind(entry, value), writer)

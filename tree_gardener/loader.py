@@ -26,6 +26,7 @@ from tree_gardener.script import Environment, compile_script
 from tree_gardener.structure import Definition, type_of
 from tree_gardener.substitution import Rule
 from tree_gardener.values import (
+    ANY,
     DOUBLE,
     INT,
     INT32,
@@ -263,7 +264,9 @@ class Builder:
             key = pointer_key(text, name) if spec is not None else None
             if spec is None or key is None:
                 continue
-            kind_of_port = spec.type if spec.type.is_strong else None
+            # Nodes that watch an entry declare it as BT::Any, which takes no strings later.
+            weak = ANY if spec.name == kind.node_class.NEEDS else None
+            kind_of_port = spec.type if spec.type.is_strong else weak
             entry = board.find(key)
             if entry is None:
                 try:
@@ -273,12 +276,12 @@ class Builder:
             elif (
                 entry.type is not None
                 and entry.type.is_strong
-                and kind_of_port is not None
-                and entry.type is not kind_of_port
+                and spec.type.is_strong
+                and entry.type is not spec.type
                 and entry.type is not STRING
             ):
                 message = (
-                    f"the entry '{key}' is of type {entry.type.name} elsewhere and {kind_of_port.name} here"
+                    f"the entry '{key}' is of type {entry.type.name} elsewhere and {spec.type.name} here"
                 )
                 self.report(element, "TG306", message, "use two entries, or ports of one type", name)
 

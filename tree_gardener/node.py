@@ -226,13 +226,17 @@ class Node:
             try:
                 guard.after(self, status)
             except TickError:
-                self.status = RUNNING if before in self.MARKS_RUNNING else before
+                self.status = self.status_within(before)
                 raise
             return status
         if forced is SKIPPED:
             return self.skipped()
         guard.after(self, forced)
         return self.complete(forced)
+
+    def status_within(self, before: Status) -> Status:
+        """The status that the node had while it was ticked, before it took its result."""
+        return RUNNING if before in self.MARKS_RUNNING else before
 
     def _execute_hooked(self) -> Status:
         inner = self.execute if self.guard is None else self._execute_guarded

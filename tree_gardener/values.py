@@ -11,6 +11,7 @@ import json
 import math
 import numbers
 import re
+import sys
 import typing
 from collections.abc import Callable
 from typing import Any, Final
@@ -55,7 +56,9 @@ def format_number(value: float) -> str:
     """A number as text: an integer plain, a double always with six decimals."""
     if isinstance(value, int):
         return str(int(value))
-    return f"{value:.6f}" if math.isfinite(value) else str(value).replace("+", "")
+    if math.isnan(value):
+        return "-nan" if math.copysign(1.0, value) < 0 else "nan"
+    return f"{value:.6f}" if math.isfinite(value) else str(value)
 
 
 def to_text(value: Any) -> str:
@@ -116,7 +119,17 @@ def parse_double(text: str) -> float:
     match = _REAL.match(text)
     if match is None:
         raise ConversionError(f"'{text}' is not a number")
-    return float(match.group())
+    return checked_double(match.group())
+
+
+def checked_double(text: str) -> float:
+    """A real number written out in full; one that no double can hold is refused, as ``from_chars`` does."""
+    number = float(text)
+    if math.isinf(number) and text[-1].isdigit():
+        raise ConversionError(f"{text} is too large: a double ends at {sys.float_info.max:.3g}")
+    if number == 0.0 and re.search("[1-9]", text.lower().partition("e")[0]):
+        raise ConversionError(f"{text} is too small: a double begins at {math.ulp(0.0):.3g}")
+    return number
 
 
 def _convert_double(value: Any) -> float:

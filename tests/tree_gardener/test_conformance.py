@@ -9,12 +9,13 @@ from typing import Any
 import pytest
 
 from tree_gardener import LoadError, Tree
-from tree_gardener.conformance import run_case, run_file
+from tree_gardener.conformance import DEVIATIONS, run_case, run_file
 from tree_gardener.conformance.leaves import Trace, leaves
 
 CASES = Path(__file__).parents[1] / "conformance"
 FILES = {
     "accepts.jsonl": 8,
+    "added.jsonl": 982,
     "focused.jsonl": 123,
     "random.jsonl": 300,
     "rejects.jsonl": 43,
@@ -80,6 +81,20 @@ def test_every_case_passes(name: str, number: int) -> None:
     outcomes = list(run_file(CASES / name))
     assert [outcome for outcome in outcomes if not outcome.passed] == []
     assert len(outcomes) == number
+
+
+def test_what_differs_on_purpose_differs_for_the_reason_that_is_named() -> None:
+    outcomes = list(run_file(CASES / "deviations.jsonl"))
+    assert {outcome.deviation for outcome in outcomes} == set(DEVIATIONS)
+    assert not any(outcome.passed or outcome.failed for outcome in outcomes)
+    assert len(outcomes) == 76
+
+
+def test_a_difference_without_that_reason_is_a_failure() -> None:
+    cases = [json.loads(line) for line in (CASES / "deviations.jsonl").read_text().splitlines()]
+    for case in cases:
+        direct = case["xml"].replace('x="{@g}"', 'x="{g}"').replace('u="{@g}"', 'u="{g}"')
+        assert not run_case({**case, "xml": direct}).deviation
 
 
 def test_every_reject_has_a_twin() -> None:

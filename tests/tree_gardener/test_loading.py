@@ -57,6 +57,51 @@ def test_a_mistake_is_found_at_its_place(body: str, expected: list[tuple[str, in
     assert problems(body) == expected
 
 
+A = "<AlwaysSuccess/>"
+CONSTRUCTED = [
+    ("<Script/>", "TG302", "code"),
+    ("<ScriptCondition/>", "TG302", "code"),
+    (f"<Precondition>{A}</Precondition>", "TG302", "if"),
+    *((f"<Loop{kind}>{A}</Loop{kind}>", "TG302", "queue") for kind in ("Int", "Double", "String", "Bool")),
+    (f"<SkipUnlessUpdated>{A}</SkipUnlessUpdated>", "TG302", "entry"),
+    (f'<WaitValueUpdate entry="">{A}</WaitValueUpdate>', "TG302", "entry"),
+    ("<WasEntryUpdated/>", "TG302", "entry"),
+    ('<Script code="{x}"/>', "TG307", "code"),
+    (f'<Precondition if="{{x}}">{A}</Precondition>', "TG307", "if"),
+]
+
+
+@pytest.mark.parametrize(("body", "code", "port"), CONSTRUCTED)
+def test_what_a_constructor_would_miss_is_refused_at_load(body: str, code: str, port: str) -> None:
+    with pytest.raises(LoadError) as refused:
+        load("\n" + body)
+    (problem,) = refused.value.diagnostics
+    assert (problem.code, problem.line, problem.port) == (code, 2, port)
+    assert problem.node == body[1:].split(" ")[0].split("/")[0].split(">")[0]
+    assert problem.hint
+
+
+def test_a_script_may_be_a_constant_of_its_subtree() -> None:
+    inner = '<BehaviorTree ID="B"><Script code="{code}"/></BehaviorTree>'
+    tree = load('<SubTree ID="B" name="b" code="x := 1"/>', inner)
+    tree.tick_exactly_once()
+    assert tree.blackboard.scope("b")["x"] == 1
+    with pytest.raises(LoadError, match="TG401 in the script that 'code' holds"):
+        load('<SubTree ID="B" code="x :="/>', inner)
+
+
+@pytest.mark.parametrize("tree_id", ["Sequence", "AlwaysSuccess", "SubTree", "Succeeding"])
+def test_a_tree_cannot_be_named_like_a_node(tree_id: str) -> None:
+    unused = f'<BehaviorTree ID="{tree_id}">{A}</BehaviorTree>'
+    with pytest.raises(LoadError, match=f"TG224 the tree's ID '{tree_id}' is the name of a node"):
+        load(A, unused)
+
+
+@pytest.mark.parametrize("tree_id", ["ROOT", "rOOT"])
+def test_other_spellings_of_root_are_allowed(tree_id: str) -> None:
+    load(A, f'<BehaviorTree ID="{tree_id}">{A}</BehaviorTree>')
+
+
 def test_subtrees_are_checked_where_they_are_called() -> None:
     model = '<TreeNodesModel><SubTree ID="Arm"><input_port name="goal"/></SubTree></TreeNodesModel>'
     arm = subtree("Arm", "<Succeeding/>")

@@ -79,7 +79,11 @@ def test_conformance_counts(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
     assert out.endswith("1 passed, 1 failed\n")
     with pytest.raises(CliError):
         verb.conformance([path], as_json=True)
-    assert json.loads(capsys.readouterr().out.splitlines()[0]) == {"name": "good", "differences": []}
+    assert json.loads(capsys.readouterr().out.splitlines()[0]) == {
+        "name": "good",
+        "differences": [],
+        "deviation": "",
+    }
 
 
 @pytest.mark.parametrize("text", ["no json", "[1]", '{"name": "x"}'])

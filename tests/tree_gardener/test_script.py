@@ -154,8 +154,10 @@ def test_running_raises_nothing_but_script_errors(text: str) -> None:
         run(text, board)
 
 
-def test_types_without_a_converter_refuse_texts_only_when_they_must() -> None:
+def test_an_entry_that_is_watched_takes_no_text_from_a_script() -> None:
     board = Blackboard()
     board.create("loose", ANY)
     board.create("text", STRING)
-    assert run("loose := 'x'; text := 'y'", board) == "y"
+    assert run("loose := 1; text := 'y'", board) == "y"
+    with pytest.raises(ScriptError, match="'loose' is watched"):
+        run("loose := 'x'", board)

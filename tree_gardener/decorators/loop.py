@@ -21,16 +21,18 @@ class Loop(Decorator):
     consumed in place.
     """
 
-    __slots__ = ("busy", "queue")
+    __slots__ = ("busy", "queue", "ticked")
     NEEDS = "queue"
 
     def prepare(self) -> None:
         super().prepare()
         self.busy = False
+        self.ticked = False
         self.queue: collections.deque[Any] = collections.deque()
 
     def execute(self) -> Status:
         starts = self.status is IDLE
+        self.ticked = False
         if starts:
             self.busy = False
         if not self.busy:
@@ -42,6 +44,7 @@ class Loop(Decorator):
                 self.put("value", element)
         if self.status is not RUNNING:
             self.start()
+        self.ticked = True
         tick = self.tick_child
         status = tick()
         self.busy = status is RUNNING
@@ -50,6 +53,9 @@ class Loop(Decorator):
         if status is SUCCESS:
             self.reset()
         return RUNNING
+
+    def status_within(self, before: Status) -> Status:
+        return RUNNING if self.ticked else before
 
     def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule
         """Finds the queue to take the next element from."""

@@ -7,7 +7,7 @@ from tree_gardener.errors import PortError, TickError
 from tree_gardener.node import SyncLeaf
 from tree_gardener.ports import pointer_key
 from tree_gardener.status import FAILURE, SUCCESS, Status
-from tree_gardener.values import ANY, STRING, ConversionError, ValueType, to_text
+from tree_gardener.values import ANY, DOUBLE, INT_64, STRING, ConversionError, ValueType, to_text
 
 
 class SetBlackboard(SyncLeaf):
@@ -45,6 +45,12 @@ class SetBlackboard(SyncLeaf):
             return FAILURE
         if isinstance(value, str) and target.type is not STRING:
             value = self.parsed(value, target.type)
+        elif target.is_strong and target.type is not _copied_type(value, kind):
+            assert target.type is not None
+            message = (
+                f"the entry '{key}' is of type {target.type.name} and takes no copy of '{pointer or value}'"
+            )
+            raise TickError(self, message)
         self.board.set(key, value, None, self.uid)
         return SUCCESS
 
@@ -58,6 +64,17 @@ class SetBlackboard(SyncLeaf):
             return kind.parse(text)
         except ConversionError as error:
             raise TickError(self, f"'{text}' cannot be written to the entry: {error}") from None
+
+
+def _copied_type(value: Any, kind: ValueType | None) -> ValueType | None:
+    """The type that a copied value has: that of its entry, or what scripts make."""
+    if kind is not None and kind.is_strong:
+        return kind
+    if isinstance(value, str):
+        return STRING
+    if isinstance(value, float):
+        return DOUBLE
+    return INT_64 if isinstance(value, int) else kind
 
 
 class UnsetBlackboard(SyncLeaf):

@@ -26,6 +26,7 @@ from tree_gardener.script.syntax import (
     Unary,
 )
 from tree_gardener.values import (
+    ANY,
     INT64,
     ConversionError,
     as_number,
@@ -36,6 +37,8 @@ from tree_gardener.values import (
 )
 
 TOLERANCE: Final = 1.1920928955078125e-07  # FLT_EPSILON, for == and != only
+EXACT: Final = 2**53  # from here on BehaviorTree.CPP makes no doubles of integers
+TWO_TO_63: Final = 2.0**63
 
 
 class Environment:
@@ -134,7 +137,10 @@ def _unary(expression: Unary) -> Evaluator:
     function = _PREFIX[expression.operator]
 
     def run(environment: Environment) -> float:
-        return function(_number(operand(environment), expression))
+        try:
+            return function(_number(operand(environment), expression))
+        except ConversionError as error:
+            raise ScriptError(expression.span, str(error)) from None
 
     return run
 
@@ -143,7 +149,15 @@ def _number(value: Any, expression: Expression) -> float:
     number = as_number(value)
     if number is None:
         raise ScriptError(expression.span, f"a number is needed, not {_kind(value)}")
-    return number
+    return _real(number, expression.span)
+
+
+def _real(number: float, span: Span) -> float:
+    """A number as the double that scripts compute with."""
+    if isinstance(number, int) and abs(number) >= EXACT:
+        hint = f"scripts compute with integers below {EXACT}"
+        raise ScriptError(span, f"{number} is too large to compute with", hint)
+    return float(number)
 
 
 def _kind(value: Any) -> str:
@@ -151,11 +165,14 @@ def _kind(value: Any) -> str:
 
 
 def _complement(value: float) -> float:
-    return float(~int(value))
+    if value < -TWO_TO_63 or value > TWO_TO_63:
+        raise ConversionError(f"'~' works on integers of 64 bits, not on {format_number(value)}")
+    # What is no number, and the first double beyond all integers, become the smallest, as on the processor.
+    return float(~int(value if value < TWO_TO_63 else -TWO_TO_63))
 
 
 _PREFIX: Final[dict[str, Callable[[float], float]]] = {
-    "-": lambda value: -float(value),
+    "-": lambda value: -value,
     "~": _complement,
     "!": lambda value: 0.0 if value else 1.0,
 }
@@ -165,7 +182,7 @@ def _divide(left: float, right: float) -> float:
     if right:
         return float(left) / float(right)
     if not left or math.isnan(left):
-        return math.nan
+        return left if left else -math.nan  # the sign that processors give it, which its text shows
     return math.copysign(math.inf, left) * math.copysign(1.0, right)
 
 
@@ -197,7 +214,7 @@ def _binary(expression: Binary) -> Evaluator:
 def _arithmetic(symbol: str, span: Span, left: Any, right: Any) -> Any:
     a, b = as_number(left), as_number(right)
     if a is not None and b is not None:
-        return _ARITHMETIC[symbol](float(a), float(b))
+        return _ARITHMETIC[symbol](_real(a, span), _real(b, span))
     if symbol == "+" and isinstance(left, str) and isinstance(right, str):
         return left + right
     raise ScriptError(
@@ -220,8 +237,11 @@ def _bits(symbol: str, span: Span, left: Any, right: Any) -> float:
     a, b = as_number(left), as_number(right)
     if a is None or b is None:
         raise ScriptError(span, f"'{symbol}' does not work on {_kind(left)} and {_kind(right)}")
-    if not float(a).is_integer() or not float(b).is_integer():
-        raise ScriptError(span, f"'{symbol}' works on integers only")
+    if not all(
+        number.is_integer() and -TWO_TO_63 <= number < TWO_TO_63
+        for number in (_real(a, span), _real(b, span))
+    ):
+        raise ScriptError(span, f"'{symbol}' works on integers only, of 64 bits")
     return float(_BITS[symbol](int(a), int(b)))
 
 
@@ -245,16 +265,17 @@ _COMBINE: Final[dict[str, Callable[[Span, Any, Any], Any]]] = {
 def _equal(left: Any, right: Any) -> bool:
     if isinstance(left, str):
         return bool(left == right)
-    return bool(left == right or abs(left - right) <= TOLERANCE)
+    return bool(abs(left - right) <= TOLERANCE)  # so that infinity is not even equal to itself
 
 
 _COMPARE: Final[dict[str, Callable[[Any, Any], bool]]] = {
     "==": _equal,
     "!=": lambda left, right: not _equal(left, right),
-    "<": operator.lt,
-    ">": operator.gt,
-    "<=": operator.le,
-    ">=": operator.ge,
+    # Refused by the opposite, as in BehaviorTree.CPP: what is no number is less and greater than all.
+    "<": lambda left, right: not left >= right,
+    ">": lambda left, right: not left <= right,
+    "<=": lambda left, right: not left > right,
+    ">=": lambda left, right: not left < right,
 }
 
 
@@ -286,7 +307,7 @@ def _comparable(left: Any, right: Any, environment: Environment, span: Span) -> 
         b = _text_to_number(right, environment, span)
     if a is None or b is None:
         raise ScriptError(span, f"{_kind(left)} cannot be compared with {_kind(right)}")
-    return float(a), float(b)
+    return _real(a, span), _real(b, span)
 
 
 def _text_to_number(text: str, environment: Environment, span: Span) -> float:
@@ -314,7 +335,8 @@ def _conditional(expression: Conditional) -> Evaluator:
                 number = parse_double(value)
             except ConversionError as error:
                 raise ScriptError(expression.condition.span, str(error)) from None
-        return then(environment) if number else otherwise(environment)
+        chosen = _real(number, expression.condition.span)
+        return then(environment) if chosen else otherwise(environment)
 
     return run
 
@@ -355,6 +377,11 @@ def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) ->
     old = entry.value
     if old is EMPTY and entry.type is None:
         return value
+    if isinstance(value, str) and entry.type is ANY:
+        hint = "write it from a node with a string port, or watch another entry"
+        raise ScriptError(
+            span, f"'{entry.key}' is watched or was copied to, and takes no string from a script", hint
+        )
     if isinstance(value, str) and not isinstance(old, str):
         if not entry.is_strong:
             if as_number(old) is None:
@@ -383,7 +410,7 @@ def _copied(entry: Entry, value: Any, span: Span) -> Any:
             "use another entry",
         )
     if isinstance(target, float):
-        return float(number)
+        return _real(number, span)
     if isinstance(number, float) and not (number.is_integer() and INT64[0] <= number <= INT64[1]):
         raise ScriptError(
             span, f"{format_number(number)} cannot be assigned to '{entry.key}', which holds an integer", ""
@@ -397,7 +424,7 @@ def _compound(entry: Entry, symbol: str, value: Any, span: Span) -> Any:
     if number is not None:
         if old is None:
             raise ScriptError(span, f"'{symbol}=' needs a number in '{entry.key}', not {_kind(entry.value)}")
-        return _copied(entry, _ARITHMETIC[symbol](float(old), float(number)), span)
+        return _copied(entry, _ARITHMETIC[symbol](_real(old, span), _real(number, span)), span)
     if symbol != "+" or not isinstance(value, str) or not isinstance(entry.value, str):
         raise ScriptError(span, f"'{symbol}=' does not work on {_kind(entry.value)} and {_kind(value)}")
     return entry.value + value

@@ -20,7 +20,7 @@ from tree_gardener.script.syntax import (
     Program,
     Unary,
 )
-from tree_gardener.values import INT64
+from tree_gardener.values import INT64, ConversionError, checked_double
 
 ASSIGNMENTS: Final = frozenset((":=", "=", "+=", "-=", "*=", "/="))
 COMPARISONS: Final = frozenset(("==", "!=", "<", ">", "<=", ">="))
@@ -173,7 +173,10 @@ def _atom(token: Token) -> Expression:
         # An integer that does not fit reads as 0 in BehaviorTree.CPP.
         return Literal(span, number if number <= INT64[1] else 0)
     if token.kind == "real":
-        return Literal(span, float(token.text))
+        try:
+            return Literal(span, checked_double(token.text))
+        except ConversionError as error:
+            raise ScriptError(span, str(error), "write a number that a double can hold") from None
     if token.kind == "string":
         return Literal(span, token.text[1:-1])
     if token.text in ("true", "false"):

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from tree_gardener.script import Program
 
 MAX_LENGTH = 20_000
+MAX_INTEGER = 2**63 - 1
 
 
 class Problem(NamedTuple):
@@ -42,6 +43,23 @@ def script_names(code: str) -> ScriptNames:
     except RecursionError:
         return ScriptNames(problem=Problem(0, "it is nested too deeply", ""))
     return ScriptNames(tuple(dict.fromkeys(read)), tuple(dict.fromkeys(written)))
+
+
+def integers_too_large(code: str) -> list[str]:
+    """Returns the integers of a script that BehaviorTree.CPP reads as 0, since 64 bits cannot hold them."""
+    from tree_gardener.script import ScriptError  # noqa: PLC0415
+    from tree_gardener.script.lexer import tokenize  # noqa: PLC0415
+
+    try:
+        tokens = tokenize(code[:MAX_LENGTH])
+    except ScriptError:
+        return []
+    return [
+        token.text
+        for token in tokens
+        if token.kind == "integer"
+        and int(token.text, 16 if token.text[:2] in {"0x", "0X"} else 10) > MAX_INTEGER
+    ]
 
 
 def _names(program: Program) -> tuple[list[str], list[str]]:

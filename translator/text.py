@@ -31,7 +31,7 @@ def bad_character(identifier: str) -> str | None:
 
 def is_valid_id(identifier: str) -> bool:
     """Whether the text can be the ID of a tree or the type of a node."""
-    return bool(identifier) and bad_character(identifier) is None and identifier.lower() != "root"
+    return bool(identifier) and bad_character(identifier) is None and identifier not in {"root", "Root"}
 
 
 def safe_name(identifier: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from enum import Enum
 
@@ -26,10 +27,14 @@ DESCRIPTIONS = {
 
 
 class Fit(Enum):
-    """How a literal suits a type; `LOOSE` is taken, but not as it reads (`12abc` as 12)."""
+    """How a literal suits a type.
+
+    `LOOSE` is taken, but not as it reads (`12abc` as 12); `RANGE` is a number that the type cannot hold.
+    """
 
     GOOD = "good"
     LOOSE = "loose"
+    RANGE = "range"
     BAD = "bad"
 
 
@@ -40,7 +45,7 @@ def fit(type_: str, text: str) -> Fit:
     if type_ in {"int", "uint"}:
         return _fit_integer(type_, text)
     if type_ == "double":
-        return _fit_prefix(_REAL, text)
+        return Fit.RANGE if outside(type_, text) else _fit_prefix(_REAL, text)
     if type_ == "bool":
         return Fit.GOOD if text in _BOOLEANS else Fit.BAD
     if type_ == "status":
@@ -55,6 +60,34 @@ def describe(type_: str) -> str:
     return DESCRIPTIONS.get(type_, "a text")
 
 
+def outside(type_: str, text: str) -> tuple[str, str, str] | None:
+    """Returns a number that the type cannot hold, with the limits of the type; None if there is none."""
+    if type_.startswith("list["):
+        found = (outside(type_[5:-1], part) for part in text.split(";"))
+        return next(filter(None, found), None)
+    if type_ == "double":
+        match = _REAL.match(text)
+        return _outside_double(match.group()) if match is not None else None
+    if type_ not in {"int", "uint"}:
+        return None
+    match = (_UNSIGNED if type_ == "uint" else _INTEGER).match(text)
+    low, high = _UINT_RANGE if type_ == "uint" else _INT_RANGE
+    if match is None or (len(match.group()) <= 20 and low <= int(match.group()) <= high):
+        return None
+    return match.group(), str(low), str(high)
+
+
+def _outside_double(number: str) -> tuple[str, str, str] | None:
+    digits = number.lower().partition("e")[0]
+    if not digits[-1:].isdigit() and not digits.endswith("."):
+        return None  # inf and nan
+    if math.isinf(float(number)):
+        return number, "-1.8e308", "1.8e308"
+    if float(number) == 0.0 and re.search("[1-9]", digits):
+        return number, "4.9e-324", "1.8e308"
+    return None
+
+
 def _fit_prefix(pattern: re.Pattern[str], text: str) -> Fit:
     match = pattern.match(text)
     if match is None:
@@ -66,9 +99,8 @@ def _fit_integer(type_: str, text: str) -> Fit:
     match = (_UNSIGNED if type_ == "uint" else _INTEGER).match(text)
     if match is None:
         return Fit.BAD
-    low, high = _UINT_RANGE if type_ == "uint" else _INT_RANGE
-    if len(match.group()) > 20 or not low <= int(match.group()) <= high:
-        return Fit.BAD
+    if outside(type_, text):
+        return Fit.RANGE
     return Fit.GOOD if match.end() == len(text) else Fit.LOOSE
 
 
@@ -78,7 +110,7 @@ def _fit_list(item: str, text: str) -> Fit:
     if text.startswith("json:"):
         return Fit.GOOD if _is_json_list(text[5:]) else Fit.BAD
     fits = {fit(item, part) for part in text.split(";")}
-    return Fit.BAD if Fit.BAD in fits else Fit.LOOSE if Fit.LOOSE in fits else Fit.GOOD
+    return next((worst for worst in (Fit.BAD, Fit.RANGE, Fit.LOOSE) if worst in fits), Fit.GOOD)
 
 
 def _is_json_list(text: str) -> bool:

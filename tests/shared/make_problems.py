@@ -73,6 +73,11 @@ LITERALS: Final = (
         "\u0131nf",
         "fast",
         "1.5m",
+        "1e400",
+        "-1e400x",
+        "1e-400",
+        "0e-400",
+        "1.e999",
     ),
     *("true", "TRUE", "True", "tRue", "false", "yes", "SUCCESS", "success", "IDLE", "RUNNING!"),
     *(
@@ -88,6 +93,8 @@ LITERALS: Final = (
         "json:[1",
         "json:{}",
         "json:NaN",
+        "1;99999999999",
+        "1;1e999",
     ),
 )
 FEW: Final = ("", "7", "-7", "2.5", "word", "{key}", "{", "{}", "true", "FAILURE", "1;2")

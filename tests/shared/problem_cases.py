@@ -105,6 +105,12 @@ def _subtrees(keys: tuple[str, ...]) -> Iterator[tuple[str, Trees]]:
             "B": tree({"r": LEAF, "d": call("MainTree")}, drafts=["d"]),
         },
     )
+    twice = [call("A"), call("A")]
+    yield "two rings that share a tree", {"MainTree": row([call("A")]), "A": row(twice), "B": row(twice)}
+    both = [call("B"), call("MainTree"), call("Loose")]
+    yield "rings through the main tree", {"MainTree": row(twice), "A": row(both), "B": row(both)}
+    loose = {"Y": row([call("Z")]), "Z": row([call("Y")])}
+    yield "a ring that nothing calls", {"MainTree": row([LEAF]), **loose}
     yield (
         "one name for two calls",
         {
@@ -152,6 +158,12 @@ def _names_and_scripts() -> Iterator[tuple[str, Trees]]:
         {"MainTree": row([{"type": "Open", "ports": {"p": text}} for text in ("{", "{}", "{a}{b}", "{x}")])},
     )
     yield "scripts", {"MainTree": row([{"type": "Script", "ports": {"code": text}} for text in SCRIPTS])}
+    for type_ in ("ScriptCondition", "Precondition"):
+        port = "code" if type_ == "ScriptCondition" else "if"
+        below = {"children": ["c"]} if type_ == "Precondition" else {}
+        for text in ("", "  ", "1"):
+            nodes = {"r": {"type": type_, "ports": {port: text}, **below}, **({"c": LEAF} if below else {})}
+            yield f"{type_} of {text!r}", {"MainTree": tree(nodes)}
     yield "conditions", {"MainTree": row([{**LEAF, "conditions": {"_skipIf": text}} for text in SCRIPTS])}
 
 

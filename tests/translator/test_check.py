@@ -78,7 +78,14 @@ CASES = {
     "brace open": ("BT0203", {"n1": {"type": "Act", "ports": {"speed": "{x"}}}, "n1"),
     "brace open on an open action": ("BT0203", {"n1": {"type": "Open", "ports": {"any": "{x"}}}, "n1"),
     "no number": ("BT0204", {"n1": {"type": "Act", "ports": {"speed": "fast"}}}, "n1"),
-    "no integer": ("BT0204", {"n1": {"type": "Act", "ports": {"count": "99999999999"}}}, "n1"),
+    "no integer": ("BT0204", {"n1": {"type": "Act", "ports": {"count": "many"}}}, "n1"),
+    "integer too large": ("BT0212", {"n1": {"type": "Act", "ports": {"count": "99999999999"}}}, "n1"),
+    "number too large": ("BT0212", {"n1": {"type": "Act", "ports": {"speed": "1e400"}}}, "n1"),
+    "watching no entry": ("BT0201", {"n1": {"type": "WasEntryUpdated", "ports": {"entry": ""}}}, "n1"),
+    "blank script": ("BT0301", {"n1": {"type": "Script", "ports": {"code": " "}}}, "n1"),
+    "no condition": ("BT0301", {"n1": {"type": "ScriptCondition", "ports": {"code": ""}}}, "n1"),
+    "script in an entry": ("BT0303", {"n1": {"type": "Script", "ports": {"code": "{k}"}}}, "n1"),
+    "script beyond 64 bits": ("BT0304", {"n1": {"type": "Script", "ports": {"code": f"x := {2**63}"}}}, "n1"),
     "no boolean": ("BT0204", {"n1": {"type": "Act", "ports": {"flag": "perhaps"}}}, "n1"),
     "literal output": ("BT0205", {"n1": {"type": "Act", "ports": {"result": "5"}}}, "n1"),
     "read in part": ("BT0206", {"n1": {"type": "Act", "ports": {"count": "12abc"}}}, "n1"),
@@ -193,16 +200,70 @@ def test_empty_trees(make_project):
     assert not [item for item in check(project) if item.is_error]
 
 
-def test_each_call_of_a_ring_of_subtrees_is_reported(make_project):
+def test_a_ring_of_subtrees_is_one_finding(make_project):
     call = {"n1": {"type": "SubTree", "tree": "B"}}
     project = make_project(
         {"n1": {"type": "SubTree", "tree": "A"}},
         trees={"A": call, "B": {"n1": {"type": "SubTree", "tree": "A"}}},
     )
     rings = [item for item in check(project) if item.code == "BT0502"]
-    assert [item.place.tree for item in rings] == ["A", "B"]
+    assert [item.place.tree for item in rings] == ["B"]
     assert "A → B → A" in rings[0].message
-    assert "B → A → B" in rings[1].message
+
+
+def test_each_ring_is_a_finding_of_its_own(make_project):
+    def call(*targets):
+        nodes = {f"n{target}": {"type": "SubTree", "tree": target} for target in targets}
+        return {"n1": {"type": "Sequence", "children": list(nodes)}, **nodes}
+
+    project = make_project(call("A", "A", "C"), trees={"A": call("A", "B"), "B": call("A"), "C": call("C")})
+    rings = [(item.place.tree, item.place.node) for item in check(project) if item.code == "BT0502"]
+    assert rings == [("A", "nA"), ("B", "nA"), ("C", "nC")]
+
+
+def test_other_spellings_of_root_name_a_tree(make_project):
+    project = make_project({"n1": {"type": "SubTree", "tree": "ROOT"}}, trees={"ROOT": {"n1": LEAF}})
+    assert [item.code for item in check(project)] == []
+
+
+GLOBAL = """<root BTCPP_format="4" main_tree_to_execute="Main">
+<BehaviorTree ID="Main"><Sequence><SubTree ID="Set" {given}/><Script code="y := g"/></Sequence></BehaviorTree>
+<BehaviorTree ID="Set">{inside}</BehaviorTree></root>"""
+
+
+@pytest.mark.parametrize(
+    ("given", "inside", "lost"),
+    [
+        ('x="{@g}"', '<Script code="x := 1"/>', ["x"]),
+        ('x="{@g}"', '<SetBlackboard value="1" output_key="x"/>', ["x"]),
+        ('x="{@g}"', '<LoopInt queue="1" value="{x}"><AlwaysSuccess/></LoopInt>', ["x"]),
+        ('x="{@g}"', '<ScriptCondition code="x == 1"/>', []),
+        ('x="{@g}"', '<Unknown value="{x}"/>', []),
+        ("", '<Script code="@g := 1"/>', []),
+        ('x="{g}"', '<Script code="x := 1"/>', []),
+    ],
+)
+def test_a_write_through_a_remap_to_a_global_is_warned_of(given, inside, lost):
+    found = check(from_xml(GLOBAL.replace("{given}", given).replace("{inside}", inside)))
+    warnings = [item for item in found if item.code == "BT0404"]
+    assert [item.place.port for item in warnings] == lost
+    for item in warnings:
+        assert "BehaviorTree.CPP loses this write" in item.message
+        assert item.hint == "Write {@g} inside “Set”, and do not pass it."
+
+
+CONSTANT = """<root BTCPP_format="4" main_tree_to_execute="Main">
+<BehaviorTree ID="Main"><Sequence><SubTree ID="Run" {given}/></Sequence></BehaviorTree>
+<BehaviorTree ID="Run"><SubTree ID="Inner" code="{code}"/></BehaviorTree>
+<BehaviorTree ID="Inner"><Script code="{code}"/></BehaviorTree></root>"""
+
+
+@pytest.mark.parametrize(
+    ("given", "codes"), [('code="x := 1"', []), ("", ["BT0303"]), ('code="{later}"', ["BT0303"])]
+)
+def test_a_script_may_be_a_constant_of_its_subtree(given, codes):
+    found = check(from_xml(CONSTANT.replace("{given}", given)))
+    assert [item.code for item in found if item.code == "BT0303"] == codes
 
 
 DRIVE = b"""<root BTCPP_format="4" main_tree_to_execute="Main">

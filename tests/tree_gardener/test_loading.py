@@ -77,7 +77,9 @@ def test_what_a_constructor_would_miss_is_refused_at_load(body: str, code: str, 
         load("\n" + body)
     (problem,) = refused.value.diagnostics
     assert (problem.code, problem.line, problem.port) == (code, 2, port)
-    assert problem.node == body[1:].split(" ")[0].split("/")[0].split(">")[0]
+    assert (
+        problem.node == body[1:].split(" ", maxsplit=1)[0].split("/", maxsplit=1)[0].split(">", maxsplit=1)[0]
+    )
     assert problem.hint
 
 

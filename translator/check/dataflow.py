@@ -31,6 +31,7 @@ class _Keys:
 
     read: dict[str, _Use] = field(default_factory=dict)
     written: dict[str, _Use] = field(default_factory=dict)
+    surely: set[str] = field(default_factory=set)  # written, whatever undeclared ports do
 
 
 def check_dataflow(context: Context) -> None:
@@ -46,6 +47,7 @@ def check_dataflow(context: Context) -> None:
     for tree_id in sorted(context.reachable):
         for node in trees[tree_id].subtree_calls():
             _report_missing_remaps(context, trees[tree_id], node, keys)
+            _report_lost_writes(context, trees[tree_id], node, keys)
     if main is not None and main.id in keys:
         _report_main(context, main, keys[main.id], global_writes, global_reads)
 
@@ -72,6 +74,7 @@ def _keys_of(context: Context, tree: Tree, keys: dict[str, _Keys]) -> _Keys:
     for node in tree.walk():
         for attribute, code in scripts_of(context, node):
             names = script_names(code)
+            own.surely.update(names.written)
             for name in names.written:
                 own.written.setdefault(name, _Use(node, ""))
             for name in names.read:
@@ -88,6 +91,7 @@ def _add_ports(context: Context, own: _Keys, node: Node) -> None:
     if node.type in {"SetBlackboard", "UnsetBlackboard"}:
         target = node.ports.get("output_key", "")
         own.written.setdefault(pointer(target) or target, _Use(node, ""))
+        own.surely.add(target)
     for name, port in model.ports.items() if model else ():
         text = node.ports.get(name, port.default)
         key = pointer(text, name) if text is not None else None
@@ -96,6 +100,7 @@ def _add_ports(context: Context, own: _Keys, node: Node) -> None:
         if port.is_read:
             own.read.setdefault(key, _Use(node, name))
         if port.is_written:
+            own.surely.add(key)
             own.written.setdefault(key, _Use(node, name if port.direction == "output" else ""))
     for name, value in node.ports.items():
         if (model is None or name not in model.ports) and (key := pointer(value, name)) is not None:
@@ -118,6 +123,7 @@ def _add_call(own: _Keys, node: Node, inner: _Keys | None) -> None:
             own.read.setdefault(outer, _Use(node, ""))
     for name in inner.written:
         if (outer := _outer_name(node, name)) is not None:
+            own.surely.update({outer} if name in inner.surely else ())
             own.written.setdefault(outer, _Use(node, ""))
 
 
@@ -141,6 +147,15 @@ def _report_main(
     for key, use in own.written.items():
         if use.port and key not in own.read and f"@{key}" not in global_reads:
             context.report("BT0402", main, use.node, use.port, key=key, port=use.port)
+
+
+def _report_lost_writes(context: Context, tree: Tree, node: Node, keys: dict[str, _Keys]) -> None:
+    """Reports what a called tree writes through a remap to a global, which BehaviorTree.CPP 4.10 loses."""
+    inner = keys.get(node.tree)
+    for name, text in node.ports.items() if inner is not None else ():
+        key = pointer(text, name)
+        if inner is not None and key is not None and key.startswith("@") and name in inner.surely:
+            context.report("BT0404", tree, node, name, target=node.tree, inner=name, key=key)
 
 
 def _report_missing_remaps(context: Context, tree: Tree, node: Node, keys: dict[str, _Keys]) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from translator.catalog import NodeModel, PortModel, did_you_mean
+from translator.catalog import NodeModel, PortModel, builtins, did_you_mean
 from translator.text import is_xml_name
 from translator.tree import BLANKS, Node, Tree, pointer
-from translator.values import Fit, describe, fit
+from translator.values import Fit, describe, fit, outside
 
 if TYPE_CHECKING:
     from translator.check.context import Context
@@ -46,7 +46,7 @@ def _check_names(context: Context, tree: Tree, node: Node, model: NodeModel) -> 
 
 def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> None:
     text = node.ports.get(port.name)
-    if text is None:
+    if text is None or (not text and _names_entry(node, port)):
         if port.required and port.default is None:
             context.report(
                 "BT0201", tree, node, port.name, type=node.type, port=port.name, description=port.description
@@ -66,10 +66,18 @@ def check_literal(context: Context, tree: Tree, node: Node, port: PortModel, tex
     """Reports a literal that is not of its port's type."""
     suits = fit(port.type, text)
     values = {"port": port.name, "value": text, "wanted": describe(port.type)}
-    if suits is Fit.BAD:
+    if suits is Fit.RANGE and (found := outside(port.type, text)) is not None:
+        number, low, high = found
+        context.report("BT0212", tree, node, port.name, port=port.name, number=number, low=low, high=high)
+    elif suits is Fit.BAD:
         context.report("BT0204", tree, node, port.name, **values)
     elif suits is Fit.LOOSE:
         context.report("BT0206", tree, node, port.name, **values)
+
+
+def _names_entry(node: Node, port: PortModel) -> bool:
+    """Whether it is the port of a built-in node that watches an entry, whose name must be there."""
+    return port.name == "entry" and node.type in builtins()
 
 
 def _takes_literal(node: Node, port: PortModel) -> bool:

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 from translator.check.action import check_actions
 from translator.check.context import Context, located
 from translator.check.dataflow import check_dataflow
+from translator.check.late_script import check_late_scripts
 from translator.check.port import check_ports
 from translator.check.reach import check_reachability
 from translator.check.script import check_scripts
@@ -41,6 +42,7 @@ def _check(project: Project) -> tuple[Diagnostic, ...]:
     check_actions(context)
     check_ports(context)
     check_scripts(context)
+    check_late_scripts(context)
     check_subtrees(context)
     check_dataflow(context)
     check_reachability(context)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from translator.script_names import script_names
+from translator.script_names import MAX_INTEGER, integers_too_large, script_names
 from translator.tree import pointer
 
 if TYPE_CHECKING:
@@ -37,11 +37,11 @@ def check_scripts(context: Context) -> None:
 
 def _check_script(context: Context, tree: Tree, node: Node, attribute: str, code: str) -> None:
     if not code.strip():
-        if (
-            attribute in node.conditions
-        ):  # a Script without code is nothing to do, a condition without is refused
+        if code or node.type != "Script" or attribute in node.conditions:  # that of a Script may be empty
             context.report("BT0301", tree, node, attribute, attribute=attribute)
         return
+    for number in integers_too_large(code):
+        context.report("BT0304", tree, node, attribute, attribute=attribute, number=number, limit=MAX_INTEGER)
     problem = script_names(code).problem
     if problem is None:
         return

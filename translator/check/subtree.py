@@ -11,6 +11,8 @@ from translator.text import is_xml_name
 from translator.tree import AUTOREMAP, pointer
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
     from translator.catalog import PortModel
     from translator.check.context import Context
     from translator.tree import Node, Tree
@@ -74,43 +76,36 @@ def _check_value(context: Context, tree: Tree, node: Node, port: PortModel, text
 
 
 def _check_cycles(context: Context) -> None:
-    """Reports each call that leads back to its own tree: any one of a ring can be the one to take out."""
+    """Reports of each ring the call that closes it, as one comes to it from the main tree."""
     trees = context.project.trees
-    calls = {tree_id: list(tree.subtree_calls()) for tree_id, tree in trees.items()}
-    called = _in_rings({key: {node.tree for node in nodes} & trees.keys() for key, nodes in calls.items()})
-    for tree_id in called:
-        for node in calls[tree_id]:
-            if (way := _way(called, node.tree, tree_id)) is not None:
-                context.report("BT0502", trees[tree_id], node, ring=" → ".join([tree_id, *way]))
+    for tree_id, target, ring in closing_calls(trees, context.project.settings.main_tree):
+        node = next(node for node in trees[tree_id].subtree_calls() if node.tree == target)
+        context.report("BT0502", trees[tree_id], node, ring=" → ".join([*ring, target]))
 
 
-def _in_rings(called: dict[str, set[str]]) -> dict[str, set[str]]:
-    """Leaves out, again and again, the trees that call none of those left: all, if there is no ring."""
-    callers: dict[str, list[str]] = {}
-    for tree_id, targets in called.items():
-        for target in targets:
-            callers.setdefault(target, []).append(tree_id)
-    waiting = {tree_id: len(targets) for tree_id, targets in called.items()}
-    done = [tree_id for tree_id, count in waiting.items() if count == 0]
-    for tree_id in done:
-        for caller in callers.get(tree_id, ()):
-            waiting[caller] -= 1
-            if waiting[caller] == 0:
-                done.append(caller)
-    return {tree_id: targets for tree_id, targets in called.items() if waiting[tree_id] > 0}
+def closing_calls(trees: Mapping[str, Tree], main: str) -> Iterator[tuple[str, str, list[str]]]:
+    """Yields caller, called tree and the ring of each call back to a tree that is being walked through.
+
+    The walk begins at the main tree, then at each tree that it did not reach, by ID.
+    """
+    done: set[str] = set()
+    for start in [main, *sorted(trees)]:
+        if start in done or start not in trees:
+            continue
+        above = {start: iter(_called(trees[start]))}
+        while above:
+            user = next(reversed(above))
+            target = next(above[user], None)
+            if target is None:
+                del above[user]
+                done.add(user)
+            elif target in above:
+                names = list(above)
+                yield user, target, names[names.index(target) :]
+            elif target in trees and target not in done:
+                above[target] = iter(_called(trees[target]))
 
 
-def _way(called: dict[str, set[str]], start: str, goal: str) -> list[str] | None:
-    """Returns the trees from one to another along their calls, both included."""
-    came_from = {start: ""}
-    for tree_id in (queue := [start]):
-        if tree_id == goal:
-            way = [goal]
-            while way[0] != start:
-                way.insert(0, came_from[way[0]])
-            return way
-        for target in sorted(called.get(tree_id, ())):
-            if target not in came_from:
-                came_from[target] = tree_id
-                queue.append(target)
-    return None
+def _called(tree: Tree) -> list[str]:
+    """The trees that a tree calls, each once, in order of execution."""
+    return list(dict.fromkeys(node.tree for node in tree.subtree_calls()))

@@ -175,8 +175,9 @@ def _atom(token: Token) -> Expression:
     if token.kind == "real":
         try:
             return Literal(span, checked_double(token.text))
-        except ConversionError as error:
-            raise ScriptError(span, str(error), "write a number that a double can hold") from None
+        except ConversionError:
+            hint = "numbers go from 4.9e-324 to 1.8e308"
+            raise ScriptError(span, f"'{token.text}' is outside of what a number can be", hint) from None
     if token.kind == "string":
         return Literal(span, token.text[1:-1])
     if token.text in ("true", "false"):

@@ -1,25 +1,56 @@
 /** Whether a literal suits the type of a port: `translator/values.py` in TypeScript, by the same cases. */
 
-/** `loose` is taken, but not as it reads (`12abc` as 12). */
-export type Fit = 'good' | 'loose' | 'bad';
+/** `loose` is taken, but not as it reads (`12abc` as 12); `range` is a number that the type cannot hold. */
+export type Fit = 'good' | 'loose' | 'range' | 'bad';
 
 const INTEGER = /^-?[0-9]+/;
 const UNSIGNED = /^[0-9]+/;
 const REAL = /^-?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:e[+-]?[0-9]+)?|inf(?:inity)?|nan)/i;
 const BOOLEANS = new Set(['0', '1', 'true', 'TRUE', 'True', 'false', 'FALSE', 'False']);
 const RANGES = { int: [-(2 ** 31), 2 ** 31 - 1], uint: [0, 2 ** 32 - 1] } as const;
-const WORST: readonly Fit[] = ['bad', 'loose'];
+const WORST: readonly Fit[] = ['bad', 'range', 'loose'];
 
 export const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
 
+/** What looks like a number of the type at the beginning of a literal. */
+function numberIn(type: string, text: string): string | undefined {
+  if (type === 'double') return REAL.exec(text)?.[0];
+  return (type === 'uint' ? UNSIGNED : INTEGER).exec(text)?.[0];
+}
+
+export interface Outside {
+  readonly number: string;
+  readonly low: string;
+  readonly high: string;
+}
+
+function outsideDouble(number: string): Outside | null {
+  const [digits = ''] = number.toLowerCase().split('e');
+  if (!/[0-9.]$/.test(digits)) return null;
+  if (!Number.isFinite(Number(number))) return { number, low: '-1.8e308', high: '1.8e308' };
+  const isLost = Number(number) === 0 && /[1-9]/.test(digits);
+  return isLost ? { number, low: '4.9e-324', high: '1.8e308' } : null;
+}
+
+/** A number that the type cannot hold, with the limits of the type; null where there is none. */
+export function outside(type: string, text: string): Outside | null {
+  if (type.startsWith('list[')) {
+    const found = text.split(';').map((part) => outside(type.slice(5, -1), part));
+    return found.find((each) => each !== null) ?? null;
+  }
+  if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
+  const number = numberIn(type, text);
+  if (number === undefined) return null;
+  if (type === 'double') return outsideDouble(number);
+  const [low, high] = RANGES[type];
+  const isWithin = number.length <= 20 && Number(number) >= low && Number(number) <= high;
+  return isWithin ? null : { number, low: String(low), high: String(high) };
+}
+
 /** The part of a literal that is read as a value of the type; null where none is. */
 export function partRead(type: string, text: string): string | null {
-  if (type === 'double') return REAL.exec(text)?.[0] ?? null;
-  if (type !== 'int' && type !== 'uint') return null;
-  const read = (type === 'uint' ? UNSIGNED : INTEGER).exec(text)?.[0];
-  const [low, high] = RANGES[type];
-  const isWithin = read !== undefined && read.length <= 20 && Number(read) >= low && Number(read) <= high;
-  return isWithin ? read : null;
+  if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
+  return outside(type, text) ? null : (numberIn(type, text) ?? null);
 }
 
 function isJsonList(text: string): boolean {
@@ -44,6 +75,7 @@ export function fit(type: string, text: string): Fit {
     case 'int':
     case 'uint':
     case 'double': {
+      if (outside(type, text)) return 'range';
       const read = partRead(type, text);
       if (read === null) return 'bad';
       return read.length === text.length ? 'good' : 'loose';

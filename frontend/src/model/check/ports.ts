@@ -1,6 +1,6 @@
 import type { DiagramNode, NodeId } from '../diagram';
 import { pointerOf, readPortText, type PortSpec } from '../ports';
-import { fit, partRead } from '../values';
+import { fit, outside, partRead } from '../values';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
 
@@ -18,6 +18,8 @@ export function checkBraces(id: NodeId, port: string, text: string): Problem[] {
 /** A literal that is not of its port's type. */
 export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string): Problem[] {
   const suits = fit(type, text);
+  const far = suits === 'range' ? outside(type, text) : null;
+  if (far) return [atPort('out-of-range', id, name, { ...far })];
   if (suits === 'bad') return [atPort('wrong-type', id, name, { text, type })];
   const part = partRead(type, text) ?? '';
   return suits === 'loose' ? [atPort('read-in-part', id, name, { text, type, part }, 'warning')] : [];
@@ -34,9 +36,13 @@ export const isPortName = (name: string): boolean =>
 const takesLiteral = (node: DiagramNode, { direction, name }: PortSpec): boolean =>
   direction === 'input' || (direction === 'inout' && (node.type.startsWith('Loop') || name === 'output_key'));
 
-function checkDeclared(id: NodeId, node: DiagramNode, port: PortSpec): Problem[] {
+/** A built-in node that watches an entry cannot be without its name. */
+const namesEntry = ({ name }: PortSpec, { source }: NodeSpec): boolean =>
+  name === 'entry' && source === 'builtin';
+
+function checkDeclared(id: NodeId, node: DiagramNode, port: PortSpec, spec: NodeSpec): Problem[] {
   const text = node.ports?.[port.name];
-  if (text === undefined) {
+  if (text === undefined || (text === '' && namesEntry(port, spec))) {
     const isMissing = port.required && port.default === null;
     return isMissing ? [atPort('missing-port', id, port.name, { type: port.type })] : [];
   }
@@ -62,7 +68,7 @@ function checkUndeclared(
 export function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
   const declared = new Set(spec.ports.map((port) => port.name));
   return [
-    ...spec.ports.flatMap((port) => checkDeclared(id, node, port)),
+    ...spec.ports.flatMap((port) => checkDeclared(id, node, port, spec)),
     ...Object.entries(node.ports ?? {})
       .filter(([name]) => !declared.has(name))
       .flatMap(([name, text]) => checkUndeclared(id, name, text, node, spec)),

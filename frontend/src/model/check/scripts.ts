@@ -11,14 +11,16 @@ function checkScript(id: NodeId, port: string, code: string): Problem[] {
   return isProblem(facts) ? [{ ...atPort('broken-script', id, port), script: facts }] : [];
 }
 
-/** Conditions of any node, and the ports that hold code; an empty port is nothing to do. */
+/** Conditions of any node, and the ports that hold code; a `Script` may have nothing to do. */
 export function checkScripts(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): Problem[] {
   const conditions = Object.entries(node.conditions ?? {}).flatMap(([name, code]) =>
     code.trim() === '' ? [atPort('empty-script', id, name)] : checkScript(id, name, code),
   );
   const ports = (spec?.ports ?? []).flatMap(({ name, type }) => {
-    const code = type === 'script' ? (node.ports?.[name] ?? '') : '';
-    return code.trim() === '' || pointerOf(code) !== null ? [] : checkScript(id, name, code);
+    const code = type === 'script' ? node.ports?.[name] : undefined;
+    if (code === undefined || pointerOf(code) !== null) return [];
+    if (code.trim() !== '') return checkScript(id, name, code);
+    return code === '' && node.type === 'Script' ? [] : [atPort('empty-script', id, name)];
   });
   return [...conditions, ...ports];
 }

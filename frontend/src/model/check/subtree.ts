@@ -1,6 +1,7 @@
 import type { DiagramNode, NodeId } from '../diagram';
 import { pointerOf, type PortSpec } from '../ports';
-import { wouldRecurse, type Vocabulary } from '../vocabulary';
+import type { Vocabulary } from '../vocabulary';
+import { closingCalls } from './rings';
 import { checkBraces, checkLiteral, isPortName } from './ports';
 import { atPort, type Problem } from './problem';
 
@@ -47,14 +48,12 @@ function checkGiven(id: NodeId, node: DiagramNode, ports: readonly PortSpec[]): 
   ];
 }
 
-function checkCall(id: NodeId, node: DiagramNode, user: string, vocabulary: Vocabulary): Problem[] {
+function checkCall(id: NodeId, node: DiagramNode, closesRing: boolean, vocabulary: Vocabulary): Problem[] {
   const base = { severity: 'error', node: id, values: { tree: node.tree ?? '' } } as const;
   if (!node.tree) return [{ ...base, kind: 'missing-tree' }];
   const called = vocabulary.trees.get(node.tree);
   if (!called) return [{ ...base, kind: 'unknown-tree' }];
-  const recursion: Problem[] = wouldRecurse(vocabulary, user, node.tree)
-    ? [{ ...base, kind: 'recursion' }]
-    : [];
+  const recursion: Problem[] = closesRing ? [{ ...base, kind: 'recursion' }] : [];
   return [...recursion, ...checkGiven(id, node, called.ports)];
 }
 
@@ -64,6 +63,7 @@ export function callCheck(
   vocabulary: Vocabulary,
 ): (id: NodeId, node: DiagramNode) => Problem[] {
   const names = new Set<string>();
+  const closing = new Set([user, ...(closingCalls(vocabulary).get(user) ?? [])]);
   return (id, node) => {
     const name = node.name ?? '';
     const isTaken = name !== '' && names.has(name);
@@ -71,6 +71,7 @@ export function callCheck(
     const taken: Problem[] = isTaken
       ? [{ kind: 'same-call-name', severity: 'error', node: id, values: { name } }]
       : [];
-    return [...checkCall(id, node, user, vocabulary), ...taken];
+    const closesRing = closing.delete(node.tree ?? '');
+    return [...checkCall(id, node, closesRing, vocabulary), ...taken];
   };
 }

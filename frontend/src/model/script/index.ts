@@ -1,3 +1,4 @@
+import { outside } from '../values';
 import { tokenize, type Token } from './lexer';
 import type { ScriptProblem, Span } from './problem';
 
@@ -138,6 +139,7 @@ class Parser {
       const isAssigning = ASSIGNMENTS.has(text) || COMPARISONS.has(text);
       this.fail(isAssigning ? 'valueBeforeAssignment' : 'valueBefore', { text });
     }
+    if (kind === 'real' && outside('double', text)) this.fail('outside', { text });
     this.index += 1;
     if (kind !== 'name' || text === 'true' || text === 'false') return null;
     const name = { name: text, span };

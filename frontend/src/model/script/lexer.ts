@@ -15,7 +15,7 @@ const escaped = OPERATORS.map((each) => each.replace(/[.*+?^${}()|[\]\\]/g, '\\$
 const TOKEN = new RegExp(
   '(?<blank>[ \\t\\r\\n]+)' +
     '|(?<real>[0-9]+(?:\\.[0-9]+(?:[eE][+-]?[0-9]+)?|[eE][+-]?[0-9]+)(?![0-9A-Za-z_]))' +
-    '|(?<integer>(?:0[xX][0-9a-fA-F]+|[0-9]+)(?![0-9A-Za-z_]))' +
+    '|(?<integer>(?:0[xX][0-9a-fA-F]+(?!\\.)|[0-9]+)(?![0-9A-Za-z_]))' +
     "|(?<string>'[^']*')" +
     '|(?<name>[A-Za-z_@][A-Za-z0-9_]*)' +
     `|(?<operator>${escaped})`,
@@ -33,7 +33,7 @@ const HINTS: Readonly<Record<string, string>> = {
 };
 
 function unknown(text: string, at: number): ScriptProblem {
-  const number = /^[0-9][0-9A-Za-z_]*/.exec(text.slice(at))?.[0];
+  const number = /^(?:0[xX][0-9A-Za-z_.]*|[0-9][0-9A-Za-z_]*)/.exec(text.slice(at))?.[0];
   if (number !== undefined) {
     return { kind: 'number', values: { text: number }, span: [at, at + number.length] };
   }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 from dataclasses import dataclass, fields
 from functools import cache
@@ -87,5 +86,7 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """Returns the known name that is most like this one, or an empty text."""
-    found = difflib.get_close_matches(name, list(known), n=1, cutoff=0.6)
-    return found[0] if found else ""
+    # Only here, since the engine brings py_trees, which reading and writing trees does without.
+    from tree_gardener.spelling import nearest as nearest_name  # noqa: PLC0415
+
+    return nearest_name(name, known)

@@ -4,7 +4,6 @@ All trees of the document are checked, whether they are used or not.
 """
 
 import dataclasses
-import difflib
 import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING, Final
 from tree_gardener.document import Document, Element
 from tree_gardener.node import Kind
 from tree_gardener.registry import OLD_NAMES, NodeType
+from tree_gardener.spelling import nearest
 
 if TYPE_CHECKING:
     from tree_gardener.errors import Diagnostic
@@ -160,9 +160,9 @@ class StructureCheck:
         """What the author of an unknown name may have meant."""
         if name in OLD_NAMES:
             return f"in version 4 it is {OLD_NAMES[name]}"
-        near = difflib.get_close_matches(name, self.registry, n=1)
+        near = nearest(name, self.registry)
         known = ", ".join(sorted(name for name, kind in self.registry.items() if kind.behaviour_class))
-        return f"did you mean {near[0]}?" if near else f"the actions known are: {known or 'none'}"
+        return f"did you mean {near}?" if near else f"the actions known are: {known or 'none'}"
 
     def check_count(self, element: Element, name: str, kind: NodeType) -> None:
         """Checks the number of children; Switch and the like check theirs when they are ticked."""

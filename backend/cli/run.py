@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -28,7 +29,10 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     lockstep: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--lockstep", help="As fast as the machine can, and always the same.")
     ] = False,
-    seed: Annotated[int, typer.Option(help="Of everything random in the universe.")] = 0,
+    seed: Annotated[
+        int,
+        typer.Option(help="Of all that is random: universe, noise, and random and numpy of the actions."),
+    ] = 0,
     viewer: Annotated[  # noqa: FBT002 - typer's way
         bool,
         typer.Option("--serve-viewer/--headless", help="Show the run on a page; its link is printed first."),
@@ -51,6 +55,8 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     if lockstep and universe == "none":
         text = "lock-step needs a simulated world; run against an outside graph in real time"
         raise typer.BadParameter(text, param_hint="--universe")
+    if lockstep:
+        _fix_hashes()
     try:
         opened = cli.open_project(project)
         if lockstep:
@@ -72,8 +78,22 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         sys.stdout.write(document)
     else:
         print(_summary(done))
+    if lockstep and not done.random and not as_json:
+        print("Nothing in this run was random: every seed gives the same.")
     if done.errors:
         raise CliError(*(_fault_line(fault) for fault in done.errors))
+
+
+def _fix_hashes() -> None:
+    """Starts the command again with `PYTHONHASHSEED=0`, which Python reads at its start only.
+
+    Texts hash differently in each process otherwise, so that sets of texts come in another order.
+    """
+    is_command = Path(sys.argv[0]).name in {"bt-studio", "main.py"}
+    if is_command and os.environ.get("PYTHONHASHSEED") != "0":
+        sys.stdout.flush()
+        environment = {**os.environ, "PYTHONHASHSEED": "0"}
+        os.execve(sys.executable, [sys.executable, *sys.orig_argv[1:]], environment)  # noqa: S606 - itself
 
 
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:

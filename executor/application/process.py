@@ -179,7 +179,7 @@ class Application:
         from executor.application.locate import Place  # noqa: PLC0415
 
         try:
-            tree = self._build(Path(start["app_dir"]))
+            tree = self._build(Path(start["app_dir"]), int(start.get("seed", 0)))
             self._locator.learn(tree)
             self._reporter.tree(tree)
             self._make_runner(tree, start)
@@ -189,11 +189,13 @@ class Application:
             return False
         return True
 
-    def _build(self, folder: Path) -> Tree:
+    def _build(self, folder: Path, seed: int) -> Tree:
         from executor.application.forks import limit_forks  # noqa: PLC0415
+        from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from tree_gardener import Tree  # noqa: PLC0415
 
         os.chdir(folder)
+        seed_randomness(seed)
         # Modules of the project can be imported by name; ours and Python's come first.
         sys.path += [str(folder), str(folder / "actions")]
         limit_forks()

@@ -186,6 +186,7 @@ class _Run:
         self._stack.append(self._executor.shutdown)
 
     def _make_tree(self, project: Project) -> Tree:
+        from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from translator import self_contained  # noqa: PLC0415
         from tree_gardener import Tree  # noqa: PLC0415 - after the environment
 
@@ -193,6 +194,7 @@ class _Run:
             __import__(f"{package}.msg")
         app = project.files.get("self_contained_tree.xml")
         text = app.decode("utf-8") if app is not None else self_contained(project)
+        self._randomness = seed_randomness(self._options.seed)
         tree = Tree.from_xml(text, clock=_WorldClock(self._world))
         tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
@@ -283,6 +285,7 @@ class _Run:
         report.ticks = self._tree.tick_number
         report.tick_ms, report.overruns = quantiles(self._durations), overruns
         report.nodes = self._counts
+        report.random = self._world.has_drawn or not self._randomness.is_untouched
         if self._world.robots:
             robot = self._world.robots[0]
             report.distance_m, report.collisions = round(robot.distance_m, 6), robot.collisions

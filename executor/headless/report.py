@@ -23,7 +23,10 @@ class NodeCount:
 
 @dataclass
 class Report:
-    """A whole run. Distances and collisions are those of the first robot; lengths in m, angles in rad."""
+    """A whole run. Distances and collisions are those of the first robot; lengths in m, angles in rad.
+
+    `random` is false if neither world nor actions drew a random number: then every seed gives the same.
+    """
 
     root_status: str = "IDLE"
     ticks: int = 0
@@ -38,6 +41,7 @@ class Report:
     trajectory: list[list[float]] = field(default_factory=list)
     nodes: list[NodeCount] = field(default_factory=list)
     errors: list[dict[str, Any]] = field(default_factory=list)
+    random: bool = True
 
     def to_json(self) -> dict[str, Any]:
         """Returns the report as a JSON object."""

@@ -63,6 +63,7 @@ class LastRun:
     plan: LaunchPlan = field(default_factory=LaunchPlan)
     domain_id: int = 0
     is_outside: bool = False
+    seed: int = 0
 
 
 Step = Generator[Wait, Any, None]
@@ -216,6 +217,7 @@ def _start_application(session: Session) -> Child:
         tick_hz=data.tick_hz,
         on_finish=data.on_finish,
         on_error=data.on_error,
+        seed=session.run.seed,
         domain_id=session.run.domain_id,
         outside=session.run.is_outside,
     )
@@ -276,7 +278,8 @@ def _run(session: Session, data: Struct) -> Step:
 
 
 def _aim(session: Session, data: messages.LaunchUniverse) -> None:
-    """Notes into which ROS graph the application and its extra nodes go."""
+    """Notes the seed of the actions, and into which ROS graph the application and its extra nodes go."""
+    session.run.seed = data.seed
     session.run.is_outside = data.universe == "none"
     session.run.domain_id = _domain_of(session, data)
 

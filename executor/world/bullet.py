@@ -106,6 +106,11 @@ class BulletWorld:
         return self._universe
 
     @property
+    def has_drawn(self) -> bool:
+        """Tells whether anything in the world came from the seed so far."""
+        return bool(self._universe.random) or any(robot.has_drawn for robot in self.robots)
+
+    @property
     def time_s(self) -> float:
         """Simulated time since the last reset."""
         return self._steps / STEP_HZ

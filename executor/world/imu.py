@@ -35,6 +35,7 @@ class ImuModel:
     def __init__(self, config: Imu, seed: tuple[int, ...]) -> None:
         self._config = config
         self._seed = seed
+        self.has_drawn = False
         self.velocity: Vector | None = None
         self._felt: Vector = (0.0, 0.0, GRAVITY)
 
@@ -50,6 +51,7 @@ class ImuModel:
         """Returns the measurement at a pose, with a turning rate in the world frame."""
         config = self._config
         into_own = (-pose[3], -pose[4], -pose[5], pose[6])
+        self.has_drawn = config.rate_noise > 0 or config.acceleration_noise > 0
         noise = generator_at(time_s, self._seed).normal(0.0, 1.0, 6).tolist()
         turning, felt = rotate(into_own, rate), rotate(into_own, self._felt)
         return ImuReading(

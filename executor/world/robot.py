@@ -201,6 +201,13 @@ class BulletRobot:
                 touched = touched or body
         return None if touched is None else self._counter.observe(now_s, touched)
 
+    @property
+    def has_drawn(self) -> bool:
+        """Tells whether anything of the robot is random: LIDARs, wheels, or what somebody was told."""
+        config = self.config
+        is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
+        return is_noisy or self._senses.has_drawn
+
     def moved_by_hand(self) -> None:
         """Takes note that somebody put the robot elsewhere: that is no travel of its own."""
         self._at = self.pose[:2]

@@ -36,6 +36,11 @@ class Senses:
         return not any(battery.is_empty for battery in self._batteries.values())
 
     @property
+    def has_drawn(self) -> bool:
+        """Tells whether somebody was given a measurement with noise."""
+        return any(imu.has_drawn for imu in self._imus.values())
+
+    @property
     def has_imu(self) -> bool:
         """Tells whether anybody wants to know velocities."""
         return bool(self._imus)

@@ -94,7 +94,9 @@ def _report_unknown(context: Context, tree: Tree, node: Node) -> None:
     if node.type in context.project.trees:
         context.report("BT0111", tree, node, type=node.type)
     elif node.children:
-        suggestion = did_you_mean(node.type, context.project.known_types())
+        known = context.project.known_types()
+        with_children = [name for name in known if (model := context.model(name)) and model.max_children != 0]
+        suggestion = did_you_mean(node.type, with_children)
         context.report("BT0112", tree, node, type=node.type, suggestion=suggestion)
     else:
         otherwise = f"Write actions/{node.type}.py with a class {node.type}."

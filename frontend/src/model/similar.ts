@@ -22,7 +22,7 @@ function distance(a: string, b: string): number {
 /** Up to `limit` of the names that are near enough to be meant. */
 export function similarNames(name: string, names: Iterable<string>, limit = 2): string[] {
   const wanted = name.toLowerCase().slice(0, 100);
-  const allowed = Math.max(1, Math.floor(wanted.length / 3));
+  const allowed = Math.min(3, Math.max(1, Math.floor(wanted.length / 3)));
   return [...names]
     .map((each) => ({ each, far: distance(wanted, each.toLowerCase().slice(0, 100)) }))
     .filter(({ each, far }) => each !== name && far <= allowed)

@@ -1,0 +1,40 @@
+"""What of a run is random for the actions: Python's and numpy's global generators begin at the run's seed."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+
+NUMPY_SEEDS = 2**32  # numpy's legacy generator takes no others
+
+
+@dataclass(frozen=True)
+class Randomness:
+    """The state of both generators right after they were seeded."""
+
+    python: object
+    numpy: str
+
+    @property
+    def is_untouched(self) -> bool:
+        """Whether nobody has drawn from them since."""
+        return _states() == (self.python, self.numpy)
+
+
+def seed_randomness(seed: int) -> Randomness:
+    """Seeds `random` and `numpy.random` in the process that runs the actions, before these are loaded.
+
+    `numpy.random.default_rng()` draws its seed from the system and is not reached by this.
+    """
+    import numpy as np  # noqa: PLC0415 - the process has it loaded already
+
+    random.seed(seed)
+    np.random.seed(seed % NUMPY_SEEDS)
+    return Randomness(*_states())
+
+
+def _states() -> tuple[object, str]:
+    import numpy as np  # noqa: PLC0415
+
+    state = np.random.get_state(legacy=False)
+    return random.getstate(), repr(state["state"])

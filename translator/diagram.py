@@ -113,6 +113,7 @@ class _Reader:
             color=self.text(node_id, row, "color"),
             disabled=self.flag(node_id, row, "disabled"),
             collapsed=self.flag(node_id, row, "collapsed"),
+            has_empty_name=row.get("name") == "",
         )
 
     def text(self, node_id: str, row: dict[str, Any], field: str) -> str:
@@ -333,7 +334,7 @@ def _node_row(node: Node) -> dict[str, Any]:
     row: dict[str, Any] = {"type": node.type}
     if node.tree:
         row["tree"] = node.tree
-    if node.name:
+    if node.name or node.has_empty_name:
         row["name"] = node.name
     for field in ("ports", "conditions", "attributes"):
         if getattr(node, field):

@@ -14,12 +14,12 @@ from translator.diagram import diagram_path, diagram_text
 from translator.project import Project, assemble
 from translator.settings import MAX_NAME, PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
+from translator.tree import Tree
 from translator.xml.read import Document, read_document
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from translator.tree import Tree
 
 IMPORTS = "imports/"
 MAX_INCLUDES = 200
@@ -94,6 +94,10 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     work = _Import({**(included or {}), file: raw})
     work.read(file)
     trees, settings = _merged(work, file)
+    models = [model for document in work.documents.values() for model in document.models.values()]
+    if not trees and models:
+        work.found.append(diagnostic("BT0741", Place(file, line=1, column=1), count=len(models)))
+        trees = [Tree(settings.main_tree, None, {})]
     if not trees:
         raise TranslatorError([*work.found, diagnostic("BT0734", Place(file, line=1, column=1))])
     documents = list(work.documents.values())
@@ -170,7 +174,11 @@ def _actions(
     for document in documents:
         models.update(document.models)
         kinds.update(document.kinds)
-    for type_, ports in _unknown_leaves(trees).items() if stubs else ():
+    seen = _unknown_leaves(trees)
+    if not any(tree.nodes for tree in trees):  # a palette
+        leaves = (name for name, model in models.items() if model.kind in {"action", "condition"})
+        seen |= {name: set() for name in leaves if name not in builtins() and can_be_class(name)}
+    for type_, ports in seen.items() if stubs else ():
         path = f"actions/{type_}.py"
         model = models.get(type_)
         kind = model.kind if model is not None else kinds.get(type_, "action")

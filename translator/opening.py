@@ -15,6 +15,7 @@ from translator.jderobot.project import import_jderobot, is_jderobot_project
 from translator.jderobot.self_contained import is_old_form, read_old_form
 from translator.project import Project, load
 from translator.settings import PROJECT_FILE, Settings
+from translator.xml.source import repair_source
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,26 +23,31 @@ if TYPE_CHECKING:
 XML_SUFFIXES = (".xml", ".btproj")
 
 
-def open_path(path: Path, *, actions: Path | None = None, stubs: bool = True) -> Project:
+def open_path(
+    path: Path, *, actions: Path | None = None, stubs: bool = True, repair: bool = False
+) -> Project:
     """Opens a project from disk.
 
     Args:
         path: A folder, a zip, a diagram (`.json`) or a tree (`.xml`, `.btproj`).
         actions: A folder of actions to take with a diagram or a tree.
         stubs: Whether actions that are missing get a stub.
+        repair: Whether bare `&` and `<` in attributes of XML are escaped.
 
     Raises:
         TranslatorError: If there is nothing that can be read.
     """
     sources = _read_actions(actions) if actions is not None else {}
     if path.is_dir():
-        return open_files(read_folder(path), name=path.resolve().name, actions=sources, stubs=stubs)
+        files, name = read_folder(path), path.resolve().name
+        return open_files(files, name=name, actions=sources, stubs=stubs, repair=repair)
     raw = read_file(path)
     if path.suffix.lower() == ".zip":
-        return open_files(read_zip(raw, file=str(path)), name=path.stem, actions=sources, stubs=stubs)
+        files = read_zip(raw, file=str(path))
+        return open_files(files, name=path.stem, actions=sources, stubs=stubs, repair=repair)
     if path.suffix.lower() == ".json":
         return _open_diagram(path, raw, sources)
-    return _open_tree(path, raw, sources, stubs=stubs)
+    return _open_tree(path, raw, sources, stubs=stubs, repair=repair)
 
 
 def open_files(
@@ -50,6 +56,7 @@ def open_files(
     name: str = "",
     actions: Mapping[str, bytes] | None = None,
     stubs: bool = True,
+    repair: bool = False,
 ) -> Project:
     """Opens a project of any kind from its files, by path.
 
@@ -57,6 +64,8 @@ def open_files(
         TranslatorError: If there is nothing that can be read.
     """
     sources = actions or {}
+    if repair:
+        files = _repaired(files)
     if is_jderobot_project(files):
         return import_jderobot(files, name=name)
     if PROJECT_FILE in files or any(path.startswith("trees/") and path.endswith(".json") for path in files):
@@ -128,7 +137,14 @@ def _beside(path: Path) -> dict[str, bytes]:
     return {"config.json": read_file(config)} if config.is_file() else {}
 
 
-def _open_tree(path: Path, raw: bytes, sources: Mapping[str, bytes], *, stubs: bool) -> Project:
+def _repaired(files: Mapping[str, bytes]) -> dict[str, bytes]:
+    return {
+        path: repair_source(raw) if path.lower().endswith(XML_SUFFIXES) else raw
+        for path, raw in files.items()
+    }
+
+
+def _open_tree(path: Path, raw: bytes, sources: Mapping[str, bytes], *, stubs: bool, repair: bool) -> Project:
     folder = path.resolve().parent
     included = {
         item.relative_to(folder).as_posix(): read_file(item)
@@ -136,6 +152,8 @@ def _open_tree(path: Path, raw: bytes, sources: Mapping[str, bytes], *, stubs: b
         for item in sorted(folder.rglob(f"*{suffix}"))[:1000]
         if b"<include" in raw and item.is_file() and not item.is_symlink()
     }
+    if repair:
+        raw, included = repair_source(raw), _repaired(included)
     if not sources and (folder / "actions").is_dir():
         sources = _read_actions(folder / "actions")
     places = "" if path.parent == Path() else f"{path.parent.as_posix()}/"

@@ -33,7 +33,10 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs know."""
+    """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs know.
+
+    A name may be there and be empty, which is another path than that of a node without a name.
+    """
 
     id: str
     type: str
@@ -48,6 +51,7 @@ class Node:
     color: str = ""
     disabled: bool = False
     collapsed: bool = False
+    has_empty_name: bool = False
     span: Span | None = field(default=None, compare=False)
 
     @property

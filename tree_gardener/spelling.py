@@ -8,7 +8,7 @@ _LONGEST: Final = 100
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that differs least, or "" if none is near: a third of the letters, and no more than 3."""
+    """The known name that differs least, or "": near is a third of the letters, and 3 at most."""
     wanted = name.lower()[:_LONGEST]
     allowed = min(MAX_SLIPS, max(1, len(wanted) // 3))
     found = [

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     from translator import Diagnostic, Project
 
 
-def open_project(name: str, *, actions: Path | None = None, stubs: bool = True) -> Project:
+def open_project(
+    name: str, *, actions: Path | None = None, stubs: bool = True, repair: bool = False
+) -> Project:
     """Opens a folder, a zip, a file, or a stored project of that name."""
     from translator import open_path
 
@@ -26,7 +28,7 @@ def open_project(name: str, *, actions: Path | None = None, stubs: bool = True) 
         return load(stored)
     if not path.exists():
         raise CliError(f"{name}:1:1: there is no such file, folder or project", status=BAD_ARGUMENTS)
-    return open_path(path, actions=actions, stubs=stubs)
+    return open_path(path, actions=actions, stubs=stubs, repair=repair)
 
 
 def _stored_files(name: str) -> Mapping[str, bytes] | None:

@@ -12,6 +12,9 @@ def import_(
     source: Annotated[str, typer.Argument(help="An XML file, a .btproj, a folder or a zip.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="The project folder or .zip to make.")],
     actions: Annotated[Path | None, typer.Option(help="Folder of actions to bring along.")] = None,
+    repair: Annotated[  # noqa: FBT002 - typer's way
+        bool, typer.Option("--repair", help="Escape bare & and < in attributes, which XML does not allow.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,  # noqa: FBT002
 ) -> None:
     """Imports BehaviorTree.CPP XML (v3, v4), a Groot2 project, or a project of JdeRobot's BT Studio."""
@@ -24,7 +27,7 @@ def import_(
     if output.exists() and (is_zip or not output.is_dir() or any(output.iterdir())):
         raise CliError(f"{output}:1:1: it exists already (choose another name)", status=BAD_ARGUMENTS)
     try:
-        project = cli.open_project(source, actions=actions)
+        project = cli.open_project(source, actions=actions, repair=repair)
     except TranslatorError as error:
         raise cli.fail(error.diagnostics, as_json=as_json) from None
     if is_zip:

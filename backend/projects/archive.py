@@ -111,8 +111,10 @@ def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
     return {path.removeprefix(folder + "/"): content for path, content in files.items()}
 
 
-def read_upload(data: bytes, filename: str) -> dict[str, bytes]:
+def read_upload(data: bytes, filename: str, *, repair: bool = False) -> dict[str, bytes]:
     """The files of a project from whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
+
+    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when it cannot be read as it is.
 
     Raises:
         ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.
@@ -120,6 +122,6 @@ def read_upload(data: bytes, filename: str) -> dict[str, bytes]:
     """
     name = PurePosixPath(filename)
     if name.suffix.lower() in XML_SUFFIXES:
-        return opened({f"import{name.suffix.lower()}": data}, name.stem)
+        return opened({f"import{name.suffix.lower()}": data}, name.stem, repair=repair)
     files = unpack(data)
-    return files if MANIFEST in files else opened(files, name.stem)
+    return files if MANIFEST in files else opened(files, name.stem, repair=repair)

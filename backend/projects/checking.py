@@ -152,7 +152,7 @@ def package(files: Mapping[str, bytes], name: str | None = None) -> Ros2Package:
         refuse(error)
 
 
-def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
+def opened(files: Mapping[str, bytes], name: str, *, repair: bool = False) -> dict[str, bytes]:
     """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
 
     Raises:
@@ -161,7 +161,7 @@ def opened(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
     import translator  # noqa: PLC0415
 
     try:
-        return dict(translator.open_files(files, name=name).files)
+        return dict(translator.open_files(files, name=name, repair=repair).files)
     except translator.TranslatorError as error:
         refuse(error)
 

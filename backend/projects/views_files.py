@@ -168,6 +168,7 @@ class UploadSerializer(serializers.Serializer[dict[str, object]]):
     """A file to import."""
 
     file = serializers.FileField()
+    repair = serializers.BooleanField(required=False, help_text="Escape bare & and < in attributes of XML.")
 
 
 class Import(APIView):
@@ -193,9 +194,10 @@ class Import(APIView):
             raise QuotaExceededError("The file is too large to import.", field="file")
         data = uploaded.read()
         uploaded.seek(0)
+        wants_repair = request.POST.get("repair") == "true"
 
         def effect() -> Response:
-            files = archive.read_upload(data, uploaded.name or "")
+            files = archive.read_upload(data, uploaded.name or "", repair=wants_repair)
             project = actions.create_project(files, acting_user=user, message="Import")
             return detail_response(project, 201)
 

@@ -29,6 +29,8 @@ def check_subtrees(context: Context) -> None:
             if node.name and node.name in names:
                 context.report("BT0503", tree, node, name=node.name, other=names[node.name].id)
             names.setdefault(node.name, node)
+            if node.has_empty_name and not node.name and tree.id == context.project.settings.main_tree:
+                context.report("BT0507", tree, node)
     _check_cycles(context)
 
 

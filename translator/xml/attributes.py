@@ -37,7 +37,7 @@ def to_attributes(node: Node) -> dict[str, str]:
     result: dict[str, str] = {}
     if node.type == SUBTREE:
         result["ID"] = node.tree
-    if node.name:
+    if node.name or node.has_empty_name:
         result["name"] = node.name
     for name, text in node.ports.items():
         result.setdefault(name, text)
@@ -65,7 +65,7 @@ def from_attributes(attributes: Mapping[str, str], *, is_subtree: bool) -> dict[
     disabled = attributes.get(DISABLED) == "1" and attributes.get("_skipIf") == "true"
     for name, text in attributes.items():
         if name == "name":
-            fields["name"] = text
+            fields["name"], fields["has_empty_name"] = text, not text
         elif name == "ID":
             if is_subtree:
                 fields["tree"] = text

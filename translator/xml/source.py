@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.xml.repair import offers, repaired, repairs_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -80,7 +81,35 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
         _refuse("BT0003", Place(file, line=1, column=1), size=f"{len(raw) / 1e6:.0f} MB", limit=limit)
     text, encoding, bom = _decode(raw.encode("utf-8", "replace") if isinstance(raw, str) else raw, file)
     data = text.encode("utf-8")
-    return Source(file, data, _Builder(file, data).parse(), encoding, bom)
+    try:
+        root = _Builder(file, data).parse()
+    except TranslatorError as error:
+        repairs = repairs_of(text) if error.diagnostics[0].code == "BT0701" else []
+        if repairs and _is_well_formed(file, repaired(text, repairs)):
+            raise TranslatorError(offers(text, repairs, file)) from None
+        raise
+    return Source(file, data, root, encoding, bom)
+
+
+def repair_source(raw: bytes) -> bytes:
+    """Returns the file with bare characters in attributes escaped, if it can be read then; else as it is."""
+    try:
+        text, encoding, bom = _decode(raw, "")
+        _Builder("", text.encode("utf-8")).parse()
+    except TranslatorError as error:
+        if error.diagnostics[0].code != "BT0701":
+            return raw
+        better = repaired(text, repairs_of(text))
+        return bom + better.encode(encoding) if _is_well_formed("", better) else raw
+    return raw
+
+
+def _is_well_formed(file: str, text: str) -> bool:
+    try:
+        _Builder(file, text.encode("utf-8")).parse()
+    except TranslatorError:
+        return False
+    return True
 
 
 def _refuse(code: str, place: Place, **values: object) -> None:

@@ -53,9 +53,10 @@ export const api = {
   unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
   duplicateProject: (id: string) =>
     requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
-  importProject: (zip: File) => {
+  importProject: ({ file, repair }: { file: File; repair: boolean }) => {
     const form = new FormData();
-    form.append('file', zip, zip.name);
+    form.append('file', file, file.name);
+    if (repair) form.append('repair', 'true');
     return requestJson<ProjectDetail>('/projects/import', { method: 'POST', body: form });
   },
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),

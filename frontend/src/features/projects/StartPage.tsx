@@ -11,8 +11,10 @@ import { lazyPart } from '@/ui/parts';
 import { LanguageMenu } from './LanguageMenu';
 import { ProjectList } from './ProjectList';
 import classes from './projects.module.css';
+import { RepairDialog } from './RepairDialog';
 import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
+import { useImport } from './useImport';
 import { useProjectActions } from './useProjects';
 import { useStartActions } from './useStartActions';
 
@@ -25,7 +27,7 @@ const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
 export function StartPage() {
   const { t } = useTranslation('projects');
   const actions = useProjectActions();
-  const { mutate: importFile, isPending: isImporting } = actions.importFile;
+  const { importFile, isImporting, offer, repair, decline } = useImport();
   const isDropping = useFileDrop(importFile);
   const pending = actions.create.isPending ? actions.create.variables : null;
 
@@ -107,6 +109,7 @@ export function StartPage() {
           </Group>
         ) : null}
       </main>
+      <RepairDialog offer={offer} onRepair={repair} onClose={decline} />
       {isPaletteOpen ? (
         <Suspense fallback={null}>
           <CommandPalette />

@@ -33,7 +33,6 @@ export function useProjectActions() {
     onSuccess: open,
     onError,
   });
-  const importFile = useMutation({ mutationFn: api.importProject, onSuccess: open, onError });
   const duplicate = useMutation({
     mutationFn: (project: ProjectSummary) => api.duplicateProject(project.id),
     onSuccess: refresh,
@@ -78,5 +77,5 @@ export function useProjectActions() {
     },
     onError,
   });
-  return { create, importFile, duplicate, rename, archive, unarchive, remove, restore };
+  return { create, duplicate, rename, archive, unarchive, remove, restore };
 }

@@ -1,0 +1,48 @@
+import { notifications } from '@mantine/notifications';
+import { useMutation } from '@tanstack/react-query';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { api } from '@/api/client';
+import { ApiError } from '@/api/errors';
+import type { Diagnostic } from '@/api/types';
+import { navigate, projectPath } from '@/store/route';
+import { reasonOf } from './reason';
+
+/** The translator's finding of a character that a repair would write otherwise. */
+const REPAIRABLE = 'BT0740';
+
+/** A file that can be imported once it is repaired, and what would be changed in it. */
+export interface RepairOffer {
+  readonly file: File;
+  readonly changes: readonly Diagnostic[];
+}
+
+const repairsOf = (error: Error): readonly Diagnostic[] => {
+  const found = error instanceof ApiError ? error.diagnostics : [];
+  return found.every(({ code }) => code === REPAIRABLE) ? found : [];
+};
+
+/** Imports a file; one that a repair makes readable is offered that repair, and never changed unasked. */
+export function useImport() {
+  const { t } = useTranslation('projects');
+  const [offer, setOffer] = useState<RepairOffer | null>(null);
+  const { mutate, isPending } = useMutation({
+    mutationFn: api.importProject,
+    onSuccess: (project) => navigate(projectPath(project.id)),
+    onError: (error, { file }) => {
+      const changes = repairsOf(error);
+      if (changes.length > 0) setOffer({ file, changes });
+      else notifications.show({ color: 'red', title: t('failed'), message: reasonOf(error) });
+    },
+  });
+  return {
+    importFile: (file: File) => mutate({ file, repair: false }),
+    isImporting: isPending,
+    offer,
+    decline: () => setOffer(null),
+    repair: () => {
+      if (offer) mutate({ file: offer.file, repair: true });
+      setOffer(null);
+    },
+  };
+}

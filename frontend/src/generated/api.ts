@@ -1509,6 +1509,8 @@ export interface components {
         UploadRequest: {
             /** Format: binary */
             file: string;
+            /** @description Escape bare & and < in attributes of XML. */
+            repair?: boolean;
         };
         /** @description Room taken, and room given. */
         Usage: {

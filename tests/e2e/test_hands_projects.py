@@ -223,6 +223,16 @@ def test_what_falls_onto_the_page_becomes_a_project(shared_studio: Studio) -> No
     expect(studio.page.locator("[data-type=Wave]")).to_be_visible()
     home(studio)
 
+    drop(studio, "bare.xml", BTCPP.replace(b"<Sequence", b'<Sequence _description="1 < 2 & 3"', 1))
+    dialog = studio.page.get_by_role("dialog", name="Repair the file?")
+    expect(dialog.get_by_test_id("repairs").get_by_role("row")).to_have_count(3)
+    dialog.get_by_role("button", name="Do not import").click()
+    expect(studio.at("projects")).to_be_visible()
+    drop(studio, "bare.xml", BTCPP.replace(b"<Sequence", b'<Sequence _description="1 < 2 & 3"', 1))
+    studio.at("repair").click()
+    expect(studio.at("canvas")).to_have_attribute("data-tree", "Patrol")
+    home(studio)
+
     drop(studio, "holiday.zip", b"no zip at all")
     expect(studio.page.get_by_text("not a zip that can be read")).to_be_visible()
     expect(studio.at("projects")).to_be_visible()

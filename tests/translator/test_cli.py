@@ -110,6 +110,17 @@ def test_import_then_translate_gives_the_same_bytes(run, tmp_path):
     assert run("check", tmp_path / "p.zip")[0] == 0
 
 
+def test_an_import_says_what_a_repair_would_change_and_makes_it_when_asked(run, tmp_path):
+    (tmp_path / "t.xml").write_text(XML.replace("<Foo", '<Foo _post="x := 1 & 1"', 1))
+    status, _, errors = run("import", tmp_path / "t.xml", "-o", tmp_path / "p")
+    assert status == 1
+    assert "BT0740" in errors
+    assert "--repair" in errors
+    assert not (tmp_path / "p").exists()
+    assert run("import", tmp_path / "t.xml", "-o", tmp_path / "p", "--repair")[0] == 0
+    assert b"1 &amp; 1" in (tmp_path / "p" / "imports" / "t.xml").read_bytes()
+
+
 def test_package_and_app(run, tmp_path):
     status, out, errors = run("package", EXAMPLE, "-o", tmp_path / "p.zip", "--name", "my_robot")
     assert (status, errors) == (0, "")

@@ -132,6 +132,19 @@ def test_export_and_import_give_the_same_files_and_bytes(api, edited):
     }
 
 
+def test_an_import_offers_a_repair_and_makes_it_only_when_asked(api):
+    tree = b'<root BTCPP_format="4"><BehaviorTree ID="M"><Script code="x := 1 & 1"/></BehaviorTree></root>'
+    refused = upload(api, tree, expect=422, name="bare.xml")
+    (offer,) = refused["diagnostics"]
+    assert (offer["code"], offer["line"]) == ("BT0740", 1)
+    assert offer["values"] == {"before": "&", "after": "&amp;", "value": "x := 1 & 1"}
+    stream = io.BytesIO(tree)
+    stream.name = "bare.xml"
+    made = api.client.post("/api/v1/projects/import", {"file": stream, "repair": "true"})
+    assert made.status_code == 201, made.content
+    assert "trees/M.json" in {item["path"] for item in made.json()["files"]}
+
+
 def test_an_import_takes_one_folder_off_and_leaves_junk_out(api):
     files = {
         "rover/project.json": '{"name": "Rover"}',

@@ -31,10 +31,10 @@ export function RepairDialog({ offer, onRepair, onClose }: Props) {
               <Table.Tr key={`${String(line)}:${String(column)}`}>
                 <Table.Td>{line}</Table.Td>
                 <Table.Td style={{ wordBreak: 'break-word' }}>
-                  <Code>{values['value']}</Code>
+                  <Code>{values?.['value']}</Code>
                 </Table.Td>
                 <Table.Td style={{ whiteSpace: 'nowrap' }}>
-                  <Code>{values['before']}</Code> → <Code>{values['after']}</Code>
+                  <Code>{values?.['before']}</Code> → <Code>{values?.['after']}</Code>
                 </Table.Td>
               </Table.Tr>
             ))}

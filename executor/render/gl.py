@@ -14,6 +14,7 @@ import numpy as np
 
 from executor.render import geometry, programs, shadow
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
+from executor.render.kept import Kept, KeptPictures
 from executor.render.layers import SIDE, pixels
 from executor.render.pieces import VERTEX, Pieces, matrices
 from executor.render.shadow import ShadowPlan
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.messages import Scene
+    from executor.render.rectangles import Rectangle
 
 SAMPLES: Final = 4
 SKY_PIECES: Final = 8
@@ -66,6 +68,7 @@ class GlRenderer:
         self._pictures: Any = None
         self._textured_ground: Any = None
         self._plan: ShadowPlan | None = None
+        self._kept = KeptPictures()
         self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
         self._placed = np.empty((0, 3, 4), np.float32)
@@ -79,6 +82,7 @@ class GlRenderer:
         self._stock = _Stock(self._context, self._programs, scene)
         self._hang_pictures(scene, self._stock.pieces.layers)
         self._plan, self._drawn_poses = None, None
+        self._kept.clear()
         self._set_light(scene)
 
     def draw(
@@ -87,15 +91,30 @@ class GlRenderer:
         """Returns the picture as height × width × 3 bytes of RGB, the top row first."""
         stock = self._place(poses)
         self._cast_shadow(stock, view)
-        shown = self._targets.picture(width, height, smooth=smooth)
-        shown.use()
-        self._context.clear(depth=1.0)
-        orders = stock.pieces.seen_apart(self._placed, view, width, height)
-        self._paint(stock, orders, _upside_down(view, width, height), view)
-        picture = self._targets.read(width, height)
-        if smooth and self._is_software:
-            picture = smoothed(picture)
-        return np.asarray(cv2.cvtColor(picture, cv2.COLOR_RGBA2RGB), np.uint8)
+        picture = self._whole(stock, view, width, height, smooth=smooth)
+        return _finished(picture) if smooth and self._is_software else _rgb(picture)
+
+    def redraw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.uint8]:
+        """Returns the same as `draw`. Of a view that it drew before, it draws only what has changed since.
+
+        If nothing has, it is the same array as before. Do not write into it.
+        """
+        if not self._is_software:
+            return self.draw(poses, view, width, height)
+        stock, key = self._place(poses), (view, width, height)
+        plan = self._cast_shadow(stock, view)
+        kept = self._kept.find(key)
+        parts = None if kept is None else kept.outdated(stock.pieces, self._placed, plan, key)
+        if kept is None or parts is None:
+            raw = self._whole(stock, view, width, height, smooth=True)
+            kept = Kept(raw, _finished(raw.copy()), self._placed.copy(), plan.matrix.copy())
+            self._kept.keep(key, kept)
+        elif parts:
+            self._draw_parts(stock, key, parts, kept.raw)
+            kept.finished = _finished(kept.raw.copy())
+        return kept.finished
 
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
@@ -186,13 +205,41 @@ class GlRenderer:
         self._stock.matrices.use(UNITS["matrices"])
         return self._stock
 
-    def _cast_shadow(self, stock: _Stock, view: Viewpoint) -> None:
-        if self._plan is None:
-            self._plan = ShadowPlan(stock.pieces, self._placed, self._sun)
-        work = self._plan.dirty(self._placed, view)
+    def _whole(
+        self, stock: _Stock, view: Viewpoint, width: int, height: int, *, smooth: bool
+    ) -> NDArray[np.uint8]:
+        """Draws a picture as rows of RGBA."""
+        shown = self._targets.picture(width, height, smooth=smooth)
+        shown.use()
+        self._context.clear(depth=1.0)
+        orders = stock.pieces.seen_apart(self._placed, view, width, height)
+        self._paint(stock, orders, _upside_down(view, width, height), view)
+        return self._targets.read(width, height)
+
+    def _draw_parts(
+        self, stock: _Stock, key: tuple[Viewpoint, int, int], parts: list[Rectangle], into: NDArray[np.uint8]
+    ) -> None:
+        """Draws parts of a picture, and puts them into it."""
+        view, width, height = key
+        target, matrix = self._targets.picture(width, height, smooth=False), _upside_down(view, width, height)
+        for part in parts:
+            target.scissor = part
+            target.use()
+            target.clear(depth=1.0, viewport=part)
+            self._paint(
+                stock, stock.pieces.seen_apart(self._placed, view, width, height, part), matrix, view
+            )
+        target.scissor = None
+        for part in parts:
+            x, y, wide, high = part
+            into[y : y + high, x : x + wide] = self._targets.read(wide, high, of=(width, height), at=(x, y))
+
+    def _cast_shadow(self, stock: _Stock, view: Viewpoint) -> ShadowPlan:
+        plan = self._plan = self._plan or ShadowPlan(stock.pieces, self._placed, self._sun)
+        work = plan.dirty(self._placed, view)
         if not work:
-            return
-        matrix = _bytes(self._plan.matrix)
+            return plan
+        matrix = _bytes(plan.matrix)
         for program in (self._programs["shadow"], *self._lit("object"), *self._lit("ground")):
             program["light"].write(matrix)
         target = self._shadow_target
@@ -203,6 +250,7 @@ class GlRenderer:
             self._context.enable_only(self._context.DEPTH_TEST)
             stock.shadow.render(vertices=stock.choose(order))
         target.scissor = None
+        return plan
 
     def _paint(
         self,
@@ -310,6 +358,15 @@ def _make_context() -> Any:
         return moderngl.create_context(**options)
     except Exception as error:
         raise RenderError(str(error).splitlines()[0] if str(error) else type(error).__name__) from error
+
+
+def _finished(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Smooths rows of RGBA in place, and returns RGB."""
+    return _rgb(smoothed(picture))
+
+
+def _rgb(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return np.asarray(cv2.cvtColor(picture, cv2.COLOR_RGBA2RGB), np.uint8)
 
 
 def _upside_down(view: Viewpoint, width: int, height: int) -> NDArray[np.float64]:

@@ -107,6 +107,14 @@ class Renderer(Protocol):
             smooth: with antialiasing, where the renderer has it; it costs as much again.
         """
 
+    def redraw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.uint8]:
+        """Returns the same as `draw`, for a view that stays: it may draw only what has changed since.
+
+        If nothing has, it may be the same array as before. Do not write into it.
+        """
+
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from executor.messages import Scene, Shape
     from executor.render.interface import Viewpoint
+    from executor.render.rectangles import Rectangle
 
     Floats = NDArray[np.float32]
     Order = NDArray[np.uint32]
@@ -95,13 +96,34 @@ class Pieces:
             [np.einsum("nij,nj->ni", turned[:, :, :3], corner) + turned[:, :, 3] for corner in corners]
         )
 
+    def corners_of(
+        self, numbers: NDArray[np.intp], placed: Floats, margin: float
+    ) -> NDArray[np.float64]:
+        """Returns the eight corners in the world of the boxes of some pieces, made wider: (pieces, 8, 3)."""
+        turned = placed[self.rows[numbers]].astype(np.float64)
+        ends = np.stack([self.lows[numbers] - margin, self.highs[numbers] + margin], axis=1)
+        corners = np.stack(
+            [ends[:, pick, np.arange(3)] for pick in itertools.product((0, 1), repeat=3)], axis=1
+        )
+        return np.einsum("nij,nkj->nki", turned[:, :, :3], corners) + turned[:, None, :, 3]
+
     def seen(self, placed: Floats, view: Viewpoint, width: int, height: int) -> Order:
         """Returns the triangles of all that may be in a picture, the nearest pieces first."""
         return self.order_of(*self._nearest(placed, view, width, height))
 
-    def seen_apart(self, placed: Floats, view: Viewpoint, width: int, height: int) -> tuple[Order, Order]:
-        """Returns the same in two parts: what has a colour only, and what has a texture."""
-        nearest, levels = self._nearest(placed, view, width, height)
+    def seen_apart(
+        self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
+    ) -> tuple[Order, Order]:
+        """Returns the same in two parts: what has a colour only, and what has a texture.
+
+        Args:
+            placed: the objects' matrices.
+            view: where one looks from.
+            width: of the picture in pixels.
+            height: of the picture in pixels.
+            part: only what may be in this part of the picture, of which the first row is the top one.
+        """
+        nearest, levels = self._nearest(placed, view, width, height, part)
         textured = self.is_textured[nearest]
         return (
             self.order_of(nearest[~textured], levels[~textured]),
@@ -109,7 +131,7 @@ class Pieces:
         )
 
     def _nearest(
-        self, placed: Floats, view: Viewpoint, width: int, height: int
+        self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Returns the pieces that may be in a picture, the nearest first, and the level of each."""
         if not len(self):
@@ -118,11 +140,17 @@ class Pieces:
         eye = self.centers(placed) @ matrix[:3, :3].T + matrix[:3, 3]
         ahead, radii = -eye[:, 2], self.radii
         wide = math.tan(view.fov / 2)
-        high = wide * height / width
         scale = (width / 2 / wide) / np.maximum(ahead, view.near)
         pixels = radii * scale
         shown = (ahead > view.near - radii) & (ahead < view.far + radii) & (pixels > SMALLEST_PX)
-        for side, slope in ((np.abs(eye[:, 0]), wide), (np.abs(eye[:, 1]), high)):
+        x, y, across, down = part or (0, 0, width, height)
+        pixel = 2 * wide / width
+        for side, slope in (
+            (-eye[:, 0], (width / 2 - x) * pixel),
+            (eye[:, 0], (x + across - width / 2) * pixel),
+            (eye[:, 1], (height / 2 - y) * pixel),
+            (-eye[:, 1], (y + down - height / 2) * pixel),
+        ):
             shown &= side < ahead * slope + radii * math.sqrt(1 + slope * slope)
         numbers = np.flatnonzero(shown)
         nearest = numbers[np.argsort(self._distances(placed, numbers, view.eye))]

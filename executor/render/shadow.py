@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
+from executor.render.rectangles import merged
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.render.interface import Viewpoint
     from executor.render.pieces import Floats, Order, Pieces
-
-    Rectangle = tuple[int, int, int, int]
+    from executor.render.rectangles import Rectangle
 
 SIZE: Final = 2048
 LARGEST_REACH_M: Final = 24.0
@@ -21,7 +22,6 @@ ROOM_M: Final = 1.5
 MOVED: Final = 1e-4
 LEVELS_TEXELS: Final = (10.0, 25.0, 60.0)
 SMALLEST_TEXELS: Final = 0.7
-MOST_RECTANGLES: Final = 24
 
 
 class ShadowPlan:
@@ -33,6 +33,7 @@ class ShadowPlan:
 
     def __init__(self, pieces: Pieces, placed: Floats, sun: NDArray[np.float64]) -> None:
         self._pieces = pieces
+        self.sun = sun
         self._turn = _light_axes(sun)
         self._asked: Floats | None = None
         self._drawn: Floats = placed.copy()
@@ -41,6 +42,11 @@ class ShadowPlan:
         self._center = self._middle = np.zeros(3)
         self.matrix = np.eye(4)
         self._fit(placed)
+
+    @property
+    def texel_m(self) -> float:
+        """Returns how wide a texel is."""
+        return 2 * self.reach_m / SIZE
 
     def dirty(self, placed: Floats, view: Viewpoint) -> list[tuple[Rectangle, Order]]:
         """Returns what to draw where, in texels [x, y, width, height], and counts it as drawn."""
@@ -61,7 +67,7 @@ class ShadowPlan:
         if not self._follows and _are_outside(self._texels[moved]):
             self._fit(self._drawn)
             return self._everything()
-        rectangles = _merged(_boxes(np.concatenate([old[moved], self._texels[moved]])))
+        rectangles = merged(_boxes(np.concatenate([old[moved], self._texels[moved]])))
         return [self._work(rectangle, self._texels) for rectangle in rectangles]
 
     # --- inside ---
@@ -140,30 +146,3 @@ def _boxes(texels: Floats) -> NDArray[np.int64]:
     high = np.ceil(texels[:, :2] + texels[:, 2:] + 1)
     boxes: NDArray[np.int64] = np.clip(np.column_stack([low, high]), 0, SIZE).astype(np.int64)
     return boxes[(boxes[:, 2] > boxes[:, 0]) & (boxes[:, 3] > boxes[:, 1])]
-
-
-def _merged(boxes: NDArray[np.int64]) -> list[Rectangle]:
-    """Returns rectangles that cover all boxes: those that overlap become one, and there are few."""
-    rectangles: list[list[int]] = []
-    for box in boxes[np.argsort(boxes[:, 0], kind="stable")].tolist():
-        grown = box
-        while True:
-            apart = [other for other in rectangles if not _overlap(grown, other)]
-            if len(apart) == len(rectangles):
-                break
-            for other in rectangles:
-                if _overlap(grown, other):
-                    grown = _union(grown, other)
-            rectangles = apart
-        rectangles.append(grown)
-    while len(rectangles) > MOST_RECTANGLES:
-        rectangles.append(_union(rectangles.pop(), rectangles.pop()))
-    return [(left, low, right - left, top - low) for left, low, right, top in rectangles]
-
-
-def _overlap(a: list[int], b: list[int]) -> bool:
-    return a[0] <= b[2] and b[0] <= a[2] and a[1] <= b[3] and b[1] <= a[3]
-
-
-def _union(a: list[int], b: list[int]) -> list[int]:
-    return [min(a[0], b[0]), min(a[1], b[1]), max(a[2], b[2]), max(a[3], b[3])]

@@ -39,13 +39,15 @@ class Targets:
             _forget_oldest(kept)
         return target
 
-    def read(self, width: int, height: int) -> NDArray[np.uint8]:
-        """Returns what was drawn into `picture` last, as rows of RGBA."""
-        plain = self._plain[width, height]
+    def read(
+        self, width: int, height: int, *, of: Size | None = None, at: Size = (0, 0)
+    ) -> NDArray[np.uint8]:
+        """Returns what was drawn into `picture` last, as rows of RGBA; or a part of one of the size `of`."""
+        plain = self._plain[of or (width, height)]
         if self._drawn is not plain:
             self._context.copy_framebuffer(plain, self._drawn)
         picture = np.empty((height, width, 4), np.uint8)
-        plain.read_into(picture, components=4)
+        plain.read_into(picture, viewport=(*at, width, height), components=4)
         return picture
 
     def measured(self, width: int, height: int) -> Any:

@@ -55,6 +55,12 @@ class TinyRenderer:
         picture = self._shoot(poses, view, width, height)[2]
         return np.ascontiguousarray(np.reshape(picture, (height, width, 4))[:, :, :3].astype(np.uint8))
 
+    def redraw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.uint8]:
+        """Returns the same as `draw`."""
+        return self.draw(poses, view, width, height)
+
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:

@@ -1,0 +1,118 @@
+"""Pictures of a view that stays: what stands in them is drawn once, and again only where something moved.
+
+A thing that moves changes a picture where it was, where it is, and where its shadow was and is. These parts are
+drawn again with everything that is in them, so the picture is the one that drawing all of it would give.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+
+from executor.render.rectangles import merged
+from executor.render.shadow import MOVED
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from executor.render.interface import Viewpoint
+    from executor.render.pieces import Floats, Pieces
+    from executor.render.rectangles import Rectangle
+    from executor.render.shadow import ShadowPlan
+
+    Key = tuple[Viewpoint, int, int]
+
+MOST_KEPT: Final = 2
+MOST_RECTANGLES: Final = 8
+WORTH_IT: Final = 0.6
+"""Of the picture: beyond that, drawing all of it is as quick."""
+BLUR_M: Final = 0.03
+"""How far beside a thing its shadow is looked up, and two texels of the shadow map more."""
+STEEPEST: Final = -0.1
+"""Light that comes in flatter than this throws shadows too long to follow."""
+
+
+@dataclass
+class Kept:
+    """A picture as it was drawn, and after smoothing; where everything was, and the light's map."""
+
+    raw: NDArray[np.uint8]
+    finished: NDArray[np.uint8]
+    placed: Floats
+    light: NDArray[np.float64]
+
+    def outdated(
+        self, pieces: Pieces, placed: Floats, plan: ShadowPlan, key: Key
+    ) -> list[Rectangle] | None:
+        """Returns what has to be drawn again, and counts it as drawn; None is all of it."""
+        if not np.array_equal(self.light, plan.matrix) or plan.sun[2] > STEEPEST:
+            return None
+        moved = np.abs(placed - self.placed).max(axis=(1, 2), initial=0.0) > MOVED
+        numbers = np.flatnonzero(moved[pieces.rows])
+        before = self.placed.copy()
+        self.placed[moved] = placed[moved]
+        if not len(numbers):
+            return []
+        view, width, height = key
+        reached = [_reached(pieces, numbers, where, plan) for where in (before, placed)]
+        boxes = _boxes(np.concatenate(reached, axis=1), view, width, height)
+        if boxes is None:
+            return None
+        rectangles = merged(boxes, MOST_RECTANGLES)
+        covered = sum(wide * high for _, _, wide, high in rectangles)
+        return rectangles if covered < WORTH_IT * width * height else None
+
+
+class KeptPictures:
+    """The pictures of the views that were asked for last."""
+
+    def __init__(self) -> None:
+        self._kept: dict[Key, Kept] = {}
+
+    def find(self, key: Key) -> Kept | None:
+        """Returns the picture of a view of a size."""
+        found = self._kept.pop(key, None)
+        if found is not None:
+            self._kept[key] = found
+        return found
+
+    def keep(self, key: Key, picture: Kept) -> None:
+        """Takes a picture; the one that was not asked for longest is dropped."""
+        self._kept.pop(key, None)
+        while len(self._kept) >= MOST_KEPT:
+            del self._kept[next(iter(self._kept))]
+        self._kept[key] = picture
+
+    def clear(self) -> None:
+        """Drops all: the scene is another one."""
+        self._kept.clear()
+
+
+def _reached(
+    pieces: Pieces, numbers: NDArray[np.intp], placed: Floats, plan: ShadowPlan
+) -> NDArray[np.float64]:
+    """Returns points whose hull holds each piece and its shadow: (pieces, points, 3)."""
+    margin = BLUR_M + 2 * plan.texel_m
+    corners = pieces.corners_of(numbers, placed, margin)
+    falls = np.maximum(corners[:, :, 2:], 0.0) / -plan.sun[2]
+    return np.concatenate([corners, corners + falls * plan.sun], axis=1)
+
+
+def _boxes(
+    points: NDArray[np.float64], view: Viewpoint, width: int, height: int
+) -> NDArray[np.int64] | None:
+    """Returns [left, top, right, bottom] in pixels of each row of points; None if one is beside the eye."""
+    matrix = view.projection_matrix(width, height) @ view.view_matrix()
+    clip = points @ matrix[:, :3].T + matrix[:, 3]
+    ahead = clip[:, :, 3]
+    if (ahead < view.near).any():
+        return None
+    x = (clip[:, :, 0] / ahead + 1) / 2 * width
+    y = (1 - clip[:, :, 1] / ahead) / 2 * height
+    lows = np.floor(np.stack([x.min(axis=1), y.min(axis=1)], axis=1)) - 1
+    highs = np.ceil(np.stack([x.max(axis=1), y.max(axis=1)], axis=1)) + 1
+    size = (width, height)
+    boxes = np.concatenate([np.clip(lows, 0, size), np.clip(highs, 0, size)], axis=1).astype(np.int64)
+    return boxes[(boxes[:, 2] > boxes[:, 0]) & (boxes[:, 3] > boxes[:, 1])]

@@ -1,9 +1,10 @@
 """How much is tried where there may not be enough for all of it. Pure.
 
-Two things give way so. Pictures for a client that is too slow for them get smaller, worse and fewer: the
+Three things give way so. Pictures for a client that is too slow for them get smaller, worse and fewer: the
 manager says for each client which share of its pictures had to be thrown away because newer ones came before
 they could be sent, and each step down costs about half the bytes. And cameras yield to time: on a machine
-that cannot draw them at their rates in real time they draw less often, and robots go on as they should.
+that cannot draw them at their rates in real time they draw less often, and robots go on as they should. The
+server's own view gets smaller where it cannot be drawn as often as asked.
 
 A step up is tried when nothing was lost for a while, and more rarely each time that it proved too much.
 """
@@ -46,6 +47,12 @@ LEVELS: Final = (
 CAMERA_SHARES: Final = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)
 """Of a camera's rate."""
 TOO_SLOW: Final = 0.03
+
+VIEW_SHARES: Final = (1.0, 0.75, 0.6, 0.5, 0.35)
+"""Of the width that was asked for."""
+TOO_FEW: Final = 0.15
+COUNTED_S: Final = 0.5
+COUNTED_PERIODS: Final = 4
 
 
 class Adaptation(Generic[T]):
@@ -105,3 +112,31 @@ class CameraRates:
         late = max(0.0, 1 - real_time_factor / speed) if 0 < speed <= 1 else 0.0
         self._adaptation.note(min(late, self._late))  # one slow second is a start, or a hiccup
         self._late = late
+
+
+class ViewSize:
+    """The share of its width at which a view is drawn, by how many of its pictures came in time."""
+
+    def __init__(self) -> None:
+        self._adaptation = Adaptation(VIEW_SHARES, TOO_FEW)
+        self._since: tuple[float, int] | None = None
+        self._sent = 0
+
+    @property
+    def share(self) -> float:
+        """Of the width, 0 to 1."""
+        return self._adaptation.level
+
+    def sent(self, now_s: float, period_s: float, version: int) -> None:
+        """Takes note of a picture of a version of the world; of a world that pauses there are no more."""
+        if self._since is None:
+            self._since = (now_s, version)
+            return
+        began_s, first = self._since
+        self._sent += 1
+        passed_s = now_s - began_s
+        if passed_s < max(COUNTED_S, COUNTED_PERIODS * period_s):
+            return
+        due = max(1.0, min(passed_s / period_s, version - first))
+        self._adaptation.note(max(0.0, 1 - self._sent / due))
+        self._since, self._sent = (now_s, version), 0

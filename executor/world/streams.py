@@ -18,7 +18,7 @@ import simplejpeg
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.render.interface import look_at
 from executor.stream.pose_codec import pack
-from executor.world.adaptation import LEVELS, Adaptation, Level
+from executor.world.adaptation import LEVELS, Adaptation, Level, ViewSize
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -56,6 +56,7 @@ class Subscription:
     next_s: float = 0.0
     seen: Any = None
     poses: NDArray[np.float32] | None = field(default=None, repr=False)
+    size: ViewSize = field(default_factory=ViewSize)
 
 
 class Streams:
@@ -73,6 +74,7 @@ class Streams:
         """Of their rates at which cameras draw now."""
         self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
         self._adaptations: dict[str | None, Adaptation[Level]] = {}
+        self._encoded: tuple[NDArray[np.uint8] | None, int, bytes] = (None, 0, b"")
 
     @property
     def has_camera(self) -> bool:
@@ -99,7 +101,7 @@ class Streams:
         new = Subscription(client, stream, rate, wide, view)
         if old is not None:
             # Another view of the same world: the client keeps the scene that it has.
-            new.next_s, new.poses = old.next_s, old.poses
+            new.next_s, new.poses, new.size = old.next_s, old.poses, old.size
         self._subscriptions[client, stream] = new
 
     def unsubscribe(self, client: str | None, stream: str) -> None:
@@ -134,6 +136,8 @@ class Streams:
                 period = 1.0 / (subscription.max_hz * self._rate_share(subscription))
                 # In step with the rate unless far behind: else a 30 Hz stream of a 60 Hz world beats.
                 subscription.next_s = max(subscription.next_s + period, now_s - period)
+                if subscription.stream == "view":
+                    subscription.size.sent(now_s, period, self._sensors.version)
             drawing_s += is_picture * (self._clock() - began_s)
         if drawing_s:
             self._rests_until_s = now_s + drawing_s * (1 + REST_SHARE)
@@ -200,11 +204,21 @@ class Streams:
     def _view(self, subscription: Subscription) -> View:
         level = self._level(subscription.client)
         # Sixteen pixels a step: JPEG's blocks, and few sizes to keep framebuffers of.
-        width = max(WIDTHS[0], round((subscription.width or VIEW_WIDTH) * level.width / 16) * 16)
+        share = min(level.width, subscription.size.share)
+        width = max(WIDTHS[0], round((subscription.width or VIEW_WIDTH) * share / 16) * 16)
         height = round(width * 9 / 16)
         pose = subscription.camera_pose
         picture = self._sensors.view(look_at(pose.eye, pose.target, VIEW_FOV), width, height)
-        return View(t=self._world.time_s, width=width, height=height, jpeg=_jpeg(picture, level.quality))
+        jpeg = self._jpeg_once(picture, level.quality)
+        return View(t=self._world.time_s, width=width, height=height, jpeg=jpeg)
+
+    def _jpeg_once(self, picture: NDArray[np.uint8], quality: int) -> bytes:
+        """A view in which nothing moved is the picture that it was."""
+        known, of_quality, jpeg = self._encoded
+        if picture is not known or quality != of_quality:
+            jpeg = _jpeg(picture, quality)
+            self._encoded = (picture, quality, jpeg)
+        return jpeg
 
     def _level(self, client: str | None) -> Level:
         adaptation = self._adaptations.get(client)

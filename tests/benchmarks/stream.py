@@ -45,6 +45,7 @@ def main() -> None:
 
 async def _main() -> None:
     await sizes()
+    await views()
     await latency()
     for count in SESSIONS:
         await side_by_side(count)
@@ -81,6 +82,24 @@ async def sizes() -> None:
             f"the same view of 1280x720 as JPEG {in_2d / 1000:.0f} kB/s "
             f"at {len(pictures) / WATCHED_S:.1f} Hz: "
             f"{statistics.mean(pictures) / statistics.mean(poses):.0f} times as many a frame"
+        )
+
+
+async def views() -> None:
+    """The server's own view of 1280×720 from above the hall, while the robot and two people move in it."""
+    above = {"eye": [-14.71, -20.79, 14.51], "target": [-3.04, -4.48, 0.2]}
+    wanted = {"stream": "view", "max_hz": 30.0, "width": 1280, "camera_pose": above}
+    async with session(app_zip(), wanted) as (_, client):
+        await asyncio.sleep(5)
+        first, sim = len(client.frames), client.events[-1]["t"]
+        began_s = time.monotonic()
+        await asyncio.sleep(WATCHED_S)
+        passed_s = time.monotonic() - began_s
+        pictures = [frame for _, frame in client.frames[first:] if isinstance(frame, View)]
+        print(
+            f"server's own view: {len(pictures) / passed_s:.1f} pictures a second, "
+            f"{statistics.mean(picture.width for picture in pictures):.0f} pixels wide on average, "
+            f"real-time factor {(client.events[-1]['t'] - sim) / passed_s:.2f}"
         )
 
 

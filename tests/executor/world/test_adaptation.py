@@ -8,6 +8,7 @@ from executor.world.adaptation import (
     Adaptation,
     CameraRates,
     Level,
+    ViewSize,
 )
 
 
@@ -79,3 +80,29 @@ def test_who_runs_faster_than_real_time_gets_every_picture() -> None:
 def test_slow_motion_is_judged_by_its_own_speed() -> None:
     assert shares(CameraRates(), *[0.5] * 20, speed=0.5) == 1.0
     assert shares(CameraRates(), *[0.3] * 3, speed=0.5) < 1.0
+
+
+def shown(size: ViewSize, hz: float, seconds: float, *, begin_s: float = 0.0, wanted_hz: float = 30.0) -> float:
+    """Sends pictures at a rate, of a world of 60 Hz; returns the share of the width after that."""
+    for i in range(round(seconds * hz)):
+        now_s = begin_s + i / hz
+        size.sent(now_s, 1 / wanted_hz, round(now_s * 60))
+    return size.share
+
+
+def test_a_view_gets_smaller_while_it_is_late_and_larger_after() -> None:
+    size = ViewSize()
+    assert shown(size, 29, 3) == 1.0
+    assert shown(size, 12, 4, begin_s=3) < 0.6
+    assert shown(size, 30, 60, begin_s=7) == 1.0
+
+
+def test_a_view_of_a_world_that_pauses_or_is_slow_is_not_late() -> None:
+    size = ViewSize()
+    for i in range(20):  # a paused world that a hand changes each second
+        size.sent(float(i), 1 / 30, i)
+    assert size.share == 1.0
+    for i in range(100):  # a tenth of real time
+        size.sent(20 + i / 6, 1 / 30, 20 + i)
+    assert size.share == 1.0
+    assert shown(ViewSize(), 2, 10, wanted_hz=2) == 1.0

@@ -37,6 +37,11 @@ class PlainRenderer:
         self.drawn.append((view, width, height))
         return np.full((height, width, 3), 128, np.uint8)
 
+    def redraw(
+        self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
+    ) -> NDArray[np.uint8]:
+        return self.draw(poses, view, width, height)
+
     def close(self) -> None:
         self.drawn.clear()
 

@@ -20,6 +20,7 @@ class Shape(Struct, omit_defaults=True):
         color: [r, g, b, a], each 0 to 1, sRGB.
         mesh: key in `Scene.meshes` for a mesh, else "".
         texture: key in `Scene.textures`, or "" for none; the colour tints it.
+        ceiling: it is overhead, or a wall's upper part: for robots' cameras, not for views of the world.
     """
 
     shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
@@ -28,6 +29,7 @@ class Shape(Struct, omit_defaults=True):
     color: list[float]
     mesh: str = ""
     texture: str = ""
+    ceiling: bool = False
 
 
 class SceneObject(Struct):

@@ -32,6 +32,7 @@ class Viewpoint:
 
     Args:
         fov: horizontal field of view in rad.
+        roofless: leaves ceilings out, as views from outside do.
     """
 
     eye: tuple[float, float, float]
@@ -40,6 +41,7 @@ class Viewpoint:
     fov: float
     near: float = 0.05
     far: float = 60.0
+    roofless: bool = False
 
     @classmethod
     def of_pose(cls, pose: Sequence[float], fov: float, near: float, far: float) -> Viewpoint:
@@ -73,7 +75,7 @@ class Viewpoint:
 
 
 def look_at(eye: Sequence[float], target: Sequence[float], fov: float = 1.0) -> Viewpoint:
-    """Returns the view from one point to another, with the horizon level."""
+    """Returns the view from one point to another, with the horizon level and without ceilings."""
     ahead = np.array(target, float) - np.array(eye, float)
     length = float(np.linalg.norm(ahead))
     ahead = ahead / length if length > 1e-6 else np.array([1.0, 0.0, 0.0])
@@ -83,7 +85,8 @@ def look_at(eye: Sequence[float], target: Sequence[float], fov: float = 1.0) -> 
     right /= np.linalg.norm(right)
     up = np.cross(right, ahead)
     position = (float(eye[0]), float(eye[1]), float(eye[2]))
-    return Viewpoint(position, tuple(ahead.tolist()), tuple(up.tolist()), fov, near=0.05, far=120.0)
+    ends = tuple(ahead.tolist()), tuple(up.tolist())
+    return Viewpoint(position, *ends, fov, near=0.05, far=120.0, roofless=True)
 
 
 class Renderer(Protocol):

@@ -45,6 +45,7 @@ class Pieces:
         shapes = [(row, shape) for row, thing in enumerate(scene.objects) for shape in thing.shapes]
         self.rows = np.array([row for row, _ in shapes], np.intp)
         self.is_flat = np.array([shape.shape == "plane" for _, shape in shapes], bool)
+        self.is_ceiling = np.array([shape.ceiling for _, shape in shapes], bool)
         self._orders: list[list[Order]] = []
         # The textures are layers of one stack, in the order of their names.
         self.layers = {name: layer for layer, name in enumerate(sorted(scene.textures))}
@@ -143,6 +144,8 @@ class Pieces:
         scale = (width / 2 / wide) / np.maximum(ahead, view.near)
         pixels = radii * scale
         shown = (ahead > view.near - radii) & (ahead < view.far + radii) & (pixels > SMALLEST_PX)
+        if view.roofless:
+            shown &= ~self.is_ceiling
         x, y, across, down = part or (0, 0, width, height)
         pixel = 2 * wide / width
         for side, slope in (
@@ -219,7 +222,8 @@ def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
     result = np.zeros(len(points), VERTEX)
     result["position"] = points[:, :3] * scale @ turn[:, :3].T + turn[:, 3]
-    result["normal"] = normals @ turn[:, :3].T
+    # Light comes from above: a ceiling is as bright as if it were a floor.
+    result["normal"] = (0, 0, -1) if shape.ceiling and shape.shape == "plane" else normals @ turn[:, :3].T
     result["color"] = np.round(np.clip(shape.color, 0.0, 1.0) * np.float32(255)).astype(np.uint8)
     result["row"] = row
     return result

@@ -120,7 +120,7 @@ class ShadowPlan:
         x, y, wide, high = rectangle
         radii = texels[:, 2]
         rounds = self._pieces.rounds * (0.5 * SIZE / self.reach_m)
-        shown = (radii > SMALLEST_TEXELS) & ~self._pieces.is_flat
+        shown = (radii > SMALLEST_TEXELS) & ~self._pieces.is_flat & ~self._pieces.is_ceiling
         for at, first, length in ((texels[:, 0], x, wide), (texels[:, 1], y, high)):
             shown &= (at + radii >= first) & (at - radii <= first + length)
         numbers = np.flatnonzero(shown)

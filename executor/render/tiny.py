@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from executor.render.interface import Viewpoint
 
 GROUND_SIZE_M: Final = 80.0
+AWAY: Final = (0.0, 0.0, -1000.0)
 
 
 class TinyRenderer:
@@ -29,12 +30,14 @@ class TinyRenderer:
         self._bullet = Bullet()
         self.has_shadows = False  # they double its time, and are hard-edged
         self._bodies: list[list[int]] = []
+        self._ceilings: set[int] = set()
         self._ground = 0
         self._sun = [-0.3, -0.4, 0.8]
 
     def load(self, scene: Scene) -> None:
         """Takes a scene in place of the last one."""
         self._bullet.resetSimulation()
+        self._ceilings = set()
         self._meshes = scene.meshes
         self._paints = {name: mean_color(texture) for name, texture in scene.textures.items()}
         self._bodies = [self._body(scene_object) for scene_object in scene.objects]
@@ -92,7 +95,8 @@ class TinyRenderer:
     def _shoot(self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int) -> Any:
         for uids, pose in zip(self._bodies, poses.tolist(), strict=True):
             for uid in uids:
-                self._bullet.resetBasePositionAndOrientation(uid, pose[:3], pose[3:])
+                place = AWAY if view.roofless and uid in self._ceilings else pose[:3]
+                self._bullet.resetBasePositionAndOrientation(uid, place, pose[3:])
         return self._bullet.getCameraImage(
             width,
             height,
@@ -105,10 +109,12 @@ class TinyRenderer:
 
     def _body(self, scene_object: SceneObject) -> list[int]:
         """Makes one body for each shape: TinyRenderer colours the shapes of one body alike."""
-        return [
+        uids = [
             self._bullet.createMultiBody(0, -1, self._visual(shape), basePosition=scene_object.pose[:3])
             for shape in scene_object.shapes
         ]
+        self._ceilings |= {uid for uid, shape in zip(uids, scene_object.shapes, strict=True) if shape.ceiling}
+        return uids
 
     def _tinted(self, color: list[float], texture: str) -> list[float]:
         """Returns the colour that a texture has from afar: this renderer draws no pictures on things."""

@@ -83,6 +83,17 @@ class Ground(_Painted):
     friction: float = Field(default=0.9, ge=0, le=10)
 
 
+class Ceiling(_Painted):
+    """What is overhead indoors, `height` m above the floor, over all walls that reach it.
+
+    Robots' cameras see it. Views of the world do not, from above or from elsewhere, and it throws no shadow.
+    It is only seen: rays and bodies go through it.
+    """
+
+    height: float = Field(default=2.5, gt=0, le=1000, allow_inf_nan=False)
+    color: Color = "#e8e6e0"
+
+
 class Model(_Painted):
     """A thing; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
 
@@ -92,6 +103,9 @@ class Model(_Painted):
 
     A `urdf` or `sdf` is a model of several links from `file`, with its own sizes and colours; its joints move
     freely. Without mass its root stands fast, with one it weighs that much in all.
+
+    A wall that goes `to_ceiling` is seen up to the ceiling by robots' cameras, where the universe has one, and
+    in its own height in views of the world: one can look into the rooms. Rays and bodies meet its own height.
     """
 
     id: Name
@@ -104,6 +118,7 @@ class Model(_Painted):
     friction: float = Field(default=0.6, ge=0, le=10)
     restitution: float = Field(default=0.0, ge=0, le=1)
     solid: bool = True
+    to_ceiling: bool = False
 
     @property
     def is_assembly(self) -> bool:
@@ -133,6 +148,12 @@ class Model(_Painted):
             meaning = SIZE_MEANING[self.shape]
             if len(self.size) != len(meaning):
                 raise ValueError(f"the `size` of a {self.shape} is [{', '.join(meaning)}]")
+        return self
+
+    @model_validator(mode="after")
+    def _can_reach_the_ceiling(self) -> Model:
+        if self.to_ceiling and (self.shape != "box" or self.mass > 0 or any(self.pose[3:5])):
+            raise ValueError("only a box without mass that stands upright goes `to_ceiling`")
         return self
 
     @model_validator(mode="after")
@@ -189,13 +210,14 @@ class View(_Strict):
 
 
 class Universe(_Strict):
-    """A world: ground, things, people, robots and light."""
+    """A world: ground, ceiling, things, people, robots and light."""
 
     format: Literal["bt-studio/universe"]
     version: Literal[1]
     name: str = Field(min_length=1, max_length=120)
     description: str = ""
     ground: Ground = Ground()
+    ceiling: Ceiling | None = None
     models: tuple[Model, ...] = Field(default=(), max_length=2000)
     actors: tuple[Actor, ...] = Field(default=(), max_length=100)
     robots: tuple[RobotPlace, ...] = Field(default=(RobotPlace(),), max_length=10)
@@ -205,14 +227,12 @@ class Universe(_Strict):
 
     @model_validator(mode="after")
     def _ids_are_unique(self) -> Universe:
-        seen: set[str] = {"ground"}
+        taken = {"ground"} if self.ceiling is None else {"ground", "ceiling"}
+        seen = set(taken)
         for thing in self._things():
             if thing.id in seen:
-                raise ValueError(
-                    f"the id {thing.id!r} is used twice"
-                    if thing.id != "ground"
-                    else "the id 'ground' is taken"
-                )
+                how = "taken" if thing.id in taken else "used twice"
+                raise ValueError(f"the id {thing.id!r} is {how}")
             seen.add(thing.id)
         return self
 

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.messages import Light, Mesh, Scene, SensorPlacement
 from executor.robots.config import RobotConfig, load_robot
+from executor.world import ceiling
 from executor.world.actor import BulletActor
 from executor.world.assembly import Assembly, Links, read_assembly
 from executor.world.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
+from executor.world.ceiling import ceiling_of, upper_part
 from executor.world.engine import Bullet
 from executor.world.interface import WorldError
 from executor.world.kinematics import mesh_key
@@ -245,6 +247,10 @@ class BulletWorld:
                 self._add_assembly(model)
             else:
                 self._add_model(model)
+        overhead = ceiling_of(universe)
+        if overhead is not None:
+            shape, pose = overhead
+            self._objects.add(ceiling.NAME, "", "static", [shape], pose)
         content.actors = [BulletActor(self._bullet, actor) for actor in universe.actors]
         content.robots = [
             BulletRobot(self._bullet, self._rays, config, place, index=i, seed=self._seed)
@@ -275,7 +281,8 @@ class BulletWorld:
         self._content.bodies[model.id] = body
         self._content.names[body.uid] = model.id
         kind: Kind = "dynamic" if body.is_dynamic else "static"
-        object_id = self._objects.add(model.id, "", kind, [scene_shape(model)], from_xyz_rpy(model.pose))
+        shapes = [scene_shape(model), *upper_part(model, self._universe)]
+        object_id = self._objects.add(model.id, "", kind, shapes, from_xyz_rpy(model.pose))
         self._content.objects[model.id] = object_id
         if model.solid:
             self._show_to_rays(model, body)

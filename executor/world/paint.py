@@ -18,8 +18,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from executor.universes.model import Ground, Model, Universe
+    from executor.universes.model import Ceiling, Ground, Model, Universe
 
+    Painted = Model | Ground | Ceiling
     Grey = NDArray[np.float64]
     Picture = NDArray[np.float64]
 
@@ -42,7 +43,8 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
         WorldError: an image file is missing or cannot be used.
     """
     found: dict[str, Texture] = {}
-    painted: list[tuple[str, Model | Ground]] = [("the ground", universe.ground)]
+    painted: list[tuple[str, Painted]] = [("the ground", universe.ground)]
+    painted += [("the ceiling", universe.ceiling)] if universe.ceiling else []
     painted += [(model.id, model) for model in universe.models]
     for name, thing in painted:
         key = texture_key(thing)
@@ -56,7 +58,7 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
     return found
 
 
-def texture_key(thing: Model | Ground) -> str:
+def texture_key(thing: Painted) -> str:
     """Names a picture in the scene: one of another size is another."""
     tile = "" if thing.tile is None else f"@{thing.tile[0]:g}x{thing.tile[1]:g}"
     return f"{thing.texture}{tile}" if thing.texture else ""

@@ -376,6 +376,7 @@ export interface ServerMessage {
  *     color: [r, g, b, a], each 0 to 1, sRGB.
  *     mesh: key in `Scene.meshes` for a mesh, else "".
  *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
+ *     ceiling: it is overhead, or a wall's upper part: for robots' cameras, not for views of the world.
  */
 export interface Shape {
   shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
@@ -384,6 +385,7 @@ export interface Shape {
   color: number[];
   mesh?: string;
   texture?: string;
+  ceiling?: boolean;
 }
 
 /** One rigid piece (a body, or a link of a robot) with its pose [x, y, z, qx, qy, qz, qw]. */

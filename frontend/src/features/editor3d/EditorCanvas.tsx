@@ -75,7 +75,7 @@ export function EditorCanvas(props: EditorCanvasProps) {
       {hasWebGl() ? (
         <Canvas
           frameloop={isVisible ? 'demand' : 'never'}
-          shadows={isSimple ? false : 'soft'}
+          shadows={isSimple ? false : 'percentage'}
           dpr={isSimple ? 0.8 : [1, 2]}
           gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
           camera={{ fov: 45, near: props.near, far: 300, up: [0, 0, 1], position: [-4, -4, 4] }}

@@ -1,4 +1,12 @@
-import { useEffect, useRef, type KeyboardEvent, type PointerEvent, type SyntheticEvent } from 'react';
+import {
+  useEffect,
+  useRef,
+  useState,
+  type RefObject,
+  type KeyboardEvent,
+  type PointerEvent,
+  type SyntheticEvent,
+} from 'react';
 import { useTranslation } from 'react-i18next';
 import { panned, poseOf, START, turned, zoomed, type Orbit } from './orbit';
 import { PicturePanel } from './PicturePanel';
@@ -8,7 +16,9 @@ import { useVisible } from '@/ui/useVisible';
 import classes from './viewer.module.css';
 import { hasWebGl } from './webgl';
 
-const VIDEO_HZ = 15;
+const VIDEO_HZ = 30;
+/** How wide pictures are asked for, in pixels: few sizes, since each is a picture that the server keeps. */
+const WIDTHS = [640, 960, 1280] as const;
 const SEND_EVERY_MS = 60;
 const KEY_PX = 24;
 
@@ -20,15 +30,22 @@ export function VideoPanel() {
   const orbit = useRef<Orbit>(START);
   const sending = useRef<ReturnType<typeof setTimeout>>(undefined);
   const isVisible = useVisible(panel);
-  const stream = useStream('view', isVisible, { max_hz: VIDEO_HZ, width: 640, camera_pose: poseOf(START) });
+  const width = usePictureWidth(panel);
+  const wanted = { max_hz: VIDEO_HZ, width: WIDTHS[0], camera_pose: poseOf(START) };
+  const stream = useStream('view', isVisible, wanted);
 
   const look = (next: Orbit) => {
     orbit.current = next;
     sending.current ??= setTimeout(() => {
       sending.current = undefined;
-      stream.current?.update({ max_hz: VIDEO_HZ, width: 640, camera_pose: poseOf(orbit.current) });
+      stream.current?.update({ max_hz: VIDEO_HZ, width, camera_pose: poseOf(orbit.current) });
     }, SEND_EVERY_MS);
   };
+
+  // Another width, and a panel that is shown again, keep the view as it was turned.
+  useEffect(() => {
+    stream.current?.update({ max_hz: VIDEO_HZ, width, camera_pose: poseOf(orbit.current) });
+  }, [stream, width, isVisible]);
 
   useEffect(() => {
     const element = panel.current;
@@ -99,4 +116,19 @@ export function VideoPanel() {
       {hasWebGl() ? null : <TeleopPad />}
     </div>
   );
+}
+
+/** The least of the widths that fills an element. */
+function usePictureWidth(element: RefObject<HTMLElement | null>): number {
+  const [width, setWidth] = useState<number>(WIDTHS[0]);
+  useEffect(() => {
+    if (!element.current) return;
+    const observer = new ResizeObserver(([entry]) => {
+      const pixels = (entry?.contentRect.width ?? 0) * window.devicePixelRatio;
+      setWidth(WIDTHS.find((least) => least >= pixels) ?? WIDTHS[2]);
+    });
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, [element]);
+  return width;
 }

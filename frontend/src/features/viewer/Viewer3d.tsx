@@ -57,7 +57,7 @@ export function Viewer3d() {
         <>
           <Canvas
             frameloop={isVisible ? 'demand' : 'never'}
-            shadows={isSimple ? false : 'soft'}
+            shadows={isSimple ? false : 'percentage'}
             dpr={isSimple ? 0.8 : [1, 2]}
             gl={{ antialias: !isSimple, powerPreference: 'high-performance' }}
             camera={{ fov: 45, near: 0.05, far: 200, up: [0, 0, 1], position: [-4, -4, 4] }}

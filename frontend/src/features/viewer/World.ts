@@ -147,6 +147,8 @@ export class World {
     const node = new THREE.Group();
     node.name = object.link ? `${object.body}/${object.link}` : object.body;
     for (const shape of object.shapes) {
+      // Only robots' cameras see ceilings: from outside one wants to look in.
+      if (shape.ceiling) continue;
       const mesh = meshOf(shape, this.geometries, this.materials);
       if (object.kind === 'static') mesh.receiveShadow = true;
       node.add(mesh);

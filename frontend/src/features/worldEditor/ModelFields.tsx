@@ -37,7 +37,9 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
     });
   const files = useProjectStore((state) => state.files);
   const wanted = FILES[shape];
-  const canWeigh = shape !== 'plane' && thing.solid;
+  const canWeigh = shape !== 'plane' && thing.solid && !thing.to_ceiling;
+  const [, , , roll, pitch] = thing.pose;
+  const canReachCeiling = shape === 'box' && thing.mass === 0 && roll === 0 && pitch === 0;
   return (
     <>
       <PoseFields
@@ -104,6 +106,16 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
           disabled={thing.mass > 0 || isReadOnly()}
           onChange={(event) => set('solid', event.currentTarget.checked ? undefined : false)}
         />
+        {canReachCeiling || thing.to_ceiling ? (
+          <Switch
+            size="xs"
+            label={t('toCeiling')}
+            checked={thing.to_ceiling}
+            disabled={isReadOnly()}
+            data-testid="field-to-ceiling"
+            onChange={(event) => set('to_ceiling', event.currentTarget.checked ? true : undefined)}
+          />
+        ) : null}
         {thing.mass > 0 ? (
           <NumberField
             label={t('mass')}

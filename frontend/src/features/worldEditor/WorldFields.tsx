@@ -1,8 +1,9 @@
+import { Switch } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { setWorld } from '@/model/universe/edits';
 import { valueAt, type Json, type Path } from '@/model/document/values';
 import { type Universe } from '@/model/universe/types';
-import { select } from '@/features/editor3d/session';
+import { isReadOnly, select } from '@/features/editor3d/session';
 import { edit, type UniverseEditor } from './editor';
 import { ColorField, FieldGroup, NumberField, TextField } from '@/features/editor3d/fields';
 import { TextureField } from './TextureField';
@@ -13,6 +14,8 @@ interface WorldFieldsProps {
   readonly universe: Universe;
 }
 
+/** How high a ceiling begins to be, in m. */
+const CEILING_M = 2.5;
 const AXES = ['x', 'y', 'z'] as const;
 
 /** What belongs to no thing: the name, the ground and the sun. */
@@ -20,13 +23,14 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
   const { t } = useTranslation('worldEditor');
   const set = (path: Path, value: Json, mergeKey?: string) =>
     edit(editor, 'world', (now) => setWorld(now, path, value), mergeKey === undefined ? {} : { mergeKey });
-  const bare = () =>
-    edit(editor, 'texture', (now) => ({
-      ops: ['texture', 'tile']
-        .map((field) => ['ground', field])
+  const without = (...paths: Path[]) =>
+    edit(editor, 'world', (now) => ({
+      ops: paths
         .filter((path) => valueAt(now.raw, path) !== undefined)
         .map((path) => ({ kind: 'unset', path })),
     }));
+  const bare = (part: 'ground' | 'ceiling') => without([part, 'texture'], [part, 'tile']);
+  const { ceiling } = universe;
   const [light] = universe.lights;
   return (
     <div className={classes['form']} data-testid="world-fields">
@@ -49,7 +53,7 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
       />
       <TextureField
         value={universe.ground.texture}
-        onChange={(texture) => (texture ? set(['ground', 'texture'], texture) : bare())}
+        onChange={(texture) => (texture ? set(['ground', 'texture'], texture) : bare('ground'))}
       />
       <FieldGroup title={t('ground')} columns={2}>
         <NumberField
@@ -60,6 +64,43 @@ export function WorldFields({ editor, universe }: WorldFieldsProps) {
           onCommit={(value) => set(['ground', 'friction'], value)}
         />
       </FieldGroup>
+      <FieldGroup title={t('ceiling')} columns={2}>
+        <Switch
+          size="xs"
+          label={t('hasCeiling')}
+          checked={ceiling !== null}
+          disabled={isReadOnly()}
+          data-testid="field-ceiling"
+          onChange={(event) =>
+            event.currentTarget.checked ? set(['ceiling', 'height'], CEILING_M) : without(['ceiling'])
+          }
+        />
+        {ceiling ? (
+          <NumberField
+            label={t('ceilingHeight')}
+            value={ceiling.height}
+            min={0.1}
+            max={1000}
+            testId="field-ceiling-height"
+            onCommit={(value) => set(['ceiling', 'height'], value)}
+          />
+        ) : null}
+      </FieldGroup>
+      {ceiling ? (
+        <>
+          <ColorField
+            label={t('ceilingColor')}
+            value={ceiling.color}
+            onChange={(color) => set(['ceiling', 'color'], color, 'ceiling color')}
+            onEnd={() => select(editor, [])}
+          />
+          <TextureField
+            value={ceiling.texture}
+            onChange={(texture) => (texture ? set(['ceiling', 'texture'], texture) : bare('ceiling'))}
+          />
+          <p className={classes['note']}>{t('ceilingHint')}</p>
+        </>
+      ) : null}
       {light ? (
         <FieldGroup title={t('sun')}>
           {AXES.map((axis, index) => (

@@ -111,6 +111,7 @@ export function placeWall(editor: UniverseEditor, from: Point, to: Point): void 
         size: [rounded(length + WALL.thickness), WALL.thickness, WALL.height],
         pose: [...middle, WALL.height / 2, 0, 0, yaw],
         color: '#e9e4da',
+        ...(universe.ceiling ? { to_ceiling: true } : {}),
       },
     ]),
   );

@@ -47,6 +47,7 @@ function universeOf(raw: JsonObject): Universe {
       tile: tileOf(ground['tile']),
       friction: number(ground['friction'], 0.9),
     },
+    ceiling: ceilingOf(raw['ceiling']),
     things: thingsOf(raw),
     lights: lights.map((light): Light => {
       const said = isObject(light) ? light : {};
@@ -57,6 +58,16 @@ function universeOf(raw: JsonObject): Universe {
     }),
     view: { eye: vector(view['eye'], [-4.5, -5, 4.5]), target: vector(view['target'], [0, 0, 0.2]) },
     random: randomOf(raw['random']),
+  };
+}
+
+function ceilingOf(said: unknown): Universe['ceiling'] {
+  if (!isObject(said)) return null;
+  return {
+    color: color(said['color'], said['texture'] ? '#ffffff' : '#e8e6e0'),
+    texture: text(said['texture'], ''),
+    tile: tileOf(said['tile']),
+    height: number(said['height'], 2.5),
   };
 }
 
@@ -126,6 +137,7 @@ function modelOf(
     friction: number(said['friction'], 0.6),
     restitution: number(said['restitution'], 0),
     solid: flag(said['solid'], true),
+    to_ceiling: flag(said['to_ceiling'], false),
   };
 }
 

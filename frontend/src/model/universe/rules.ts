@@ -22,8 +22,11 @@ export function checkUniverse(raw: Json): Issue[] {
   if (!isObject(raw)) return found;
   const models = Array.isArray(raw['models']) ? (raw['models'] as Json[]) : [];
   const own = models.flatMap((model, index) => (isObject(model) ? checkModel(model, ['models', index]) : []));
-  const ground = isObject(raw['ground']) ? checkPaint(raw['ground'], ['ground']) : [];
-  return [...found, ...own, ...ground, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
+  const painted = ['ground', 'ceiling'].flatMap((name) => {
+    const said = raw[name];
+    return isObject(said) ? checkPaint(said, [name]) : [];
+  });
+  return [...found, ...own, ...painted, ...checkLights(raw), ...checkIds(raw), ...checkRandom(raw)];
 }
 
 function checkModel(model: JsonObject, path: Path): Issue[] {
@@ -39,7 +42,15 @@ function checkModel(model: JsonObject, path: Path): Issue[] {
   else if (isHeavy && model['solid'] === false) {
     found.push({ path: [...path, 'mass'], kind: 'ghostMass', params: {} });
   }
+  if (model['to_ceiling'] === true && (shape !== 'box' || isHeavy || leans(model['pose']))) {
+    found.push({ path: [...path, 'to_ceiling'], kind: 'toCeiling', params: {} });
+  }
   return found;
+}
+
+/** Whether a pose has a roll or a pitch. */
+function leans(pose: Json | undefined): boolean {
+  return Array.isArray(pose) && pose.slice(3, 5).some((angle) => angle !== 0);
 }
 
 function checkFile(model: JsonObject, shape: Shape, path: Path): Issue[] {
@@ -93,10 +104,11 @@ function* idsOf(raw: JsonObject): Generator<{ id: string; section: string; path:
 }
 
 function checkIds(raw: JsonObject): Issue[] {
-  const seen = new Set(['ground']);
+  const taken = isObject(raw['ceiling']) ? ['ground', 'ceiling'] : ['ground'];
+  const seen = new Set(taken);
   const found: Issue[] = [];
   for (const { id, path } of idsOf(raw)) {
-    if (seen.has(id)) found.push({ path, kind: id === 'ground' ? 'groundId' : 'sameId', params: { id } });
+    if (seen.has(id)) found.push({ path, kind: taken.includes(id) ? 'takenId' : 'sameId', params: { id } });
     seen.add(id);
   }
   return found;

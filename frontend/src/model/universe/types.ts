@@ -52,6 +52,8 @@ export interface ModelThing extends Placed {
   readonly friction: number;
   readonly restitution: number;
   readonly solid: boolean;
+  /** Robots' cameras see it up to the ceiling. */
+  readonly to_ceiling: boolean;
 }
 
 export interface ActorThing extends Placed {
@@ -90,6 +92,13 @@ export interface Universe {
     readonly tile: Point | null;
     readonly friction: number;
   };
+  /** What is overhead indoors, or nothing. */
+  readonly ceiling: {
+    readonly color: string;
+    readonly texture: string;
+    readonly tile: Point | null;
+    readonly height: number;
+  } | null;
   readonly things: readonly Thing[];
   readonly lights: readonly Light[];
   readonly view: { readonly eye: Vector; readonly target: Vector };

@@ -98,6 +98,9 @@ describe('reading', () => {
     ['{id: a, shape: box, size: [1, 1, 1], file: a.obj}', 'noFile'],
     ['{id: a, shape: plane, size: [1, 1], mass: 1}', 'planeMass'],
     ['{id: a, shape: sphere, size: [1], mass: 1, solid: false}', 'ghostMass'],
+    ['{id: a, shape: sphere, size: [1], to_ceiling: true}', 'toCeiling'],
+    ['{id: a, shape: box, size: [1, 1, 1], pose: [0, 0, 0, 0.1, 0, 0], to_ceiling: true}', 'toCeiling'],
+    ['{id: ground, shape: sphere, size: [1]}', 'takenId'],
     ['{id: a b, shape: sphere, size: [1]}', 'name'],
     ['{id: a, shape: sphere, size: [1], pose: [0, 0, 0]}', 'exactly'],
     ['{id: a, shape: sphere, size: [1], restitution: 2}', 'range'],
@@ -109,6 +112,22 @@ describe('reading', () => {
   ])('refuses %s', (model, kind) => {
     const text = `format: bt-studio/universe\nversion: 1\nname: x\nmodels:\n  - ${model}\n`;
     expect(problemsOf(text)).toContainEqual([kind, 5]);
+  });
+
+  it('reads a ceiling, whose name is taken then', () => {
+    const text = 'format: bt-studio/universe\nversion: 1\nname: x\nceiling: {height: 3}\nmodels:\n';
+    const walls = '  - {id: ceiling, shape: box, size: [1, 1, 1], to_ceiling: true}\n';
+    const [wall] = universeOf(text + walls).things;
+    expect(universeOf(text + walls).ceiling).toMatchObject({ height: 3, color: '#e8e6e0', texture: '' });
+    expect(wall).toMatchObject({ to_ceiling: true });
+    expect(problemsOf(text + walls)).toContainEqual(['takenId', 6]);
+    expect(universeOf(ROOM).ceiling).toBeNull();
+  });
+
+  it('switches a ceiling on where there was none', () => {
+    const inside = edited(ROOM, (universe) => setWorld(universe, ['ceiling', 'height'], 2.5));
+    expect(universeOf(inside).ceiling?.height).toBe(2.5);
+    expect(problemsOf(inside)).toEqual([]);
   });
 
   it('knows the robot of a document that names none', () => {

@@ -13,6 +13,7 @@ import cv2
 import numpy as np
 
 from executor.render import geometry, programs, shadow
+from executor.render.compiler import release_compiler
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
 from executor.render.kept import Kept, KeptPictures
 from executor.render.layers import SIDE, pixels
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from executor.render.rectangles import Rectangle
 
 SAMPLES: Final = 4
+SETTLED: Final = 20
+"""After so many pictures of a scene all shaders are compiled that it needs."""
 SKY_PIECES: Final = 8
 GAMMA: Final = 2.0  # as in the shaders
 SUN_COLOR: Final = (0.78, 0.74, 0.68)
@@ -69,6 +72,7 @@ class GlRenderer:
         self._textured_ground: Any = None
         self._plan: ShadowPlan | None = None
         self._kept = KeptPictures()
+        self._unsettled = 0
         self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
         self._placed = np.empty((0, 3, 4), np.float32)
@@ -83,6 +87,7 @@ class GlRenderer:
         self._hang_pictures(scene, self._stock.pieces.layers)
         self._plan, self._drawn_poses = None, None
         self._kept.clear()
+        self._unsettled = SETTLED
         self._set_light(scene)
 
     def draw(
@@ -195,6 +200,13 @@ class GlRenderer:
             program["dark"].value = tuple(dark)
             program["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
 
+    def _settle(self) -> None:
+        """Lets go of the compiler once it has done its work: it is as large as all else of a renderer."""
+        if self._unsettled and self._is_software:
+            self._unsettled -= 1
+            if not self._unsettled:
+                release_compiler()
+
     def _place(self, poses: NDArray[np.float32]) -> _Stock:
         if self._stock is None:
             raise RuntimeError("load a scene first")
@@ -202,6 +214,7 @@ class GlRenderer:
             self._placed = matrices(poses)
             self._stock.place(self._placed)
             self._drawn_poses = poses
+        self._settle()
         self._stock.matrices.use(UNITS["matrices"])
         return self._stock
 

@@ -77,6 +77,7 @@ def change_a_universe(studio: Studio) -> None:
     assert text_of(studio, "universes/yard.yaml") != turned
     studio.at("redo").click()  # the top bar's: the universe is in front
     assert text_of(studio, "universes/yard.yaml") == turned
+    a_ceiling_is_switched_on_and_off(studio)
     studio.at("mesh-file").set_input_files(
         files=[{"name": "rock.obj", "mimeType": "text/plain", "buffer": CRATE}]
     )
@@ -86,6 +87,20 @@ def change_a_universe(studio: Studio) -> None:
     studio.page.get_by_role("option", name="Wood").click()
     things_are_placed_by_mouse(studio)
     wait_until(lambda: is_as_made(text_of(studio, "universes/yard.yaml")), "all of it is in the YAML")
+
+
+def a_ceiling_is_switched_on_and_off(studio: Studio) -> None:
+    """Of the world itself, which is shown while nothing is selected."""
+    studio.at("universe-view").focus()
+    studio.page.keyboard.press("Escape")
+    before = text_of(studio, "universes/yard.yaml")
+    switch = studio.at("field-ceiling")
+    switch.check(force=True)  # the switch is drawn over its input
+    field(studio.at("world-fields"), "field-ceiling-height", "3")
+    inside = yaml.safe_load(text_of(studio, "universes/yard.yaml"))
+    assert inside["ceiling"] == {"height": 3}
+    switch.uncheck(force=True)
+    assert text_of(studio, "universes/yard.yaml") == before
 
 
 def is_as_made(text: str) -> bool:

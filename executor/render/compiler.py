@@ -1,0 +1,34 @@
+"""Hands back the pages of the compiler of shaders, which a renderer in software needs only now and then."""
+
+from __future__ import annotations
+
+import ctypes
+import logging
+import re
+from pathlib import Path
+from typing import Final
+
+_log = logging.getLogger(__name__)
+
+_CODE: Final = re.compile(r"^([0-9a-f]+)-([0-9a-f]+) r-xp \S+ \S+ \S+ +(/\S*libLLVM\S*)$", re.MULTILINE)
+_MADV_DONTNEED: Final = 4
+
+
+def release_compiler() -> int:
+    """Drops the compiler's code from this process's memory; returns how many bytes of address space.
+
+    It is code alone, which nothing has written into: where it is called again the kernel maps it again from the
+    file. The pages of tables that the loader wrote into stay.
+    """
+    try:
+        maps = Path("/proc/self/maps").read_text(encoding="utf-8")
+        libc = ctypes.CDLL(None, use_errno=True)
+    except OSError as error:  # not Linux, or no /proc
+        _log.debug("The compiler's pages stay: %s", error)
+        return 0
+    total = 0
+    for begin, end, _ in _CODE.findall(maps):
+        first, length = int(begin, 16), int(end, 16) - int(begin, 16)
+        if libc.madvise(ctypes.c_void_p(first), ctypes.c_size_t(length), _MADV_DONTNEED) == 0:
+            total += length
+    return total

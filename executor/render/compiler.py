@@ -17,8 +17,8 @@ _MADV_DONTNEED: Final = 4
 def release_compiler() -> int:
     """Drops the compiler's code from this process's memory; returns how many bytes of address space.
 
-    It is code alone, which nothing has written into: where it is called again the kernel maps it again from the
-    file. The pages of tables that the loader wrote into stay.
+    It is code alone, which nothing has written into: where it is called again the kernel maps it again from
+    the file. The pages of tables that the loader wrote into stay.
     """
     try:
         maps = Path("/proc/self/maps").read_text(encoding="utf-8")

@@ -239,9 +239,7 @@ class GlRenderer:
             target.scissor = part
             target.use()
             target.clear(depth=1.0, viewport=part)
-            self._paint(
-                stock, stock.pieces.seen_apart(self._placed, view, width, height, part), matrix, view
-            )
+            self._paint(stock, stock.pieces.seen_apart(self._placed, view, width, height, part), matrix, view)
         target.scissor = None
         for part in parts:
             x, y, wide, high = part

@@ -1,7 +1,7 @@
 """Pictures of a view that stays: what stands in them is drawn once, and again only where something moved.
 
-A thing that moves changes a picture where it was, where it is, and where its shadow was and is. These parts are
-drawn again with everything that is in them, so the picture is the one that drawing all of it would give.
+A thing that moves changes a picture where it was, where it is, and where its shadow was and is. These parts
+are drawn again with everything that is in them, so the picture is the one that drawing all of it would give.
 """
 
 from __future__ import annotations
@@ -43,9 +43,7 @@ class Kept:
     placed: Floats
     light: NDArray[np.float64]
 
-    def outdated(
-        self, pieces: Pieces, placed: Floats, plan: ShadowPlan, key: Key
-    ) -> list[Rectangle] | None:
+    def outdated(self, pieces: Pieces, placed: Floats, plan: ShadowPlan, key: Key) -> list[Rectangle] | None:
         """Returns what has to be drawn again, and counts it as drawn; None is all of it."""
         if not np.array_equal(self.light, plan.matrix) or plan.sun[2] > STEEPEST:
             return None
@@ -100,9 +98,7 @@ def _reached(
     return np.concatenate([corners, corners + falls * plan.sun], axis=1)
 
 
-def _boxes(
-    points: NDArray[np.float64], view: Viewpoint, width: int, height: int
-) -> NDArray[np.int64] | None:
+def _boxes(points: NDArray[np.float64], view: Viewpoint, width: int, height: int) -> NDArray[np.int64] | None:
     """Returns [left, top, right, bottom] in pixels of each row of points; None if one is beside the eye."""
     matrix = view.projection_matrix(width, height) @ view.view_matrix()
     clip = points @ matrix[:, :3].T + matrix[:, 3]

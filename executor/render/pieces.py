@@ -97,16 +97,16 @@ class Pieces:
             [np.einsum("nij,nj->ni", turned[:, :, :3], corner) + turned[:, :, 3] for corner in corners]
         )
 
-    def corners_of(
-        self, numbers: NDArray[np.intp], placed: Floats, margin: float
-    ) -> NDArray[np.float64]:
+    def corners_of(self, numbers: NDArray[np.intp], placed: Floats, margin: float) -> NDArray[np.float64]:
         """Returns the eight corners in the world of the boxes of some pieces, made wider: (pieces, 8, 3)."""
         turned = placed[self.rows[numbers]].astype(np.float64)
         ends = np.stack([self.lows[numbers] - margin, self.highs[numbers] + margin], axis=1)
         corners = np.stack(
             [ends[:, pick, np.arange(3)] for pick in itertools.product((0, 1), repeat=3)], axis=1
         )
-        return np.einsum("nij,nkj->nki", turned[:, :, :3], corners) + turned[:, None, :, 3]
+        placed_corners: NDArray[np.float64] = np.einsum("nij,nkj->nki", turned[:, :, :3], corners)
+        placed_corners += turned[:, None, :, 3]
+        return placed_corners
 
     def seen(self, placed: Floats, view: Viewpoint, width: int, height: int) -> Order:
         """Returns the triangles of all that may be in a picture, the nearest pieces first."""

@@ -104,8 +104,9 @@ class Model(_Painted):
     A `urdf` or `sdf` is a model of several links from `file`, with its own sizes and colours; its joints move
     freely. Without mass its root stands fast, with one it weighs that much in all.
 
-    A wall that goes `to_ceiling` is seen up to the ceiling by robots' cameras, where the universe has one, and
-    in its own height in views of the world: one can look into the rooms. Rays and bodies meet its own height.
+    A wall that goes `to_ceiling` is seen up to the ceiling by robots' cameras, where the universe has one,
+    and in its own height in views of the world: one can look into the rooms. Rays and bodies meet its own
+    height.
     """
 
     id: Name

@@ -77,7 +77,9 @@ def test_parts_drawn_again_are_as_if_all_had_been_drawn(
     assert changed > 5, "most pictures are drawn in parts"
 
 
-@pytest.mark.parametrize("sun", [(0.35, 0.45, -0.85), (0.8, -0.3, -0.4), (0.0, 0.0, -1.0), (0.99, 0.0, -0.05)])
+@pytest.mark.parametrize(
+    "sun", [(0.35, 0.45, -0.85), (0.8, -0.3, -0.4), (0.0, 0.0, -1.0), (0.99, 0.0, -0.05)]
+)
 def test_the_shadow_of_what_moved_moves_along(renderer: GlRenderer, sun: tuple[float, float, float]) -> None:
     ball = Shape("sphere", [0.25], IDENTITY, [0.8, 0.2, 0.2, 1])
     block = Shape("box", [1.5, 1.5, 0.8], IDENTITY, [0.8, 0.8, 0.8, 1])

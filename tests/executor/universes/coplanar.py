@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 
 APART_M: Final = 0.0018
-"""Nearer than this, two faces are one for a depth buffer of 24 bits that begins at 5 cm and looks 30 m far."""
+"""Nearer than this, two faces are one for a depth buffer of 24 bits that begins at 5 cm, 30 m away."""
 ON_ROBOTS_M: Final = 0.0004
 """The same within a robot, whose details are seen from nearer: 15 m."""
 SAME_WAY: Final = 0.99999
@@ -125,7 +125,9 @@ def _common(one: _Piece, other: _Piece) -> Iterator[tuple[float, Floats]]:
         u /= np.linalg.norm(u)
         axes = np.stack([u, np.cross(normal, u)], axis=1)
         middle = one.corners[i].mean(axis=0)
-        flat: list[Any] = [((c - middle) @ axes).astype(np.float32) for c in (one.corners[i], other.corners[j])]
+        flat: list[Any] = [
+            ((c - middle) @ axes).astype(np.float32) for c in (one.corners[i], other.corners[j])
+        ]
         area, outline = cv2.intersectConvexConvex(*flat)
         if area < LEAST_AREA_M2 / 100 or outline is None:
             continue

@@ -8,6 +8,7 @@ from executor.world.bullet import BulletWorld
 from tests.executor.universes.coplanar import overlapping
 
 HEAD = "format: bt-studio/universe\nversion: 1\nname: test\n"
+FIRST = "  - {id: a, shape: box, size: [1, 1, 1], pose: [0, 0, 0.5, 0, 0, 0], color: '#ff0000'}\n"
 
 
 def found_in(world: BulletWorld) -> list[str]:
@@ -38,11 +39,12 @@ def test_no_faces_of_a_robot_fight(robot_id: str) -> None:
     ],
 )
 def test_the_search_finds_what_fights_and_nothing_else(second: str, *, fights: bool) -> None:
-    models = f'models:\n  - {{id: a, shape: box, size: [1, 1, 1], pose: [0, 0, 0.5, 0, 0, 0], color: "#ff0000"}}\n  - {{id: b, shape: box, {second}, color: "#00ff00"}}\n'
-    assert bool(found_in(BulletWorld(parse_universe(HEAD + models + "robots: []\n")))) is fights
+    models = f"models:\n{FIRST}  - {{id: b, shape: box, {second}, color: '#00ff00'}}\nrobots: []\n"
+    assert bool(found_in(BulletWorld(parse_universe(HEAD + models)))) is fights
 
 
 def test_what_is_hidden_in_a_third_thing_does_not_fight() -> None:
-    cover = '  - {id: c, shape: box, size: [3, 3, 3], pose: [0, 0, 1.5, 0, 0, 0], color: "#0000ff"}\n'
-    models = 'models:\n  - {id: a, shape: box, size: [1, 1, 1], pose: [0, 0, 0.5, 0, 0, 0], color: "#ff0000"}\n  - {id: b, shape: box, size: [1, 1, 1], pose: [0.5, 0, 0.5, 0, 0, 0], color: "#00ff00"}\n'
-    assert found_in(BulletWorld(parse_universe(HEAD + models + cover + "robots: []\n"))) == []
+    second = "  - {id: b, shape: box, size: [1, 1, 1], pose: [0.5, 0, 0.5, 0, 0, 0], color: '#00ff00'}\n"
+    cover = "  - {id: c, shape: box, size: [3, 3, 3], pose: [0, 0, 1.5, 0, 0, 0], color: '#0000ff'}\n"
+    models = f"models:\n{FIRST}{second}{cover}robots: []\n"
+    assert found_in(BulletWorld(parse_universe(HEAD + models))) == []

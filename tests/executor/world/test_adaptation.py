@@ -82,7 +82,9 @@ def test_slow_motion_is_judged_by_its_own_speed() -> None:
     assert shares(CameraRates(), *[0.3] * 3, speed=0.5) < 1.0
 
 
-def shown(size: ViewSize, hz: float, seconds: float, *, begin_s: float = 0.0, wanted_hz: float = 30.0) -> float:
+def shown(
+    size: ViewSize, hz: float, seconds: float, *, begin_s: float = 0.0, wanted_hz: float = 30.0
+) -> float:
     """Sends pictures at a rate, of a world of 60 Hz; returns the share of the width after that."""
     for i in range(round(seconds * hz)):
         now_s = begin_s + i / hz

@@ -1,4 +1,4 @@
-"""Indoors a robot's camera sees a ceiling; who looks from above sees the rooms, and rays meet what they met."""
+"""Indoors a robot's camera sees a ceiling; from above one sees the rooms, and rays meet what they met."""
 
 import math
 from collections.abc import Iterator
@@ -53,7 +53,11 @@ def test_the_camera_sees_it_and_the_view_does_not(renderer: Renderer) -> None:
     assert (column[up > 2.06 / 3] == ceiling).all()
     assert (column[(up < 1.97 / 3) & (up > -0.1)] == east).all()
     assert metres[0] == pytest.approx(2.0 / up[0], abs=0.02)
-    for view in (look_at((0.5, 0, 9), (0, 0, 0)), look_at((-6, -5, 4), (0, 0, 0)), look_at((0, 0, 1), (3, 0, 2))):
+    for view in (
+        look_at((0.5, 0, 9), (0, 0, 0)),
+        look_at((-6, -5, 4), (0, 0, 0)),
+        look_at((0, 0, 1), (3, 0, 2)),
+    ):
         assert not (renderer.segmentation(world.poses(), view, *SIZE) == ceiling).any()
     world.close()
 

@@ -12,7 +12,11 @@ from executor.robots import load_robot, robot_ids
 from executor.universes import parse_universe
 from executor.world.bullet import BulletWorld
 from executor.world.drive import DifferentialDrive
+from executor.world.kinematics import link_pose
+from executor.world.lidar import LidarCaster
+from executor.world.robot import ALL_GROUPS
 from executor.world.sensors import Sensors
+from executor.world.transforms import Pose, compose, from_xyz_rpy, rotation
 
 HEAD = "format: bt-studio/universe\nversion: 1\nname: truth\n"
 # A room whose inner faces are at x = 2, -3 and y = 2.5, -1.5.
@@ -91,6 +95,63 @@ def test_lidar_measures_the_room(model: str) -> None:
     assert seen.sum() > 0.9 * lidar.rays
     assert abs(errors.mean()) < 2e-3
     assert errors.std() == pytest.approx(lidar.noise_m, rel=0.15, abs=2e-3)
+
+
+def quiet(model: str, text: str) -> BulletWorld:
+    """Places a robot whose LIDAR and wheels have no noise, and lets it settle."""
+    world = place(model, text)
+    world.step(240)
+    return world
+
+
+def test_each_robot_stands_level(model: str) -> None:
+    world = quiet(model, ROOM)
+    x, y, z, w = world.robots[0].base_pose[3:]
+    height = world.robots[0].base_pose[2]
+    world.close()
+    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = math.asin(2 * (w * y - z * x))
+    assert abs(math.degrees(roll)) < 0.02
+    assert abs(math.degrees(pitch)) < 0.02
+    assert abs(height) < 1e-4
+
+
+def test_lidar_without_noise_is_exact_to_a_millimetre(model: str) -> None:
+    world = quiet(model, ROOM)
+    robot = world.robots[0]
+    lidar = robot.config.lidars[0].model_copy(update={"noise_m": 0.0})
+    pose = robot.scan(lidar).pose
+    ranges = LidarCaster(world._rays, lidar, robot.uid, ALL_GROUPS, (0,)).scan(world.time_s, pose).ranges
+    # Where the sensor is by the drawing of the robot, not by where physics has it.
+    base = from_xyz_rpy((0.0, 0.0, 0.0, 0.0, 0.0, 0.3))
+    carrier, offset = robot.config.urdf.rigid_parent(lidar.link)
+    assert carrier == robot.config.urdf.root
+    drawn = compose(base, offset)
+    world.close()
+    angles = lidar.angle_min + np.arange(lidar.rays) * lidar.angle_increment
+    true = analytic((*drawn[:2], 0.3), angles)
+    seen = (true < lidar.range_max - 0.1) & np.isfinite(ranges)
+    assert seen.sum() > 0.9 * lidar.rays
+    assert np.abs(ranges[seen] - true[seen]).max() < 1e-3
+
+
+def test_known_points_are_seen_where_the_drawing_says(model: str) -> None:
+    """Through the camera as it stands on its robot, against the robot's drawing on level ground."""
+    world = quiet(model, ROOM)
+    robot = world.robots[0]
+    for camera in robot.config.cameras:
+        drawn = link_pose(robot.config.urdf, from_xyz_rpy((0, 0, 0, 0, 0, 0.3)), camera.link, {})
+        focal = camera.width / 2 / math.tan(camera.fov / 2)
+        for point in ((1.9, 0.5, 0.2), (1.9, 0.9, 0.8), (1.0, 0.3, 0.0), (1.9, 0.0, 0.5)):
+            true, seen = (pixel(pose, point, focal) for pose in (drawn, robot.camera_pose(camera)))
+            assert math.dist(true, seen) < 0.5
+    world.close()
+
+
+def pixel(camera: Pose, point: tuple[float, float, float], focal: float) -> tuple[float, float]:
+    """Returns where a camera sees a point, in pixels from the middle of the picture."""
+    ahead, left, up = rotation(camera[3:]).T @ (np.array(point) - np.array(camera[:3]))
+    return -focal * left / ahead, -focal * up / ahead
 
 
 def test_scans_of_a_seed_are_the_same_whoever_listened(model: str) -> None:

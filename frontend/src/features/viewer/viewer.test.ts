@@ -55,6 +55,14 @@ describe('World', () => {
     expect(new World(scene, true).robot?.position.x).toBe(3);
   });
 
+  it('leaves ceilings and the upper parts of walls out', () => {
+    const upper: Shape = { ...box, pose: [0, 0, 3, 0, 0, 0, 1], ceiling: true };
+    const wall = { ...scene.objects[0]!, shapes: [box, upper] };
+    const world = new World({ ...scene, objects: [wall] }, true);
+    expect(world.object(1)?.children).toHaveLength(1);
+    expect(world.bounds.max.z).toBeCloseTo(1.5);
+  });
+
   it('ignores poses of objects that it does not have', () => {
     const world = new World(scene, true);
     world.receive([[99, pose(1)]], 1000);

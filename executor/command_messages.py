@@ -180,6 +180,7 @@ COMMANDS: Final[dict[str, type[Struct]]] = {
     "describe_type": DescribeType,
     "restart_node": RestartNode,
     "take_over": Empty,
+    "ping": Empty,
 }
 
 

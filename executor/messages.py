@@ -118,7 +118,9 @@ class Error(Struct):
 
 
 class Introspection(Struct):
-    """First message on a connection, sent again when the client's role changes.
+    """First message on a connection, sent again when the client's role or what the world can do changes.
+
+    `renderer` and `tf` are of the world that is up: "" and false before it is ready.
 
     `client_id` names this client when it opens the stream socket.
 

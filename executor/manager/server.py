@@ -2,6 +2,10 @@
 
 The server knows no rules: it decodes commands for the state machine and sends what that has to say.
 A frame that is no command is answered with an error, and the socket stays.
+
+No client can keep the others waiting: a little of each is read, handled and sent in turn, and one that
+sends more than its allowance gets an error that says how long to wait. `/watch` is for whoever must know
+whether the manager answers: a socket that takes pings, behind no queue of commands.
 """
 
 from __future__ import annotations
@@ -20,6 +24,7 @@ from msgspec import UNSET, Struct
 from websockets.asyncio.server import Server, ServerConnection, serve, unix_serve
 from websockets.exceptions import ConnectionClosed
 
+from executor.manager.allowance import Allowance
 from executor.manager.metrics import CONTENT_TYPE, Traffic, metrics_text
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
 from executor.session.events import (
@@ -50,6 +55,11 @@ MAX_COMMAND_BYTES: Final = 128 << 20
 MAX_CLIENTS: Final = 32
 HEARTBEAT_S: Final = 15.0
 REPLACED: Final = 4409
+UNEXPECTED: Final = 1003
+# Of one client at a time: what is read is parsed at once, however many frames it holds.
+READ_BYTES: Final = 16 << 10
+COMMANDS_IN_TURN: Final = 16
+MESSAGES_IN_TURN: Final = 32
 _encode = msgspec.json.Encoder().encode
 
 
@@ -68,6 +78,7 @@ class SessionServer:
         self._token = token
         self._controls: dict[str, ControlOutbox] = {}
         self._connections: dict[str, ServerConnection] = {}
+        self._stream_connections: dict[str, ServerConnection] = {}
         self._closing: set[asyncio.Task[None]] = set()
         self._streams: dict[str, StreamOutbox] = {}
         self._seq = 0
@@ -144,11 +155,11 @@ class SessionServer:
             return self._metrics(connection)
         if not self._is_authorized(request):
             return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
-        if path not in {"/control", "/stream"}:
+        if path not in {"/control", "/stream", "/watch"}:
             return connection.respond(
-                HTTPStatus.NOT_FOUND, "There are /control, /stream, /health and /metrics.\n"
+                HTTPStatus.NOT_FOUND, "There are /control, /stream, /watch, /health and /metrics.\n"
             )
-        if len(self._controls) >= MAX_CLIENTS:
+        if path == "/control" and len(self._controls) >= MAX_CLIENTS:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many clients.\n")
         return None
 
@@ -182,11 +193,14 @@ class SessionServer:
         assert connection.request is not None  # noqa: S101 - the handshake is over
         url = urlsplit(connection.request.path)
         asked = parse_qs(url.query).get("client", [None])[0]
+        _read_little(connection)
         with contextlib.suppress(ConnectionClosed):
             if url.path == "/control":
                 await self._serve_control(connection, asked)
-            else:
+            elif url.path == "/stream":
                 await self._serve_stream(connection, asked)
+            else:
+                await _take_nothing(connection)
 
     async def _serve_control(self, connection: ServerConnection, asked: str | None) -> None:
         client = self._session.clients.client_id(asked)
@@ -197,8 +211,7 @@ class SessionServer:
         self._report(ClientJoined(client))
         sender = asyncio.create_task(_send_all(connection, outbox))
         try:
-            async for frame in connection:
-                self._take(client, frame)
+            await self._take_all(client, connection, outbox)
         finally:
             sender.cancel()
             if self._controls.get(client) is outbox:
@@ -210,31 +223,46 @@ class SessionServer:
 
     def _dismiss(self, client: str) -> None:
         """Ends a connection that its client has lost before this end heard of it."""
-        closing = asyncio.create_task(self._connections[client].close(REPLACED, "the client came back"))
+        self._close_soon(self._connections[client])
+        self._forget(client)
+
+    def _close_soon(self, connection: ServerConnection) -> None:
+        closing = asyncio.create_task(connection.close(REPLACED, "the client came back"))
         self._closing.add(closing)
         closing.add_done_callback(self._closing.discard)
-        self._forget(client)
 
     async def _serve_stream(self, connection: ServerConnection, client: str | None) -> None:
         if client is None or client not in self._controls:
             await connection.close(4404, "open /control first and name its client_id")
             return
-        # A client that opens a second one has lost the first.
+        if (lost := self._stream_connections.get(client)) is not None:
+            self._close_soon(lost)  # who opens a second one has lost the first
+        self._stream_connections[client] = connection
         outbox = self._streams[client] = StreamOutbox()
         self._report(StreamOpened(client))
         sender = asyncio.create_task(_send_all(connection, outbox))
         try:
-            async for _ in connection:
-                pass
+            await _take_nothing(connection)
         finally:
             sender.cancel()
             if self._streams.get(client) is outbox:
-                del self._streams[client]
+                del self._streams[client], self._stream_connections[client]
                 self._report(StreamClosed(client))
 
     # --- messages ---------------------------------------------------------------------------------
 
-    def _take(self, client: str, frame: str | bytes) -> None:
+    async def _take_all(self, client: str, connection: ServerConnection, outbox: ControlOutbox) -> None:
+        """Takes commands, some at a time, and none while their answers are not read."""
+        allowance = Allowance(time.monotonic())
+        taken = 0
+        async for frame in connection:
+            self._take(client, frame, allowance)
+            taken += 1
+            if taken % COMMANDS_IN_TURN == 0:
+                await asyncio.sleep(0)
+                await outbox.has_room()
+
+    def _take(self, client: str, frame: str | bytes, allowance: Allowance) -> None:
         request = ""
         self.traffic.commands += 1
         try:
@@ -242,6 +270,10 @@ class SessionServer:
                 raise msgspec.DecodeError("commands are text frames")
             message = msgspec.json.decode(frame, type=ClientMessage)
             request = message.id
+            wait_s = allowance.take(message.command, time.monotonic())
+            if wait_s > 0:
+                self._refuse(client, request, "too_fast", *_slow_down(allowance, wait_s))
+                return
             kind = COMMANDS.get(message.command)
             if kind is None:
                 self._refuse(client, request, "unknown_command", f"There is no command {message.command!r}.")
@@ -253,9 +285,9 @@ class SessionServer:
             return
         self._report(CommandCame(client, request, message.command, data))
 
-    def _refuse(self, client: str, request: str, code: str, text: str) -> None:
+    def _refuse(self, client: str, request: str, code: str, text: str, hint: str = "") -> None:
         self.traffic.refusals += 1
-        self._queue(client, "error", msgspec.Raw(_encode(Error(code, text))), request)
+        self._queue(client, "error", msgspec.Raw(_encode(Error(code, text, hint))), request)
 
     def _queue(self, client: str, name: str, payload: msgspec.Raw, request: str | None) -> None:
         outbox = self._controls.get(client)
@@ -289,9 +321,30 @@ def _decode_data(data: msgspec.Raw, kind: type[Struct]) -> Struct:
     return msgspec.json.decode(data, type=kind)
 
 
+def _slow_down(allowance: Allowance, wait_s: float) -> tuple[str, str]:
+    text = f"This client sends more commands than a session takes: {allowance.rate_hz:g} a second."
+    return text, f"Wait {max(wait_s, 0.1):.1f} s, then send it again."
+
+
+def _read_little(connection: ServerConnection) -> None:
+    """Has asyncio hand on less of what came at a time than the 256 KiB that it is used to."""
+    transport: Any = connection.transport
+    transport.max_size = READ_BYTES
+
+
+async def _take_nothing(connection: ServerConnection) -> None:
+    """Waits until a client leaves; what it sends here has no meaning, and it is told so."""
+    async for _ in connection:
+        await connection.close(UNEXPECTED, "commands are sent on /control")
+
+
 async def _send_all(connection: ServerConnection, outbox: ControlOutbox | StreamOutbox) -> None:
     is_text = isinstance(outbox, ControlOutbox)
+    sent = 0
     with contextlib.suppress(ConnectionClosed):
         while True:
             data = await outbox.take()
             await connection.send(data, text=is_text)
+            sent += 1
+            if sent % MESSAGES_IN_TURN == 0:
+                await asyncio.sleep(0)

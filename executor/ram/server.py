@@ -148,6 +148,8 @@ class RamServer:
                 self._report(ClientJoined(client))
                 async for frame in connection:
                     self._take(client, frame)
+                    await asyncio.sleep(0)  # what the world says has its turn
+                    await outbox.has_room()
         finally:
             sender.cancel()
             if self._session.state is not State.IDLE:

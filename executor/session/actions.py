@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, cast
 
 from executor import messages
+from executor.session.clients import MOST_ECHOED_BY_VIEWER
 from executor.session.ladder import State
 
 if TYPE_CHECKING:
@@ -81,6 +82,10 @@ def _describe_type(session: Session, event: CommandCame) -> None:
 
 def _echo_topic(session: Session, event: CommandCame) -> None:
     data = cast("messages.EchoTopic", event.data)
+    if data.max_hz > 0 and session.clients.echoes_too_many(event.client, data.topic):
+        text = f"A client that looks on may echo {MOST_ECHOED_BY_VIEWER} topics at once."
+        session.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
+        return
     rate_hz = session.clients.echo(event.client, data.topic, data.max_hz)
     session.ask("world", event, topic=data.topic, max_hz=rate_hz)
 
@@ -98,6 +103,10 @@ def _take_over(session: Session, event: CommandCame) -> None:
         session.introspect(client)
 
 
+def _ping(_: Session, __: CommandCame) -> None:
+    """The answer is all that is asked for."""
+
+
 ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "set_tick_rate": _set_tick_rate,
     "set_speed": _set_speed,
@@ -112,6 +121,7 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
     "restart_node": _restart_node,
     "teleop": _teleop,
     "take_over": _take_over,
+    "ping": _ping,
 }
 
 ANSWER_LATER: Final = frozenset(

@@ -13,9 +13,11 @@ if TYPE_CHECKING:
 
     from msgspec import Struct
 
-__all__ = ["Clients"]
+__all__ = ["MOST_ECHOED_BY_VIEWER", "Clients"]
 
 REMEMBERED: Final = 32
+# Half of what the world echoes for all: something is left for who drives.
+MOST_ECHOED_BY_VIEWER: Final = 12
 
 
 @dataclass
@@ -85,7 +87,7 @@ class Clients:
         driver = self._clients.get(self._driver) if self._driver else None
         if driver is None or driver.is_here or now_s < driver.left_s + promote_s:
             return []
-        viewers = [client for client, record in self._clients.items() if record.is_here]
+        viewers = self.here()
         if viewers:
             self._driver = viewers[0]
         return viewers[:1]
@@ -138,6 +140,16 @@ class Clients:
             self._clients[client].echoed.pop(topic, None)
         return max((self._clients[c].echoed[topic] for c in self._echoers(topic)), default=0.0)
 
+    def echoes_too_many(self, client: str, topic: str) -> bool:
+        """Whether a viewer echoes all that it may, and this topic is not among it."""
+        echoed = self._clients[client].echoed
+        is_full = len(echoed) >= MOST_ECHOED_BY_VIEWER and topic not in echoed
+        return is_full and self.role(client) == "viewer"
+
+    def here(self) -> list[str]:
+        """The clients that are connected."""
+        return [client for client, record in self._clients.items() if record.is_here]
+
     def echoes(self) -> dict[str, float]:
         """The topics that clients listen to, and how often at most."""
         here = [record.echoed for record in self._clients.values() if record.is_here]
@@ -149,7 +161,7 @@ class Clients:
         if isinstance(event, TopicMessage):
             return list(self._echoers(event.topic))
         assert isinstance(event, Topics)  # noqa: S101 - the only other type that comes here
-        return [client for client, record in self._clients.items() if record.is_here]
+        return self.here()
 
     def _echoers(self, topic: str) -> Iterator[str]:
         return (c for c, record in self._clients.items() if record.is_here and topic in record.echoed)

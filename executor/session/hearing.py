@@ -55,8 +55,7 @@ def hear(session: Session, event: ChildSaid) -> None:
         text = f"{event.message.get('message', '')} {event.message.get('hint', '')}".strip()
         session.emit(messages.Log("world", "error", text))
     elif type_ == "ready" and event.kind == "world":
-        session.renderer = str(event.message.get("renderer", ""))
-        session.has_tf = bool(event.message.get("tf"))
+        session.know_world(str(event.message.get("renderer", "")), has_tf=bool(event.message.get("tf")))
     else:
         forward(session, event)
 

@@ -117,6 +117,9 @@ TABLE: Final[dict[str, Row]] = {
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
     "restart_node": _act(HAS_APPLICATION, "Starts an extra node of the launch files again."),
     "take_over": _act(ANY, "Drives from now on; who drove looks on.", for_viewers=True),
+    "ping": _act(
+        ANY, "Is answered at once; who hears nothing for 3 s knows that it hangs.", for_viewers=True
+    ),
 }
 
 

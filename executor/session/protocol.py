@@ -150,6 +150,8 @@ class Session:
     def enter(self, state: State, reason: str = "") -> None:
         """Moves the ladder: the one place where its state changes."""
         _log.info("%s -> %s %s", self.state, state, reason)
+        if not state.reaches(State.UNIVERSE_READY):
+            self.renderer, self.has_tf = "", False
         self.emit(messages.StateChanged(state.value, reason))
 
     def send(self, client: str, event: Struct, request: str | None = None) -> None:
@@ -289,6 +291,14 @@ class Session:
             ros_environment=dict(self.about.ros_environment),
         )
         self.send(client, payload)
+
+    def know_world(self, renderer: str, *, has_tf: bool) -> None:
+        """The world says what it can do; clients that were told otherwise are told again."""
+        if (renderer, has_tf) == (self.renderer, self.has_tf):
+            return
+        self.renderer, self.has_tf = renderer, has_tf
+        for client in self.clients.here():
+            self.introspect(client)
 
     def _on_stream(self, event: StreamOpened | StreamClosed | StreamPaced) -> None:
         match event:

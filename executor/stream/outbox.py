@@ -15,6 +15,8 @@ __all__ = ["ControlOutbox", "StreamOutbox"]
 
 MAX_MESSAGES: Final = 4000
 MAX_BYTES: Final = 16 << 20
+# Answers are never dropped, so a client that reads none gets nothing more done.
+MAX_REPLIES: Final = 10_000
 PICTURES: Final = ("camera", "view")
 PACE_S: Final = 0.5
 
@@ -29,25 +31,42 @@ class ControlOutbox:
     def __init__(self, snapshot: Callable[[], bytes]) -> None:
         self._snapshot = snapshot
         self._messages: deque[tuple[bytes, bool]] = deque()
-        self._bytes = 0
+        self._events = 0
+        self._event_bytes = 0
         self._needs_snapshot = False
         self._filled = asyncio.Event()
+        self._room = asyncio.Event()
+        self._room.set()
 
     def put(self, data: bytes, *, is_reply: bool) -> None:
         """Queues a message; replies are never dropped."""
-        if len(self._messages) >= MAX_MESSAGES or self._bytes + len(data) > MAX_BYTES:
-            self._drop_backlog()
-        if not self._needs_snapshot or is_reply:
-            self._messages.append((data, is_reply))
-            self._bytes += len(data)
+        if is_reply:
+            self._messages.append((data, True))
+            if len(self._messages) - self._events >= MAX_REPLIES:
+                self._room.clear()
+        else:
+            if self._events >= MAX_MESSAGES or self._event_bytes + len(data) > MAX_BYTES:
+                self._drop_backlog()
+            if not self._needs_snapshot:
+                self._messages.append((data, False))
+                self._events += 1
+                self._event_bytes += len(data)
         self._filled.set()
+
+    async def has_room(self) -> None:
+        """Waits until the client has read some of its replies, if too many wait."""
+        await self._room.wait()
 
     async def take(self) -> bytes:
         """Returns the next message."""
         await self._filled.wait()
         if self._messages:
-            data, _ = self._messages.popleft()
-            self._bytes -= len(data)
+            data, is_reply = self._messages.popleft()
+            if not is_reply:
+                self._events -= 1
+                self._event_bytes -= len(data)
+            elif len(self._messages) - self._events < MAX_REPLIES:
+                self._room.set()
         else:
             self._needs_snapshot = False
             data = self._snapshot()
@@ -56,8 +75,9 @@ class ControlOutbox:
         return data
 
     def _drop_backlog(self) -> None:
-        self._messages = deque(m for m in self._messages if m[1])
-        self._bytes = sum(len(data) for data, _ in self._messages)
+        if self._events:
+            self._messages = deque(m for m in self._messages if m[1])
+        self._events = self._event_bytes = 0
         self._needs_snapshot = True
 
 

@@ -161,7 +161,9 @@ export interface Error {
 }
 
 /**
- * First message on a connection, sent again when the client's role changes.
+ * First message on a connection, sent again when the client's role or what the world can do changes.
+ *
+ * `renderer` and `tf` are of the world that is up: "" and false before it is ready.
  *
  * `client_id` names this client when it opens the stream socket.
  *
@@ -525,6 +527,7 @@ export interface Commands {
   describe_type: DescribeType;
   restart_node: RestartNode;
   take_over: Empty;
+  ping: Empty;
 }
 
 /** Payload by `command`. */

@@ -197,3 +197,29 @@ def test_deltas_applied_to_a_snapshot_equal_a_new_snapshot():
     assert late.snapshot().statuses == [(1, "RUNNING")]
     assert [e.key for e in late.snapshot().blackboard] == ["speed"]
     assert play.session.sim_time_s == 0.5
+
+
+def test_everyone_is_introduced_again_to_a_world_that_is_ready():
+    play = Play()
+    play.happens(ClientJoined("v"))
+    play.command("run")
+    for client in "dv":
+        first, second = play.sent("introspection", client)
+        assert (first.renderer, first.tf) == ("", False)
+        assert (second.renderer, second.tf) == ("egl", True)
+    play.happens(ClientJoined("late"))
+    assert [e.renderer for e in play.sent("introspection", "late")] == ["egl"]
+
+
+def test_the_same_world_again_introduces_nobody_and_one_that_is_gone_has_no_renderer():
+    play = Play()
+    play.command("run")
+    play.command("run")
+    assert len(play.sent("introspection", "d")) == 2
+    play.child_dies("world", "was killed by SIGKILL")
+    play.happens(ClientJoined("late"))
+    assert play.sent("introspection", "late")[0].renderer == ""
+    assert len(play.sent("introspection", "d")) == 2, "the state says that the world is gone"
+    play.command("run")
+    assert play.sent("introspection", "d")[-1].renderer == "egl"
+    assert play.sent("introspection", "late")[-1].tf

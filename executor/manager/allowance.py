@@ -1,0 +1,37 @@
+"""How much one client may ask of a session: tokens that come back with time, which is an argument."""
+
+from __future__ import annotations
+
+from typing import Final
+
+__all__ = ["BURST", "COSTS", "RATE_HZ", "Allowance"]
+
+# Driving and dragging by hand take 60 commands a second each, a page that comes back some dozens at once.
+RATE_HZ: Final = 250.0
+BURST: Final = 500.0
+COSTS: Final = {"list_topics": 10.0, "echo_topic": 4.0, "describe_type": 4.0, "take_over": 4.0}
+"""Commands that cost the world, or every client, more than one token."""
+
+
+class Allowance:
+    """What one connection may still send.
+
+    Args:
+        now_s: the time; the bucket is full then.
+    """
+
+    def __init__(self, now_s: float, *, rate_hz: float = RATE_HZ, burst: float = BURST) -> None:
+        self.rate_hz = rate_hz
+        self._burst = burst
+        self._tokens = burst
+        self._at_s = now_s
+
+    def take(self, command: str, now_s: float) -> float:
+        """Returns 0 and takes what the command costs, or takes nothing and returns how long to wait, in s."""
+        self._tokens = min(self._burst, self._tokens + (now_s - self._at_s) * self.rate_hz)
+        self._at_s = now_s
+        cost = COSTS.get(command, 1.0)
+        if self._tokens < cost:
+            return (cost - self._tokens) / self.rate_hz
+        self._tokens -= cost
+        return 0.0

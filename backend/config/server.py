@@ -180,6 +180,8 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
 def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
     import uvicorn  # noqa: PLC0415 - slow to load
 
+    from backend.config.websocket import PatientSocket  # noqa: PLC0415 - it loads uvicorn
+
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
             await super().startup(sockets=list(sockets) if sockets else None)
@@ -191,7 +193,7 @@ def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
         log_config=None,
         access_log=False,
         lifespan="on",
-        ws="websockets-sansio",
+        ws=PatientSocket,
         ws_max_size=64 * 1024 * 1024,
         ws_per_message_deflate=False,
         ws_ping_interval=20,

@@ -40,6 +40,8 @@ log = logging.getLogger(__name__)
 # Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
 ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
+# What hangs does not end when it is asked to.
+HUNG_STOP_TIMEOUT_S: Final = 1.0
 _launches: Final[dict[UUID, Future[None]]] = {}
 _launches_lock: Final = Lock()
 
@@ -141,6 +143,8 @@ def refresh(session: Session) -> Session:
             launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
             why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
             died = f"The executor ended by itself (status {status}).{why}" if status else ""
+            _look_again(session)
+            died = session.error or died  # who ended it has said why
             state = SessionState.FAILED if died else SessionState.ENDED
             if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
                 _look_again(session)  # it did not end by itself: somebody ended it
@@ -159,6 +163,21 @@ def end_session(session: Session, why: str = "") -> Session:
     if session.state in LIVE_STATES:
         _finish(session, SessionState.ENDED, why)
     return session
+
+
+def fail_session(session_id: UUID, why: str) -> None:
+    """Ends an executor that does not answer, and fails its session with the reason."""
+    try:
+        ready = Session.objects.filter(id=session_id, state=SessionState.READY)
+        session = ready.first()
+        # Others see its end before we do, and give this reason for it.
+        if session is None or not ready.update(error=why):
+            return
+        log.warning("session %s: %s", session.id, why)
+        launcher().stop(session.launcher_state, timeout_s=HUNG_STOP_TIMEOUT_S)
+        _moved(session, SessionState.READY, state=SessionState.FAILED, error=why, ended_at=timezone.now())
+    finally:
+        connection.close()
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:

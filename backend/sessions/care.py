@@ -1,5 +1,7 @@
 """What a server does for its sessions every few seconds: notes the dead, ends the idle, starts the waiting.
 
+Those that are alive and do not answer are the business of `backend.sessions.watch`.
+
 Several web servers may do so at once; each of the steps is right when another did it a moment before.
 """
 
@@ -21,6 +23,7 @@ from backend.projects.pages_open import pages
 from backend.sessions import actions, drain
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
+from backend.sessions.watch import watchmen
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -100,6 +103,7 @@ async def care_for_ever() -> None:
     while True:
         await asyncio.sleep(EVERY_S)
         try:
+            watchmen.keep_to(await sync_to_async(ready_sessions)())
             soon = await sync_to_async(care)(attendance.take_used())
             text = await sync_to_async(drain.text)()
             await pages.tell(text)
@@ -118,11 +122,16 @@ def care(used: dict[UUID, float]) -> dict[UUID, int]:
     now = timezone.now()
     for session_id, seconds in used.items():
         Session.objects.filter(id=session_id).update(used_at=now - timedelta(seconds=seconds))
-    for session in Session.objects.filter(state=SessionState.READY):
+    for session in ready_sessions():
         actions.refresh(session)
     soon = end_idle()
     actions.start_queued()
     return soon
+
+
+def ready_sessions() -> list[Session]:
+    """Those whose executors are to answer."""
+    return list(Session.objects.filter(state=SessionState.READY))
 
 
 def end_idle() -> dict[UUID, int]:

@@ -2,7 +2,8 @@
 
 Nothing is read into the messages and nothing is queued: each direction takes one message and hands it
 on before it takes the next, so that a slow browser slows its manager's socket down, and the manager,
-which knows what a message supersedes, sends it less. Frames never touch the channel layer.
+which knows what a message supersedes, sends it less. Frames never touch the channel layer. No socket is
+served for long at a time, however much comes from it.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
 from asgiref.sync import sync_to_async
-from websockets.asyncio.client import ClientConnection, connect, unix_connect
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.config.problems import NotFoundError
@@ -22,9 +22,12 @@ from backend.config.sockets import ID, Call, Closed
 from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
+from backend.sessions.manager_socket import manager_socket
+from backend.sessions.watch import watchmen
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
+    from websockets.asyncio.client import ClientConnection
 
     from backend.accounts.models import User
     from backend.sessions.models import Session
@@ -32,8 +35,9 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 ADDRESS: Final = re.compile(rf"^/ws/sessions/{ID}/(control|stream)$")
-MAX_MESSAGE_BYTES: Final = 64 * 1024 * 1024
-QUEUED_MESSAGES: Final = 2
+PING: Final = re.compile(r'"command"\s*:\s*"ping"')
+LONGEST_PING: Final = 100
+MESSAGES_IN_TURN: Final = 16
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
 # A container with many processes takes seconds to end after its sockets, on a busy host many.
@@ -74,8 +78,9 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     if session.state != SessionState.READY:
         return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
     noted = _noting(session_id, receive) if is_control else receive
+    watchmen.look_after(session)
     try:
-        async with _manager(session, channel + (f"?{query}" if query else "")) as manager:
+        async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
             if is_control:
                 attendance.join(session_id, send)
             closed = await _relay(manager, noted, send)
@@ -89,32 +94,21 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     return await _explained(session, closed)
 
 
-def _manager(session: Session, target: str) -> connect:
-    """Opens a socket to the manager, whose address is `host:port`, or `unix:` and the path of its socket."""
-    options: dict[str, Any] = {
-        "additional_headers": {"Authorization": f"Bearer {actions.manager_token(session)}"},
-        "compression": None,
-        "max_size": MAX_MESSAGE_BYTES,
-        "max_queue": QUEUED_MESSAGES,
-        "ping_interval": None,
-        "proxy": None,
-        "close_timeout": 2,
-    }
-    kind, _, path = session.address.partition(":")
-    if kind == "unix":
-        return unix_connect(path, f"ws://localhost/{target}", **options)
-    return connect(f"ws://{session.address}/{target}", **options)
-
-
 def _noting(session_id: UUID, receive: ASGIReceiveCallable) -> ASGIReceiveCallable:
-    """Notes that the session is used whenever its browser says something."""
+    """Notes that the session is used whenever its browser says something, pings aside."""
 
     async def receive_and_note() -> Any:
-        message = await receive()
-        attendance.use(session_id)
+        message: Any = await receive()
+        if not _is_ping(message.get("text") or ""):
+            attendance.use(session_id)
         return message
 
     return receive_and_note
+
+
+def _is_ping(text: str) -> bool:
+    """Whether a page only asks whether its session hangs, as each does by itself."""
+    return len(text) <= LONGEST_PING and PING.search(text) is not None
 
 
 async def _explained(session: Session, closed: Closed) -> Closed:
@@ -159,6 +153,7 @@ async def _relay(
 
 
 async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConnection) -> Closed | None:
+    turns = _Turns()
     while True:
         message: Any = await receive()
         if message["type"] == "websocket.disconnect":
@@ -170,9 +165,11 @@ async def _browser_to_manager(receive: ASGIReceiveCallable, manager: ClientConne
             await manager.send(message["bytes"] if payload is None else payload)
         except ConnectionClosed as error:
             return _closed_by(error)
+        await turns.next()
 
 
 async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable) -> Closed | None:
+    turns = _Turns()
     try:
         while True:
             message = await manager.recv()
@@ -180,10 +177,24 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
                 await send({"type": "websocket.send", "text": message, "bytes": None})
             else:
                 await send({"type": "websocket.send", "bytes": message, "text": None})
+            await turns.next()
     except ConnectionClosed as error:
         return _closed_by(error)
     except OSError:
         return None  # the browser has gone
+
+
+class _Turns:
+    """Lets other sockets have their turn after some messages: taking one that is there waits for nothing."""
+
+    def __init__(self) -> None:
+        self._messages = 0
+
+    async def next(self) -> None:
+        """Call it after each message."""
+        self._messages += 1
+        if self._messages % MESSAGES_IN_TURN == 0:
+            await asyncio.sleep(0)
 
 
 def _closed_by(error: ConnectionClosed) -> Closed:

@@ -6,6 +6,8 @@ slow          listens after a second
 never         never reports that it is ready
 failing       ends at once with status 3
 stubborn      listens, has a child in a session of its own, ignores SIGTERM
+deaf          listens, reads what comes, and answers nothing at all
+old           listens, and knows no /watch
 mute          says something else than its port
 """
 
@@ -32,6 +34,8 @@ async def echo(socket: ServerConnection) -> None:
     async for message in socket:
         if message == "close":
             await socket.close(4321, "as asked")
+        elif message == "hang":
+            time.sleep(3600)  # noqa: ASYNC251 - the loop is what hangs
         elif message == "die":
             os._exit(9)
         else:
@@ -45,12 +49,28 @@ async def flood(socket: ServerConnection) -> None:
             counter.write(b".")
 
 
-async def listen(handler, ready_fd: int) -> None:
-    async with serve(handler, "127.0.0.1", 0, compression=None, max_queue=2, max_size=None) as server:
+async def listen(kind: str, ready_fd: int) -> None:
+    handler = flood if kind == "flood" else echo
+    refusal = refuse_watch if kind == "old" else None
+    options = {"compression": None, "max_queue": 2, "max_size": None, "process_request": refusal}
+    async with (
+        await asyncio.start_server(read_only, "127.0.0.1", 0)
+        if kind == "deaf"
+        else serve(handler, "127.0.0.1", 0, **options) as server
+    ):
         port = next(iter(server.sockets)).getsockname()[1]
         os.write(ready_fd, json.dumps({"port": port}).encode() + b"\n")
         os.close(ready_fd)
         await asyncio.get_running_loop().create_future()
+
+
+def refuse_watch(connection: ServerConnection, request):
+    return connection.respond(404, "There is no such thing.") if request.path == "/watch" else None
+
+
+async def read_only(reader: asyncio.StreamReader, _: asyncio.StreamWriter) -> None:
+    while await reader.read(1 << 16):
+        pass
 
 
 def main() -> None:
@@ -70,7 +90,7 @@ def main() -> None:
     if kind == "stubborn":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         subprocess.Popen(["sleep", "3600"], start_new_session=True)
-    asyncio.run(listen(flood if kind == "flood" else echo, ready_fd))
+    asyncio.run(listen(kind, ready_fd))
 
 
 if __name__ == "__main__":

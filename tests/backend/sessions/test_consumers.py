@@ -13,10 +13,19 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from backend.config import guard
-from backend.config.server import bind
+from backend.config.server import _make_server, bind
 from backend.config.sockets import Route, serve
+from backend.config.websocket import READ_BYTES, PatientSocket
 from backend.sessions import actions
-from backend.sessions.consumers import ADDRESS, EXECUTOR_FAILED, NO_SUCH_SESSION, may_use
+from backend.sessions.consumers import (
+    ADDRESS,
+    EXECUTOR_FAILED,
+    MESSAGES_IN_TURN,
+    NO_SUCH_SESSION,
+    _browser_to_manager,
+    _manager_to_browser,
+    may_use,
+)
 from backend.sessions.consumers import relay as relay_socket
 from tests.backend.sessions.test_sessions import launched
 
@@ -32,7 +41,7 @@ async def application(scope, receive, send):
 def relay():
     """The sockets behind a real server; its address as a `Host`."""
     listener = bind("127.0.0.1", 0)
-    config = uvicorn.Config(application, ws="websockets-sansio", lifespan="off", log_config=None)
+    config = uvicorn.Config(application, ws=PatientSocket, lifespan="off", log_config=None)
     server = uvicorn.Server(config)
     thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
     thread.start()
@@ -191,3 +200,72 @@ def test_a_browser_that_does_not_read_holds_the_manager_up_and_fills_no_queue(
         for _ in range(stuck + 1):
             socket.recv()
         assert counter.stat().st_size > stuck
+
+
+async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
+    """Neither taking a message that waits nor sending one that fits waits for anything."""
+    messages, turns = 1600, 0
+
+    async def receive():
+        nonlocal left
+        left -= 1
+        return {"type": "websocket.receive", "text": "x"} if left else {"type": "websocket.disconnect"}
+
+    async def send(message):
+        nonlocal left
+        left -= 1
+        if not left:
+            raise OSError("it has gone")
+
+    class Manager:
+        async def send(self, payload):
+            pass
+
+        async def recv(self):
+            return "x"
+
+        async def close(self, code):
+            pass
+
+    async def count_turns():
+        nonlocal turns
+        while True:
+            turns += 1
+            await asyncio.sleep(0)
+
+    for relaying in (
+        lambda: _browser_to_manager(receive, Manager()),
+        lambda: _manager_to_browser(Manager(), send),
+    ):
+        left, turns = messages, 0
+        other = asyncio.create_task(count_turns())
+        await relaying()
+        other.cancel()
+        assert turns >= messages // MESSAGES_IN_TURN - 1
+
+
+def test_what_a_browser_sends_is_read_little_at_a_time(monkeypatch):
+    sizes = []
+
+    class Measured(PatientSocket):
+        def data_received(self, data):
+            sizes.append(len(data))
+            super().data_received(data)
+
+    async def take(scope, receive, send):
+        await receive()
+        await send({"type": "websocket.accept", "subprotocol": None, "headers": []})
+        message = await receive()
+        await send({"type": "websocket.send", "text": str(len(message["bytes"])), "bytes": None})
+
+    listener = bind("127.0.0.1", 0)
+    server = uvicorn.Server(uvicorn.Config(take, ws=Measured, lifespan="off", log_config=None))
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve(sockets=[listener])))
+    thread.start()
+    with connect(f"ws://127.0.0.1:{listener.getsockname()[1]}", proxy=None, compression=None) as socket:
+        socket.send(bytes(1_000_000))
+        assert socket.recv(60) == "1000000"
+    server.should_exit = True
+    thread.join()
+    assert max(sizes) <= READ_BYTES
+    assert _make_server(lambda: None).config.ws is PatientSocket

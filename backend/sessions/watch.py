@@ -1,0 +1,129 @@
+"""Whether executors answer: each is pinged every second, and one that is silent for too long is ended.
+
+Every web server does so for every session, and all of them hear the same; the first to give one up ends
+it, and the others find it ended. So a session that no page looks at does not stay frozen, nor one whose
+server has gone.
+
+Silence is counted in what this server itself was awake: after a second in which it had no processor, or was
+stopped, the answer is probably there and only not yet read.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import TYPE_CHECKING, Final
+
+from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
+
+from backend.sessions import actions
+from backend.sessions.manager_socket import manager_socket
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from uuid import UUID
+
+    from backend.sessions.models import Session
+
+log = logging.getLogger(__name__)
+
+PING_EVERY_S: Final = 1.0
+NOTED_S: Final = 3.0
+GIVEN_UP_S: Final = 10.0
+WHY: Final = f"The executor did not answer for {GIVEN_UP_S:g} s, so it was ended."
+
+
+class Silence:
+    """For how long a manager has not answered."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+        self._was_heard = False
+        self._is_reached = True
+
+    def heard(self) -> None:
+        """It answered."""
+        self.seconds, self._was_heard, self._is_reached = 0.0, True, True
+
+    def not_reached(self) -> None:
+        """Nothing listens at its address.
+
+        One that answered before has closed its socket and is stuck in its end. If it never did, this server
+        cannot reach it, which says nothing about it.
+        """
+        self._is_reached = self._was_heard
+        self.seconds = self.seconds if self._was_heard else 0.0
+
+    def passed(self, seconds: float) -> None:
+        """Time went by; what is more than the time between two looks is our own lateness."""
+        if self._is_reached:
+            self.seconds += min(seconds, PING_EVERY_S)
+
+
+async def until_silent(session: Session) -> None:
+    """Returns when the session's manager has not answered for too long."""
+    silence = Silence()
+    asking = asyncio.create_task(_ask(session, silence))
+    loop = asyncio.get_running_loop()
+    try:
+        looked_s, is_noted = loop.time(), False
+        while silence.seconds < GIVEN_UP_S:
+            await asyncio.sleep(PING_EVERY_S)
+            now_s = loop.time()
+            silence.passed(now_s - looked_s)
+            looked_s = now_s
+            if is_noted is not (is_noted := silence.seconds >= NOTED_S):
+                log.warning("session %s: the executor %s", session.id, "is silent" if is_noted else "answers")
+    finally:
+        asking.cancel()
+        await asyncio.gather(asking, return_exceptions=True)
+
+
+async def _ask(session: Session, silence: Silence) -> None:
+    while True:
+        try:
+            async with manager_socket(session, "watch") as socket:
+                while True:
+                    silence.heard()
+                    await asyncio.sleep(PING_EVERY_S)
+                    await (await socket.ping())
+        except InvalidStatus:
+            silence.heard()  # one of an older version knows no such socket, but says so
+        except (ConnectionClosed, TimeoutError, InvalidHandshake):
+            pass  # it is reached, and that is all
+        except OSError:
+            silence.not_reached()
+        await asyncio.sleep(PING_EVERY_S)
+
+
+class Watchmen:
+    """One for each session that runs."""
+
+    def __init__(self) -> None:
+        self._tasks: dict[UUID, asyncio.Task[None]] = {}
+
+    def look_after(self, session: Session) -> None:
+        """Begins with a session that is ready, if none looks after it yet."""
+        task = self._tasks.get(session.id)
+        if task is None or task.done():
+            self._tasks[session.id] = asyncio.create_task(_look_after(session))
+
+    def keep_to(self, sessions: Iterable[Session]) -> None:
+        """Looks after these, and no others."""
+        ready = {session.id: session for session in sessions}
+        for session_id in self._tasks.keys() - ready.keys():
+            self._tasks.pop(session_id).cancel()
+        for session in ready.values():
+            self.look_after(session)
+
+
+async def _look_after(session: Session) -> None:
+    await until_silent(session)
+    try:
+        await asyncio.to_thread(actions.fail_session, session.id, WHY)
+    except Exception:
+        # The next round of care begins again.
+        log.exception("session %s: a silent executor was not ended", session.id)
+
+
+watchmen: Final = Watchmen()

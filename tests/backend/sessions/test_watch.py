@@ -1,0 +1,245 @@
+"""Executors that are alive and do not answer: noticed, ended, and their sessions failed with the reason."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import os
+import signal
+import threading
+from types import SimpleNamespace
+from uuid import uuid4
+
+import psutil
+import pytest
+from websockets.exceptions import ConnectionClosed
+
+from backend.sessions import actions, care, watch
+from backend.sessions.consumers import EXECUTOR_FAILED, _is_ping, _noting
+from backend.sessions.models import Session
+from tests.backend.sessions.conftest import spec
+from tests.backend.sessions.test_consumers import opened, relay, session  # noqa: F401 - fixtures
+from tests.backend.sessions.test_sessions import launched
+from tests.executor.manager.test_gate import gate  # noqa: F401 - a fixture
+from tests.executor.session_client import TOKEN, manager_process
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Gives up sooner. Only for managers that are to be given up: a busy machine is late by more."""
+    monkeypatch.setattr(watch, "PING_EVERY_S", 0.1)
+    monkeypatch.setattr(watch, "NOTED_S", 0.3)
+    monkeypatch.setattr(watch, "GIVEN_UP_S", 1.0)
+
+
+# --- silence --------------------------------------------------------------------------------------
+
+
+def test_silence_is_counted_until_an_answer_comes():
+    silence = watch.Silence()
+    for _ in range(4):
+        silence.passed(1.0)
+    assert silence.seconds == 4.0
+    silence.heard()
+    assert silence.seconds == 0.0
+
+
+def test_our_own_lateness_is_no_silence_of_others():
+    silence = watch.Silence()
+    silence.heard()
+    silence.passed(600.0)
+    assert silence.seconds == watch.PING_EVERY_S
+
+
+def test_who_was_never_reached_from_here_is_not_given_up():
+    silence = watch.Silence()
+    silence.not_reached()
+    for _ in range(20):
+        silence.passed(1.0)
+    assert silence.seconds == 0.0
+    silence.heard()
+    silence.not_reached()
+    silence.passed(1.0)
+    assert silence.seconds == 1.0, "it has closed its socket, and still runs"
+
+
+def test_the_pings_of_a_page_do_not_count_as_use():
+    assert _is_ping('{"id":"c7","command":"ping","data":{}}')
+    assert not _is_ping('{"id":"c7","command":"pause","data":{}}')
+    assert not _is_ping(json.dumps({"id": "c7", "command": "run", "data": "x" * 200}))
+    assert not _is_ping("")
+
+
+async def test_a_page_that_pings_alone_lets_its_session_become_idle():
+    session_id, messages = uuid4(), iter(['{"id":"a","command":"ping"}', '{"id":"b","command":"pause"}'])
+
+    async def receive():
+        return {"type": "websocket.receive", "text": next(messages)}
+
+    noted = _noting(session_id, receive)
+    await noted()
+    assert session_id not in care.attendance.take_used()
+    await noted()
+    assert session_id in care.attendance.take_used()
+
+
+# --- managers of every kind -----------------------------------------------------------------------
+
+
+def row(address, token=TOKEN, monkeypatch=None):
+    """What the watch knows of a session."""
+    monkeypatch.setattr(actions, "manager_token", lambda _: token)
+    return SimpleNamespace(id=uuid4(), address=address)
+
+
+@contextlib.asynccontextmanager
+async def watched(one):
+    task = asyncio.create_task(watch.until_silent(one))
+    yield task
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)
+
+
+async def test_a_stopped_manager_behind_the_gate_is_given_up(gate, quick, monkeypatch):  # noqa: F811
+    gate.expect("s1", TOKEN)
+    async with manager_process("--gate", str(gate.folder / "gate.sock"), "--session", "s1") as process:
+        one = row(f"unix:{gate.path('s1')}", monkeypatch=monkeypatch)
+        os.kill(process.pid, signal.SIGSTOP)
+        try:
+            async with watched(one) as task:
+                await asyncio.wait_for(task, 60)
+        finally:
+            os.kill(process.pid, signal.SIGCONT)
+
+
+async def test_a_manager_that_answers_again_in_time_is_kept(monkeypatch):
+    monkeypatch.setattr(watch, "PING_EVERY_S", 0.1)
+    async with manager_process() as process:
+        one = row(f"127.0.0.1:{process.ready['port']}", monkeypatch=monkeypatch)
+        silences = []
+        known = watch.Silence
+        monkeypatch.setattr(watch, "Silence", lambda: silences.append(known()) or silences[-1])
+        async with watched(one) as task:
+            for _ in range(2):
+                await until(lambda: silences and silences[0]._was_heard and silences[0].seconds <= 0.2)
+                os.kill(process.pid, signal.SIGSTOP)
+                await until(lambda: silences[0].seconds > 1.0)
+                os.kill(process.pid, signal.SIGCONT)
+            await until(lambda: silences[0].seconds <= 0.2)
+            assert not task.done()
+
+
+async def until(condition):
+    async with asyncio.timeout(60):
+        while not condition():  # noqa: ASYNC110
+            await asyncio.sleep(0.02)
+
+
+@pytest.mark.parametrize(("kind", "is_given_up"), [("deaf", True), ("old", False), ("echo", False)])
+async def test_what_counts_as_an_answer(kind, is_given_up, launcher_of, quick, monkeypatch):
+    started = await asyncio.to_thread(launcher_of(kind).start, spec())
+    if not is_given_up:
+        monkeypatch.setattr(watch, "GIVEN_UP_S", 5.0)
+    heard = []
+    monkeypatch.setattr(
+        watch.Silence, "heard", lambda self, before=watch.Silence.heard: (heard.append(1), before(self))
+    )
+    async with watched(row(started.address, monkeypatch=monkeypatch)) as task:
+        if is_given_up:
+            await asyncio.wait_for(task, 60)
+            assert heard == []
+        else:
+            await until(lambda: len(heard) > 5)
+            assert not task.done()
+
+
+# --- sessions -------------------------------------------------------------------------------------
+
+
+@pytest.mark.django_db(transaction=True)
+@pytest.mark.parametrize("how", ["stopped", "hangs"])
+@pytest.mark.usefixtures("quick")
+def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, session, api, project):  # noqa: F811
+    started = session("echo")
+    launched(started["id"])
+    pid = Session.objects.get().launcher_state["pid"]
+    with opened(relay, started["control_url"]) as socket:
+        socket.recv()
+        if how == "hangs":
+            socket.send("hang")
+        else:
+            os.kill(pid, signal.SIGSTOP)
+        with pytest.raises(ConnectionClosed):
+            socket.recv()
+        assert (socket.close_code, socket.close_reason) == (EXECUTOR_FAILED, watch.WHY)
+    assert not psutil.pid_exists(pid)
+    failed = api.get(f"sessions/{started['id']}")
+    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+    again = api.post(f"projects/{project['id']}/session")
+    assert again["id"] != started["id"]
+    launched(again["id"])
+    assert api.get(f"sessions/{again['id']}")["state"] == "ready"
+
+
+@pytest.mark.django_db(transaction=True)
+def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_once(session, quick, api):  # noqa: F811
+    started = session("echo")
+    launched(started["id"])
+    pid = Session.objects.get().launcher_state["pid"]
+    os.kill(pid, signal.SIGSTOP)
+
+    async def two_servers():
+        servers = [watch.Watchmen(), watch.Watchmen()]
+        ready = await asyncio.to_thread(care.ready_sessions)
+        for server in servers:
+            server.keep_to(ready)
+            server.keep_to(ready)
+        tasks = [task for server in servers for task in server._tasks.values()]
+        assert len(tasks) == 2
+        await asyncio.wait_for(asyncio.gather(*tasks), 60)
+
+    thread = threading.Thread(target=lambda: asyncio.run(two_servers()))
+    thread.start()
+    thread.join()
+    failed = api.get(f"sessions/{started['id']}")
+    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+    assert not psutil.pid_exists(pid)
+
+
+@pytest.mark.django_db(transaction=True)
+def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkeypatch):  # noqa: F811
+    started = session("echo")
+    launched(started["id"])
+    launcher = actions.launcher()
+    stop = launcher.stop
+
+    def stop_and_be_seen(state, *, timeout_s):
+        stop(state, timeout_s=timeout_s)
+        monkeypatch.setattr(launcher, "stop", stop)
+        care.care({})
+
+    monkeypatch.setattr(launcher, "stop", stop_and_be_seen)
+    actions.fail_session(Session.objects.get().id, watch.WHY)
+    failed = api.get(f"sessions/{started['id']}")
+    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+
+
+@pytest.mark.django_db(transaction=True)
+def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: F811
+    started = session("echo")
+    launched(started["id"])
+    api.delete(f"sessions/{started['id']}")
+    actions.fail_session(Session.objects.get().id, watch.WHY)
+    assert api.get(f"sessions/{started['id']}")["state"] == "ended"
+
+
+async def test_nobody_looks_after_what_has_ended():
+    keeper = watch.Watchmen()
+    one = SimpleNamespace(id=uuid4(), address="127.0.0.1:9")
+    keeper.keep_to([one])
+    (task,) = keeper._tasks.values()
+    keeper.keep_to([])
+    await asyncio.wait([task], timeout=60)
+    assert task.cancelled()
+    assert keeper._tasks == {}

@@ -34,6 +34,7 @@ _FILES: Final = {
 }
 _POLICY: Final = "default-src 'self'; img-src blob:; base-uri 'none'; frame-ancestors 'none'"
 MAX_MESSAGE_BYTES: Final = 1024
+PING: Final = "ping"
 _pose_of = msgspec.json.Decoder(CameraPose).decode
 
 
@@ -119,6 +120,9 @@ class RunViewer:
                 if known:
                     await connection.send(known)
             async for message in connection:
+                if message == PING:
+                    await connection.send(PING)
+                    continue
                 with contextlib.suppress(msgspec.DecodeError):
                     self._look(_pose_of(message))
         if self._server is not None and not self._server.connections - {connection}:

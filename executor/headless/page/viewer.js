@@ -7,6 +7,9 @@ const KEY_RAD = 0.1;
 const KEY_ZOOM = 1.15;
 const PITCH_RAD = [0.05, 1.5];
 const DISTANCE_M = [0.8, 60];
+const PING_EVERY_MS = 1000;
+const SHOWN_AFTER_MS = 3000;
+const PING = 'ping';
 
 const byId = (id) => document.getElementById(id);
 const world = byId('world');
@@ -18,12 +21,35 @@ const scheme = location.protocol === 'https:' ? 'wss' : 'ws';
 const socket = new WebSocket(`${scheme}://${location.host}/socket${location.search}`);
 socket.binaryType = 'blob';
 socket.onopen = () => look();
-socket.onmessage = ({ data }) => (typeof data === 'string' ? showFigures(JSON.parse(data)) : showPicture(data));
+socket.onmessage = ({ data }) => {
+  silentMs = 0;
+  if (typeof data !== 'string') showPicture(data);
+  else if (data !== PING) showFigures(JSON.parse(data));
+};
 socket.onclose = () => {
+  clearInterval(asking);
+  showSilence();
   if (byId('state').dataset.over) return;
   byId('state').textContent = 'The run is over.';
   byId('running').textContent = '';
 };
+
+// Whether the run still answers. A page that slept meanwhile has waited for nothing.
+let silentMs = 0;
+let askedAt = performance.now();
+const asking = setInterval(() => {
+  if (socket.readyState !== WebSocket.OPEN) return;
+  silentMs += Math.min(performance.now() - askedAt, PING_EVERY_MS);
+  askedAt = performance.now();
+  socket.send(PING);
+  showSilence(silentMs);
+}, PING_EVERY_MS);
+
+function showSilence(ms = 0) {
+  const note = byId('silence');
+  note.hidden = ms < SHOWN_AFTER_MS;
+  byId('silent-s').textContent = String(Math.round(ms / 1000));
+}
 
 function showPicture(blob) {
   const old = picture.src;

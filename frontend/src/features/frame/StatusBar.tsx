@@ -32,7 +32,9 @@ export function StatusBar() {
 
 function ConnectionStatus() {
   const { t } = useTranslation('frame');
-  const connection = useSessionStore((state) => state.connection);
+  const connection = useSessionStore(({ connection, silentS }) =>
+    connection === 'open' && silentS > 0 ? 'silent' : connection,
+  );
   const Icon = connection === 'open' ? IconPlugConnected : IconPlugConnectedX;
   return (
     <span className={classes['statusItem']} data-connection={connection}>

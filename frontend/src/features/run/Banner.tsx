@@ -1,5 +1,5 @@
 import { Button, CloseButton } from '@mantine/core';
-import { IconAlertTriangle, IconPlugConnectedX } from '@tabler/icons-react';
+import { IconAlertTriangle, IconHourglass, IconPlugConnectedX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useShallow } from 'zustand/react/shallow';
 import { perform } from '@/actions/registry';
@@ -10,13 +10,21 @@ import { useSessionStore } from '@/store/session/store';
 import { bannerFor, type BannerContent } from './banner';
 import classes from './run.module.css';
 
+const ICONS = {
+  connection: IconPlugConnectedX,
+  silence: IconHourglass,
+  fault: IconAlertTriangle,
+  failure: IconAlertTriangle,
+};
+
 /** What is wrong, where, and what to do next; across the whole width, since it concerns everything. */
 export function Banner() {
   const { t, i18n } = useTranslation('run');
   const session = useSessionStore(
-    useShallow(({ connection, connectionMessage, executorReason, faults }) => ({
+    useShallow(({ connection, connectionMessage, silentS, executorReason, faults }) => ({
       connection,
       connectionMessage,
+      silentS,
       executorReason,
       faults,
     })),
@@ -28,15 +36,18 @@ export function Banner() {
     ? t(banner.titleKey, banner.values)
     : t('banner.refused');
 
+  const Icon = ICONS[banner.kind];
+
   return (
     <div
       className={classes['banner']}
       data-tone={banner.tone}
       data-kind={banner.kind}
       data-testid="banner"
-      role="alert"
+      // Its seconds change all the time; that nothing answers is heard from the state of the executor.
+      role={banner.kind === 'silence' ? undefined : 'alert'}
     >
-      {banner.kind === 'connection' ? <IconPlugConnectedX size={18} /> : <IconAlertTriangle size={18} />}
+      <Icon size={18} />
       <div className={classes['bannerText']}>
         <strong>{title}</strong>
         {banner.text ? <span>{banner.text}</span> : null}

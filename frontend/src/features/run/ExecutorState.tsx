@@ -10,8 +10,9 @@ export function ExecutorState() {
   const connection = useSessionStore((state) => state.connection);
   const finished = useSessionStore((state) => state.finished);
   const isLaunching = useSessionStore((state) => state.isLaunching);
+  const isSilent = useSessionStore((state) => state.silentS > 0);
   const isLost = connection === 'reconnecting' || connection === 'lost';
-  const shown = isLost ? 'lost' : isLaunching ? 'launching' : executor;
+  const shown = isLost ? 'lost' : isSilent ? 'silent' : isLaunching ? 'launching' : executor;
   return (
     <Tooltip label={t(`stateHelp.${shown}`)}>
       <span

@@ -1,11 +1,12 @@
 import type { Fault } from '@/generated/messages';
+import { t } from '@/i18n';
 import type { Connection } from '@/store/session/types';
 import type { LaunchFailure } from '@/store/run/store';
 import { findingText } from '@/ui/findingText';
 
 /** What the banner says: the most urgent of what is wrong. */
 export interface BannerContent {
-  kind: 'connection' | 'fault' | 'failure';
+  kind: 'connection' | 'silence' | 'fault' | 'failure';
   tone: 'error' | 'warning';
   /** i18n key of `run:banner`, with what it needs. */
   titleKey: string;
@@ -18,17 +19,20 @@ export interface BannerContent {
 interface Situation {
   connection: Connection;
   connectionMessage: string;
+  /** For how many seconds the executor has not answered. */
+  silentS: number;
   /** Why the ladder stands where it stands, when nobody asked for it. */
   executorReason: string;
   faults: readonly Fault[];
   failure: LaunchFailure | null;
 }
 
-/** The lost connection first, then the last fault, then why a command was refused. */
+/** The lost connection first, then one that is silent, then the last fault, then why a command was refused. */
 export function bannerFor(situation: Situation): BannerContent | null {
-  const { connection, connectionMessage, executorReason, faults, failure } = situation;
+  const { connection, connectionMessage, silentS, executorReason, faults, failure } = situation;
   if (connection === 'reconnecting' || connection === 'lost')
     return connectionBanner(connection, connectionMessage);
+  if (silentS > 0) return silenceBanner(silentS);
   if (failure) return failureBanner(failure);
   const fault = faults.at(-1);
   if (fault) return faultBanner(fault);
@@ -55,6 +59,18 @@ function connectionBanner(connection: 'reconnecting' | 'lost', message: string):
     values: {},
     text: message,
     hint: '',
+    link: null,
+  };
+}
+
+function silenceBanner(silentS: number): BannerContent {
+  return {
+    kind: 'silence',
+    tone: 'warning',
+    titleKey: 'banner.silent',
+    values: { seconds: String(silentS) },
+    text: '',
+    hint: t('run:banner.silentHelp'),
     link: null,
   };
 }

@@ -6,6 +6,7 @@ import { fractionOf } from './RunProgress';
 const calm = {
   connection: 'open',
   connectionMessage: '',
+  silentS: 0,
   executorReason: '',
   faults: [],
   failure: null,
@@ -52,6 +53,18 @@ describe('bannerFor', () => {
 
   it('says why the world is gone', () => {
     expect(bannerFor({ ...calm, executorReason: 'The simulated world was killed.' })?.text).toMatch(/world/);
+  });
+
+  it('says calmly that nothing answers, before what was wrong earlier', () => {
+    const banner = bannerFor({ ...calm, silentS: 4, faults: [fault({})] });
+    expect(banner).toMatchObject({
+      kind: 'silence',
+      tone: 'warning',
+      titleKey: 'banner.silent',
+      values: { seconds: '4' },
+    });
+    expect(banner?.hint).toMatch(/10 s/);
+    expect(bannerFor({ ...calm, silentS: 4, connection: 'lost' })?.kind).toBe('connection');
   });
 
   it('puts the lost connection before all else', () => {

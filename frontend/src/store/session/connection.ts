@@ -6,7 +6,8 @@ import { t } from '@/i18n';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { CommandError, ControlSocket } from './control';
 import { forgetRun, rememberRun } from './memory';
-import { receive, resetSession, useSessionStore } from './store';
+import { Pulse, PULSE_MS } from './pulse';
+import { note, receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';
 import { resetTopics, useTopicsStore } from './topics';
 
@@ -100,6 +101,7 @@ export function leave(): void {
 
 function disconnect(): void {
   clearTimeout(retryTimer);
+  stopPulse();
   giveUp?.(new CommandError('cancelled', 'The start was cancelled.', ''));
   socket?.close();
   socket = null;
@@ -126,9 +128,11 @@ function openSocket(info: SessionInfo): Promise<void> {
     let isIntroduced = false;
     const opened = new ControlSocket(addressFor(info.control_url), {
       onOpen: () => undefined,
+      onHeard: () => pulse?.heard(performance.now()),
       onMessage: (message) => {
         receive(message);
-        if (message.command === 'introspection') {
+        // A later one says that the client's role has changed, or what the world can do.
+        if (message.command === 'introspection' && !isIntroduced) {
           isIntroduced = true;
           onIntroduced(info, message.data as Introspection);
           resolve();
@@ -153,6 +157,48 @@ function onIntroduced(info: SessionInfo, introspection: Introspection): void {
   streams.open(addressFor(info.stream_url));
   followStreams(introspection.state);
   followTopics(introspection.state);
+  startPulse();
+}
+
+let pulse: Pulse | null = null;
+let pulseTimer: ReturnType<typeof setInterval> | undefined;
+let isPinging = false;
+
+/** From now on the session is asked every second whether it answers. */
+function startPulse(): void {
+  stopPulse();
+  pulse = new Pulse(performance.now());
+  pulseTimer = setInterval(beat, PULSE_MS);
+}
+
+function stopPulse(): void {
+  clearInterval(pulseTimer);
+  pulse = null;
+  isPinging = false;
+}
+
+function beat(): void {
+  if (!socket || !pulse) return;
+  const now = performance.now();
+  // As long as this page's own words are on their way out (a large program), it waits for no answer yet.
+  if (!isPinging || socket.isSending) pulse.heard(now);
+  showSilence(pulse.beat(now));
+  if (isPinging) return;
+  isPinging = true;
+  const asked = pulse;
+  const answered = () => {
+    if (asked === pulse) isPinging = false;
+  };
+  // A refusal is an answer, too.
+  socket.send('ping', {}).then(answered, answered);
+}
+
+function showSilence(silentS: number): void {
+  const before = useSessionStore.getState().silentS;
+  if (silentS === before) return;
+  set({ silentS });
+  if (before === 0) note(t('run:silence.began', { seconds: silentS }));
+  else if (silentS === 0) note(t('run:silence.ended', { seconds: before }));
 }
 
 function followState(message: ServerMessage): void {
@@ -193,8 +239,15 @@ function followStreams(state: State): void {
 function onLost(reason: string): void {
   isStreaming = false;
   isWorldUp = false;
+  stopPulse();
   streams.disconnect();
-  set({ connection: 'reconnecting', connectionMessage: reason, isLaunching: false, progress: null });
+  set({
+    connection: 'reconnecting',
+    connectionMessage: reason,
+    silentS: 0,
+    isLaunching: false,
+    progress: null,
+  });
   retryTimer = setTimeout(() => void retry(), RETRY_MS[Math.min(attempt, RETRY_MS.length - 1)]);
   attempt += 1;
 }
@@ -213,10 +266,11 @@ async function retry(): Promise<void> {
   if (!session || isRetrying) return;
   isRetrying = true;
   try {
-    await api.getSession(session.id);
+    const found = await api.getSession(session.id);
+    if (found.state === 'failed' || found.state === 'ended') return onEnded(found.error ?? '');
     await openSocket(session);
   } catch (error) {
-    if (error instanceof ApiError && error.status === 404) return onEnded();
+    if (error instanceof ApiError && error.status === 404) return onEnded('');
     onLost(reasonOf(error));
   } finally {
     isRetrying = false;
@@ -247,11 +301,12 @@ window.addEventListener('offline', () => void onOffline());
 window.addEventListener('online', onOnline);
 
 /** The session is gone: its processes ended, and another Run starts a new one. */
-function onEnded(): void {
+function onEnded(reason: string): void {
+  stopPulse();
   streams.close();
   socket = null;
   session = null;
   clientId = null;
   resetTopics();
-  resetSession({ connection: 'lost' });
+  resetSession({ connection: 'lost', connectionMessage: reason });
 }

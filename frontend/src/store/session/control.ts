@@ -23,6 +23,8 @@ interface Waiting {
 
 export interface ControlEvents {
   onMessage: (message: ServerMessage) => void;
+  /** Anything came, replies too. */
+  onHeard: () => void;
   onOpen: () => void;
   /** The socket closed without `close()` having been called. */
   onLost: (code: number, reason: string) => void;
@@ -55,6 +57,11 @@ export class ControlSocket {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
+  /** Whether some of what was sent has not left this machine yet. */
+  get isSending(): boolean {
+    return (this.socket?.bufferedAmount ?? 0) > 0;
+  }
+
   /** Sends a command; resolves at its ack, rejects with a `CommandError`. */
   send<K extends keyof Commands>(command: K, data: Commands[K]): Promise<void> {
     const { socket } = this;
@@ -75,6 +82,7 @@ export class ControlSocket {
   }
 
   private receive(message: ServerMessage): void {
+    this.events.onHeard();
     const waiting = this.waiting.get(message.id);
     if (waiting && (message.command === 'ack' || message.command === 'error')) {
       this.waiting.delete(message.id);

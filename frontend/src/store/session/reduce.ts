@@ -7,6 +7,7 @@ export const MAX_LOG_LINES = 5000;
 export const initialSession: SessionData = {
   connection: 'off',
   connectionMessage: '',
+  silentS: 0,
   projectId: null,
   sessionId: null,
   introspection: null,

@@ -3,7 +3,7 @@ import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
 import { feedHistory } from './historyFeed';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
-import { initialSession, reduceAll } from './reduce';
+import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
 import type { SessionData } from './types';
 
@@ -36,6 +36,23 @@ export function flush(): void {
     feedTopics(message);
   }
   showDueStatuses();
+}
+
+/** Writes a line of this page's own into the console. */
+export function note(text: string): void {
+  useSessionStore.setState((state) =>
+    appendLogs(state, [
+      {
+        source: 'manager',
+        level: 'warning',
+        text,
+        node_id: '',
+        node_path: '',
+        time: state.simTime,
+        launch_node: '',
+      },
+    ]),
+  );
 }
 
 export function resetSession(change: Partial<SessionData> = {}): void {

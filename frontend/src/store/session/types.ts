@@ -28,6 +28,8 @@ export interface BlackboardRow extends BlackboardEntry {
 export interface SessionData {
   connection: Connection;
   connectionMessage: string;
+  /** For how many seconds the executor has not answered; 0 while that is nothing to speak of. */
+  silentS: number;
   projectId: string | null;
   sessionId: string | null;
   introspection: Introspection | null;

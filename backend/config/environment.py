@@ -77,6 +77,9 @@ class Environment(TeamSettings):
     session_stop_timeout_s: float = Field(
         default=5.0, gt=0, description="How long an executor may take to end before it is killed."
     )
+    session_silence_s: float = Field(
+        default=10.0, ge=4, description="How long an executor may leave pings unanswered before it is ended."
+    )
     max_file_bytes: int = Field(default=32 * MEBIBYTE, gt=0, description="Largest file of a project.")
     max_project_bytes: int = Field(
         default=256 * MEBIBYTE, gt=0, description="Sum of the current files of a project."

@@ -9,7 +9,7 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 if TYPE_CHECKING:
     from asyncio import BaseTransport
 
-READ_BYTES: Final = 16 << 10
+READ_BYTES: Final = 8 << 10
 
 
 class PatientSocket(WebSocketsSansIOProtocol):

@@ -23,7 +23,7 @@ from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
 from backend.sessions.manager_socket import manager_socket
-from backend.sessions.watch import watchmen
+from backend.sessions.watch import watchmen, why
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
@@ -47,6 +47,7 @@ LOST_POLLS: Final = 150
 GOING_AWAY: Final = 1001
 NO_SUCH_SESSION: Final = 4404
 EXECUTOR_FAILED: Final = 4503
+EXECUTOR_SILENT: Final = 4504
 
 
 def may_use(session_id: UUID, user: User) -> None:
@@ -76,7 +77,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     except NotFoundError as error:
         return Closed(NO_SUCH_SESSION, error.detail)
     if session.state != SessionState.READY:
-        return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
+        return _ended(session)
     noted = _noting(session_id, receive) if is_control else receive
     watchmen.look_after(session)
     try:
@@ -116,9 +117,15 @@ async def _explained(session: Session, closed: Closed) -> Closed:
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
         session = await sync_to_async(actions.refresh)(session)
         if session.state != SessionState.READY:
-            return Closed(EXECUTOR_FAILED, session.error or "The session has ended.")
+            return _ended(session)
         await asyncio.sleep(LOST_POLL_S)
     return closed
+
+
+def _ended(session: Session) -> Closed:
+    """How a page is told that its session is over; it has words of its own for the one reason."""
+    code = EXECUTOR_SILENT if session.error == why() else EXECUTOR_FAILED
+    return Closed(code, session.error or "The session has ended.")
 
 
 async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:

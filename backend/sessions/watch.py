@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
 
+from backend.config.environment import environment
 from backend.sessions import actions
 from backend.sessions.manager_socket import manager_socket
 
@@ -29,8 +30,16 @@ log = logging.getLogger(__name__)
 
 PING_EVERY_S: Final = 1.0
 NOTED_S: Final = 3.0
-GIVEN_UP_S: Final = 10.0
-WHY: Final = f"The executor did not answer for {GIVEN_UP_S:g} s, so it was ended."
+
+
+def longest_s() -> float:
+    """How long a manager may be silent."""
+    return environment().session_silence_s
+
+
+def why() -> str:
+    """Why a session was failed whose manager was silent for longer."""
+    return f"The executor did not answer for {longest_s():g} s, so it was ended."
 
 
 class Silence:
@@ -67,7 +76,7 @@ async def until_silent(session: Session) -> None:
     loop = asyncio.get_running_loop()
     try:
         looked_s, is_noted = loop.time(), False
-        while silence.seconds < GIVEN_UP_S:
+        while silence.seconds < longest_s():
             await asyncio.sleep(PING_EVERY_S)
             now_s = loop.time()
             silence.passed(now_s - looked_s)
@@ -120,7 +129,7 @@ class Watchmen:
 async def _look_after(session: Session) -> None:
     await until_silent(session)
     try:
-        await asyncio.to_thread(actions.fail_session, session.id, WHY)
+        await asyncio.to_thread(actions.fail_session, session.id, why())
     except Exception:
         # The next round of care begins again.
         log.exception("session %s: a silent executor was not ended", session.id)

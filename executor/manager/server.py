@@ -57,7 +57,7 @@ HEARTBEAT_S: Final = 15.0
 REPLACED: Final = 4409
 UNEXPECTED: Final = 1003
 # Of one client at a time: what is read is parsed at once, however many frames it holds.
-READ_BYTES: Final = 16 << 10
+READ_BYTES: Final = 4 << 10
 COMMANDS_IN_TURN: Final = 16
 MESSAGES_IN_TURN: Final = 32
 _encode = msgspec.json.Encoder().encode

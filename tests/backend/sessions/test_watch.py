@@ -16,7 +16,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 
 from backend.sessions import actions, care, watch
-from backend.sessions.consumers import EXECUTOR_FAILED, _is_ping, _noting
+from backend.sessions.consumers import EXECUTOR_SILENT, _is_ping, _noting
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import spec
 from tests.backend.sessions.test_consumers import opened, relay, session  # noqa: F401 - fixtures
@@ -30,7 +30,7 @@ def quick(monkeypatch):
     """Gives up sooner. Only for managers that are to be given up: a busy machine is late by more."""
     monkeypatch.setattr(watch, "PING_EVERY_S", 0.1)
     monkeypatch.setattr(watch, "NOTED_S", 0.3)
-    monkeypatch.setattr(watch, "GIVEN_UP_S", 1.0)
+    monkeypatch.setattr(watch, "longest_s", lambda: 1.0)
 
 
 # --- silence --------------------------------------------------------------------------------------
@@ -140,7 +140,7 @@ async def until(condition):
 async def test_what_counts_as_an_answer(kind, is_given_up, launcher_of, quick, monkeypatch):
     started = await asyncio.to_thread(launcher_of(kind).start, spec())
     if not is_given_up:
-        monkeypatch.setattr(watch, "GIVEN_UP_S", 5.0)
+        monkeypatch.setattr(watch, "longest_s", lambda: 5.0)
     heard = []
     monkeypatch.setattr(
         watch.Silence, "heard", lambda self, before=watch.Silence.heard: (heard.append(1), before(self))
@@ -172,10 +172,10 @@ def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, 
             os.kill(pid, signal.SIGSTOP)
         with pytest.raises(ConnectionClosed):
             socket.recv()
-        assert (socket.close_code, socket.close_reason) == (EXECUTOR_FAILED, watch.WHY)
+        assert (socket.close_code, socket.close_reason) == (EXECUTOR_SILENT, watch.why())
     assert not psutil.pid_exists(pid)
     failed = api.get(f"sessions/{started['id']}")
-    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+    assert (failed["state"], failed["error"]) == ("failed", watch.why())
     again = api.post(f"projects/{project['id']}/session")
     assert again["id"] != started["id"]
     launched(again["id"])
@@ -203,7 +203,7 @@ def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_onc
     thread.start()
     thread.join()
     failed = api.get(f"sessions/{started['id']}")
-    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+    assert (failed["state"], failed["error"]) == ("failed", watch.why())
     assert not psutil.pid_exists(pid)
 
 
@@ -220,9 +220,9 @@ def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkey
         care.care({})
 
     monkeypatch.setattr(launcher, "stop", stop_and_be_seen)
-    actions.fail_session(Session.objects.get().id, watch.WHY)
+    actions.fail_session(Session.objects.get().id, watch.why())
     failed = api.get(f"sessions/{started['id']}")
-    assert (failed["state"], failed["error"]) == ("failed", watch.WHY)
+    assert (failed["state"], failed["error"]) == ("failed", watch.why())
 
 
 @pytest.mark.django_db(transaction=True)
@@ -230,7 +230,7 @@ def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: 
     started = session("echo")
     launched(started["id"])
     api.delete(f"sessions/{started['id']}")
-    actions.fail_session(Session.objects.get().id, watch.WHY)
+    actions.fail_session(Session.objects.get().id, watch.why())
     assert api.get(f"sessions/{started['id']}")["state"] == "ended"
 
 

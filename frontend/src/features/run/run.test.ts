@@ -63,7 +63,7 @@ describe('bannerFor', () => {
       titleKey: 'banner.silent',
       values: { seconds: '4' },
     });
-    expect(banner?.hint).toMatch(/10 s/);
+    expect(banner?.hint).toMatch(/Run starts another/);
     expect(bannerFor({ ...calm, silentS: 4, connection: 'lost' })?.kind).toBe('connection');
   });
 

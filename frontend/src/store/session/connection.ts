@@ -14,6 +14,8 @@ import { resetTopics, useTopicsStore } from './topics';
 const RETRY_MS = [300, 600, 1200, 2500, 5000];
 /** How often a topic that is listened to is heard. */
 export const ECHO_HZ = 10;
+/** With this code the server closes the socket of a session that it ended because nothing answered. */
+const EXECUTOR_SILENT = 4504;
 const STORAGE_PREFIX = 'bts.session.';
 
 /** States in which the manager gives streams. */
@@ -139,9 +141,10 @@ function openSocket(info: SessionInfo): Promise<void> {
         }
         followState(message);
       },
-      onLost: (_code, reason) => {
+      onLost: (code, reason) => {
         if (!isIntroduced) return reject(new Error(reason || 'The session did not answer.'));
-        onLost(reason);
+        lostBecause = code === EXECUTOR_SILENT ? t('run:banner.givenUp') : '';
+        onLost(lostBecause || reason);
       },
     });
     socket = opened;
@@ -254,6 +257,9 @@ function onLost(reason: string): void {
 
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
 
+/** Why the session was lost, where this page has words of its own for it. */
+let lostBecause = '';
+
 /** Why there is no connection, in the user's words where the browser has only its own. */
 function reasonOf(error: unknown): string {
   if (isOffline(error)) return t('run:banner.unreachable');
@@ -267,7 +273,8 @@ async function retry(): Promise<void> {
   isRetrying = true;
   try {
     const found = await api.getSession(session.id);
-    if (found.state === 'failed' || found.state === 'ended') return onEnded(found.error ?? '');
+    if (found.state === 'failed' || found.state === 'ended')
+      return onEnded(lostBecause || (found.error ?? ''));
     await openSocket(session);
   } catch (error) {
     if (error instanceof ApiError && error.status === 404) return onEnded('');

@@ -7,7 +7,7 @@ import os
 import platform
 import sys
 
-BENCHMARKS = ("engine", "translator", "world", "stream", "session", "opening", "browser")
+BENCHMARKS = ("engine", "translator", "world", "stream", "session", "flood", "opening", "browser")
 
 
 def main(names: list[str]) -> None:

@@ -9,7 +9,12 @@ from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIO
 if TYPE_CHECKING:
     from asyncio import BaseTransport
 
-READ_BYTES: Final = 8 << 10
+READ_BYTES: Final = 4 << 10
+
+
+def read_little(transport: Any) -> None:
+    """Has asyncio hand on less at a time than the 256 KiB that it is used to."""
+    transport.max_size = READ_BYTES
 
 
 class PatientSocket(WebSocketsSansIOProtocol):
@@ -21,6 +26,5 @@ class PatientSocket(WebSocketsSansIOProtocol):
 
     def connection_made(self, transport: BaseTransport) -> None:
         """Called by uvicorn."""
-        sized: Any = transport
-        sized.max_size = READ_BYTES
+        read_little(transport)
         super().connection_made(transport)

@@ -19,6 +19,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.config.problems import NotFoundError
 from backend.config.sockets import ID, Call, Closed
+from backend.config.websocket import read_little
 from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
@@ -37,7 +38,7 @@ log = logging.getLogger(__name__)
 ADDRESS: Final = re.compile(rf"^/ws/sessions/{ID}/(control|stream)$")
 PING: Final = re.compile(r'"command"\s*:\s*"ping"')
 LONGEST_PING: Final = 100
-MESSAGES_IN_TURN: Final = 16
+MESSAGES_IN_TURN: Final = 4
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
 # A container with many processes takes seconds to end after its sockets, on a busy host many.
@@ -83,6 +84,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     try:
         async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
             if is_control:
+                read_little(manager.transport)
                 attendance.join(session_id, send)
             closed = await _relay(manager, noted, send)
     except (OSError, InvalidHandshake, TimeoutError) as error:

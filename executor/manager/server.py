@@ -58,8 +58,8 @@ REPLACED: Final = 4409
 UNEXPECTED: Final = 1003
 # Of one client at a time: what is read is parsed at once, however many frames it holds.
 READ_BYTES: Final = 4 << 10
-COMMANDS_IN_TURN: Final = 16
-MESSAGES_IN_TURN: Final = 32
+COMMANDS_IN_TURN: Final = 8
+MESSAGES_IN_TURN: Final = 16
 _encode = msgspec.json.Encoder().encode
 
 

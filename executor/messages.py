@@ -295,6 +295,21 @@ class TypeDescription(Struct):
     example: dict[str, Any]
 
 
+class TopicMismatch(Struct):
+    """Two ends of a topic do not match, so that nothing arrives; told once for as long as both are there.
+
+    `publisher` and `subscriber` are nodes; `reason` is what differs: the message type, or the quality of
+    service. `hint` is the remedy.
+    """
+
+    topic: str
+    publisher: str
+    subscriber: str
+    reason: Literal["type", "qos"]
+    message: str
+    hint: str
+
+
 class LaunchNode(Struct):
     """An extra process of the project's launch files; `file` and `line` are where it is asked for.
 
@@ -331,6 +346,7 @@ class Snapshot(Struct):
     speed: float
     universe: str
     launch_nodes: list[LaunchNode] = []
+    mismatches: list[TopicMismatch] = []
 
 
 EVENTS: Final[dict[str, type[Struct]]] = {
@@ -350,6 +366,7 @@ EVENTS: Final[dict[str, type[Struct]]] = {
     "topics": Topics,
     "topic_message": TopicMessage,
     "type_description": TypeDescription,
+    "topic_mismatch": TopicMismatch,
     "launch_nodes": LaunchNodes,
 }
 

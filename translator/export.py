@@ -11,7 +11,7 @@ from translator.action import ActionModel, source_text
 from translator.check import check
 from translator.diagnostic import TranslatorError, errors_in
 from translator.importer import main_tree_of
-from translator.tree import used_types
+from translator.tree import reachable_trees, used_types
 from translator.xml.escape import attribute, cdata
 from translator.xml.patch import patch_document
 from translator.xml.read import Document, read_document
@@ -106,6 +106,17 @@ def used_actions(project: Project) -> list[ActionModel]:
     """Returns the actions that some tree uses, by name."""
     used = used_types(project.trees.values())
     return [project.actions[name] for name in sorted(project.actions) if name in used]
+
+
+def unwritten_actions(project: Project) -> list[str]:
+    """Returns the names of the actions that are stubs, of those that the main tree may run."""
+    from tree_gardener.stubs import is_stub  # noqa: PLC0415 - the engine loads py_trees
+
+    reached = reachable_trees(project.trees, project.settings.main_tree)
+    used = used_types(project.trees[tree_id] for tree_id in reached)
+    return [
+        name for name in sorted(project.actions) if name in used and is_stub(project.actions[name].source)
+    ]
 
 
 def write_self_contained(project: Project) -> str:

@@ -12,9 +12,10 @@ from translator.catalog import NodeModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.project import Project, assemble
+from translator.proposal import propose
 from translator.settings import MAX_NAME, PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
-from translator.tree import Tree
+from translator.tree import Tree, used_types
 from translator.xml.read import Document, read_document
 
 if TYPE_CHECKING:
@@ -101,9 +102,12 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     if not trees:
         raise TranslatorError([*work.found, diagnostic("BT0734", Place(file, line=1, column=1))])
     documents = list(work.documents.values())
+    sources = _actions(trees, documents, actions or {}, stubs=stubs)
+    settings, proposed = with_proposal(settings, trees, sources)
+    work.found.extend(proposed)
     files = {f"{IMPORTS}{path}": work.files[path] for path in work.documents}
     files.update(project_files(settings, trees))
-    files.update(_actions(trees, documents, actions or {}, stubs=stubs))
+    files.update(sources)
     project = assemble(settings, (_placed(tree, places) for tree in trees), files)
     found = [item.moved(file=f"{places}{item.place.file}") for item in work.found]
     return replace(project, diagnostics=(*found, *project.diagnostics))
@@ -115,6 +119,25 @@ def _placed(tree: Tree, places: str) -> Tree:
         return replace(tree, file=f"{places}{tree.file}")
     nodes = {key: replace(node, span=None) for key, node in tree.nodes.items()}
     return replace(tree, nodes=nodes, file=diagram_path(tree.id))
+
+
+def with_proposal(
+    settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]
+) -> tuple[Settings, list[Diagnostic]]:
+    """Chooses the universe, and the robot, that fit the topics of the actions that the trees use."""
+    used = used_types(trees)
+    actions = {path: raw for path, raw in files.items() if _action_name(path) in used}
+    proposal = propose(actions, hints=[settings.name])
+    if proposal is None:
+        return settings, []
+    chosen = {"universe": proposal.universe, "robot": proposal.robot}
+    place = Place(PROJECT_FILE, line=1)
+    note = diagnostic("BT0742", place, universe=proposal.universe, topics=proposal.reason)
+    return settings.model_copy(update=chosen), [note]
+
+
+def _action_name(path: str) -> str:
+    return path.removeprefix("actions/").removesuffix(".py") if path.endswith(".py") else ""
 
 
 def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]:

@@ -7,7 +7,6 @@ import keyword
 from typing import TYPE_CHECKING
 
 from translator.catalog import PortModel
-from translator.check.action import STUB_MARK
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -27,6 +26,8 @@ def stub_source(
     name: str, model: NodeModel | None, ports_seen: Iterable[str], *, kind: str = "action"
 ) -> str:
     """Returns the source of an action that is still to be written, with the ports seen in the tree."""
+    from tree_gardener.stubs import STUB_UPDATE  # noqa: PLC0415 - the engine loads py_trees
+
     seen = sorted(set(ports_seen))
     declared = list(model.ports.values()) if model is not None else []
     if declared:
@@ -38,7 +39,7 @@ def stub_source(
     lines += ["", f"class {name}(py_trees.behaviour.Behaviour):", *_docstring([] if declared else seen), ""]
     if kind == "condition":
         lines += ['    NODE_KIND = "Condition"', ""]
-    lines += [*_declarations(declared), *_METHODS]
+    lines += [*_declarations(declared), *_METHODS, STUB_UPDATE]
     return "\n".join(lines)
 
 
@@ -47,13 +48,12 @@ _METHODS = (
     "        super().__init__(name)",
     "        self.ports = ports or {}",
     "",
-    "    def update(self):",
-    "        return py_trees.common.Status.FAILURE",
-    "",
 )
 
 
 def _docstring(seen: list[str]) -> list[str]:
+    from tree_gardener.stubs import STUB_MARK  # noqa: PLC0415 - as above
+
     if not seen:
         return [f'    """{STUB_MARK}."""']
     return [f'    """{STUB_MARK}.', "", f"    Ports seen in the imported tree: {', '.join(seen)}.", '    """']

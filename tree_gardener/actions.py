@@ -108,7 +108,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
             exec(code, module.__dict__)  # noqa: S102 - running the user's actions is what this is for
         except LoadError:
             raise  # of an action that this one imports
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             del sys.modules[module.__name__]
             raise LoadError([_raised(name, filename, error)]) from error
         return module
@@ -120,7 +120,7 @@ def _problem(  # noqa: PLR0913 - one diagnostic
     return Diagnostic(code, message, hint, file=f"{PACKAGE}/{name}.py", line=line, column=column, node=name)
 
 
-def _raised(name: str, filename: str, error: Exception) -> Diagnostic:
+def _raised(name: str, filename: str, error: Exception | SystemExit) -> Diagnostic:
     line, trace = 0, error.__traceback__
     while trace is not None:
         if trace.tb_frame.f_code.co_filename == filename:

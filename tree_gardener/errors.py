@@ -150,5 +150,7 @@ def _format(cause: BaseException | None) -> str:
 
 def describe(error: BaseException) -> str:
     """Type and text of an exception, in one line."""
+    if isinstance(error, SystemExit):
+        return f"the action called sys.exit({error.code!r})"
     text = str(error)
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -271,7 +271,7 @@ class Builder:
             if entry is None:
                 try:
                     board.create(key, kind_of_port)
-                except Exception as error:
+                except (Exception, SystemExit) as error:
                     self.report(element, "TG306", str(error), "", name)
             elif (
                 entry.type is not None
@@ -311,7 +311,7 @@ class Builder:
             behaviour.tree_gardener_node = node
             node.bind(behaviour)
             rebind(behaviour)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             _LOG.debug("the action %s cannot be made", kind.name, exc_info=True)
             hint = "look at its __init__: it is called with the node's name"
             self.report(node.element, "TG604", f"{kind.name} cannot be made: {describe(error)}", hint)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tree_gardener.errors import TickError
+from tree_gardener.node import Node
 from tree_gardener.runner import Overrun, Runner
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
@@ -39,6 +40,7 @@ class RosRunner:
         node: the rclpy node; it is handed to ``setup`` of each action.
         tick_hz: ticks a second.
         finished: called with the root's last status when the run ends by itself.
+        callback_group: of the timer; else one of its own, so that an action may spin the node within a tick.
         more: arguments of `Runner`.
     """
 
@@ -49,17 +51,22 @@ class RosRunner:
         *,
         tick_hz: float,
         finished: Callable[[Status], None] | None = None,
+        callback_group: Any = None,
         **more: Any,
     ) -> None:
+        from rclpy.callback_groups import MutuallyExclusiveCallbackGroup  # noqa: PLC0415 - as needed here
+
         self._node = node
         self._clock = RosClock(node)
         self._log = node.get_logger()
         more.setdefault("fault", self._log_fault)
         more.setdefault("overrun", self._log_overrun)
+        tree.on_warning = self._log_warning
         tree.setup(node=node)
         self.runner = Runner(tree, tick_hz=tick_hz, finished=finished, **more)
         # A few calls a period: the runner itself decides when a tick is due, so that the rate can change.
-        self._timer = node.create_timer(self.runner.period_s / 4.0, self.poll)
+        group = callback_group or MutuallyExclusiveCallbackGroup()
+        self._timer = node.create_timer(self.runner.period_s / 4.0, self.poll, callback_group=group)
 
     def poll(self) -> None:
         """Ticks if a tick is due."""
@@ -72,6 +79,9 @@ class RosRunner:
 
     def _log_fault(self, error: TickError) -> None:
         self._log.error(f"{error}\n{error.traceback_text}")
+
+    def _log_warning(self, node: Node, message: str) -> None:
+        self._log.warning(f"node '{node.path}': {message}")
 
     def _log_overrun(self, overrun: Overrun) -> None:
         tree = self.runner.tree

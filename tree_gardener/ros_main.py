@@ -93,20 +93,21 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
         log.error(str(error))
         return 1
     finally:
-        node.destroy_node()
+        node.close()
         rclpy.try_shutdown()
 
 
 def _made(name: str, words: "list[str]") -> Any:
-    import rclpy  # noqa: PLC0415
     from rclpy.exceptions import InvalidParameterTypeException  # noqa: PLC0415
     from rclpy.parameter import Parameter  # noqa: PLC0415
     from rclpy.utilities import remove_ros_args  # noqa: PLC0415
 
+    from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
+
     given = read_arguments(remove_ros_args(words))
     overrides = [Parameter(key, value=value) for key, value in given.items()]
     try:
-        return rclpy.create_node(name, parameter_overrides=overrides)
+        return ActionNode(name, parameter_overrides=overrides)
     except InvalidParameterTypeException as error:
         # At this point rclpy has declared parameters of its own only.
         problem = sim_time_problem(words) if "'use_sim_time'" in str(error) else str(error)
@@ -121,19 +122,29 @@ def _in_one_line(error: Exception) -> str:
 
 def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None") -> int:
     import rclpy  # noqa: PLC0415
+    from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
+
+    from tree_gardener.ros_node import guard_rclpy  # noqa: PLC0415
 
     stop = threading.Event()
-    with _handled_signals(stop):
-        runner = _load(node, settings, actions, stop)
-        if runner is None:
-            return 1
-        patience = _ClockPatience(node)
-        while rclpy.ok() and not stop.is_set():
-            rclpy.spin_once(node, timeout_sec=_POLL_S)
-            patience.look()
-        failed = runner.runner.error is not None
-        runner.shutdown()
-        return 1 if failed else 0
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    end_guard = guard_rclpy()
+    try:
+        with _handled_signals(stop):
+            runner = _load(node, settings, actions, stop)
+            if runner is None:
+                return 1
+            patience = _ClockPatience(node)
+            while rclpy.ok() and not stop.is_set():
+                executor.spin_once(timeout_sec=_POLL_S)
+                patience.look()
+            failed = runner.runner.error is not None
+            runner.shutdown()
+            return 1 if failed else 0
+    finally:
+        end_guard()
+        executor.shutdown()
 
 
 class _ClockPatience:
@@ -160,6 +171,8 @@ class _ClockPatience:
 def _load(
     node: Any, settings: RunParameters, actions: "str | pathlib.Path | None", stop: threading.Event
 ) -> "RosRunner | None":
+    from tree_gardener.ros_node import MainThreadGroup  # noqa: PLC0415 - the engine works without ROS
+
     log = node.get_logger()
     path = settings.tree
 
@@ -178,6 +191,7 @@ def _load(
             on_finish=settings.on_finish,
             on_error=settings.on_error,
             finished=finished,
+            callback_group=MainThreadGroup(),
         )
     except OSError as error:
         log.error(f"{path} cannot be read: {error.strerror}")

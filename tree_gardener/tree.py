@@ -1,5 +1,6 @@
 """A behaviour tree that runs."""
 
+import logging
 import pathlib
 import threading
 from collections.abc import Callable, Mapping, Sequence
@@ -23,6 +24,8 @@ from tree_gardener.substitution import parse_rules
 
 T = TypeVar("T")
 
+_log = logging.getLogger("tree_gardener")
+
 
 class Tree:
     """A tree of nodes, its blackboard, and the functions that tick it.
@@ -36,6 +39,8 @@ class Tree:
         again soon. on_error: called with the error when an action raises, which then counts as FAILURE of its
         node; if None, the
             error is raised out of the tick.
+        on_warning: called with a node and a sentence where something is tolerated, once a node and sentence;
+            if None, the sentence goes to the logger ``tree_gardener``.
         tick_number: how many ticks there were.
         current_uid: the action that is being ticked, while leaves are timed; else 0.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
@@ -53,6 +58,8 @@ class Tree:
         self.depth = 0
         self.wake_up = False
         self.on_error: Callable[[TickError], None] | None = None
+        self.on_warning: Callable[[Node, str], None] | None = None
+        self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
         self.current_uid = 0
         self.slowest: tuple[float, int] = (0.0, 0)
@@ -176,7 +183,7 @@ class Tree:
         for leaf in self._leaves():
             try:
                 leaf.instance_behaviour.setup(node=node, **kwargs)
-            except Exception as error:
+            except (Exception, SystemExit) as error:
                 raise TickError(leaf, describe(error), error) from error
 
     def halt(self) -> None:
@@ -207,7 +214,7 @@ class Tree:
         for leaf in self._leaves():
             try:
                 leaf.instance_behaviour.shutdown()
-            except Exception as error:
+            except (Exception, SystemExit) as error:
                 first = first or TickError(leaf, describe(error), error)
         if first is not None:
             raise first
@@ -331,6 +338,16 @@ class Tree:
 
     def _guarded_without_telling(self, function: Callable[[], T]) -> T:
         return call_deep(function, self.depth) if self.depth > DEEP else function()
+
+    def warn(self, node: Node, message: str) -> None:
+        """Says once what is tolerated of a node."""
+        if (node.uid, message) in self._warned:
+            return
+        self._warned.add((node.uid, message))
+        if self.on_warning is not None:
+            self.on_warning(node, message)
+        else:
+            _log.warning("node '%s': %s", node.path, message)
 
     # -- observation and hooks ----------------------------------------------------------------------
 

@@ -22,6 +22,7 @@ def import_(
     from backend.cli.errors import BAD_ARGUMENTS, CliError
     from translator import TranslatorError
     from translator.package.zip import write_zip
+    from tree_gardener.stubs import is_stub
 
     is_zip = output.suffix.lower() == ".zip"
     if output.exists() and (is_zip or not output.is_dir() or any(output.iterdir())):
@@ -35,9 +36,7 @@ def import_(
     else:
         for path, raw in project.files.items():
             cli.write_file(output / path, raw)
-    stubs = sorted(
-        name for name, action in project.actions.items() if "bt-studio: to be written" in action.source
-    )
+    stubs = sorted(name for name, action in project.actions.items() if is_stub(action.source))
     if as_json:
         cli.print_json(
             {
@@ -45,12 +44,14 @@ def import_(
                 "trees": sorted(project.trees),
                 "actions": sorted(project.actions),
                 "to_be_written": stubs,
+                "universe": project.settings.universe,
                 "diagnostics": [item.to_json() for item in project.diagnostics],
             }
         )
         return
     cli.tell(project.diagnostics)
     print(f"{output}: {_counted(len(project.trees), 'tree')}, {_counted(len(project.actions), 'action')}")
+    print(f"Universe: {project.settings.universe}")
     if stubs:
         print(f"To be written: {', '.join(f'actions/{name}.py' for name in stubs)}")
 

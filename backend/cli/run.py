@@ -44,10 +44,12 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print the report as JSON.")] = False,  # noqa: FBT002
 ) -> None:
-    """Runs a project; exit status 1 if it cannot be run or an action raised."""
+    """Runs a project; exit status 1 if it cannot be run, an action raised, or one is an unwritten stub."""
     from backend.cli import _translation as cli
     from backend.cli.errors import CliError
     from translator import TranslatorError
+    from translator.export import unwritten_actions
+    from tree_gardener.stubs import stubs_sentence
 
     if lockstep and viewer:
         text = "lock-step is too fast to look at; leave out one of the two"
@@ -57,8 +59,12 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         raise typer.BadParameter(text, param_hint="--universe")
     if lockstep:
         _fix_hashes()
+    stubs: list[str] = []
     try:
         opened = cli.open_project(project)
+        stubs = unwritten_actions(opened)
+        if stubs and lockstep:  # else the session says so
+            sys.stderr.write(f"{stubs_sentence(stubs)}\n")
         if lockstep:
             from executor.headless.lockstep import LockstepOptions
 
@@ -80,8 +86,9 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
         print(_summary(done))
     if lockstep and not done.random and not as_json:
         print("Nothing in this run was random: every seed gives the same.")
-    if done.errors:
-        raise CliError(*(_fault_line(fault) for fault in done.errors))
+    faults = [_fault_line(fault) for fault in done.errors]
+    if faults or stubs:
+        raise CliError(*faults, *(f"actions/{name}.py:1:1: stub {stubs_sentence([name])}" for name in stubs))
 
 
 def _fix_hashes() -> None:

@@ -14,6 +14,7 @@ __all__ = ["limit_forks"]
 FORKS: Final = 64
 WINDOW_S: Final = 2.0
 _STATE: Final = struct.Struct("dq")
+_limited: Final[list[bool]] = []
 
 
 def limit_forks() -> None:
@@ -22,8 +23,12 @@ def limit_forks() -> None:
     Who asks again while it is refused prolongs the refusal: on a machine so busy that the forked take long to
     end, each of them would else get another share, and there would be ever more of them.
 
-    It is a guard against accidents; the manager counts the processes and ends a tree that has too many.
+    It is a guard against accidents; the manager counts the processes and ends a tree that has too many. It
+    stays for the life of the process; again is harmless.
     """
+    if _limited:
+        return
+    _limited.append(True)
     shared = mmap.mmap(-1, mmap.PAGESIZE)  # anonymous and shared: forked processes count on
 
     def audit(event: str, _: tuple[Any, ...]) -> None:

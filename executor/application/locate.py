@@ -65,6 +65,13 @@ class Locator:
             frame = frame.f_back
         return None
 
+    def place_of_error(self, error: BaseException) -> Place:
+        """Returns where an exception was raised."""
+        trace, frame = error.__traceback__, None
+        while trace is not None:
+            frame, trace = trace.tb_frame, trace.tb_next
+        return self.place_of(frame)
+
     def place_of(self, frame: FrameType | None) -> Place:
         """Returns node, file and line of a stack, innermost user code first."""
         node = self.node_of(frame)

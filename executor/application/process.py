@@ -23,7 +23,6 @@ from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
 
 if TYPE_CHECKING:
-    from executor.application.locate import Place
     from executor.application.ros import Graph
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.runner import Runner
@@ -172,8 +171,8 @@ class Application:
             return
         from executor.application.ros import Graph  # noqa: PLC0415 - after the environment is set
 
-        old, self._graph = self._graph, Graph(domain_id, self._on_clock, outside=outside)
-        old.close()
+        self._graph.close()  # first: both would have rclpy's default context
+        self._graph = Graph(domain_id, self._on_clock, outside=outside)
 
     def _load(self, start: dict[str, Any]) -> bool:
         from executor.application.locate import Place  # noqa: PLC0415
@@ -181,24 +180,23 @@ class Application:
         try:
             tree = self._build(Path(start["app_dir"]), int(start.get("seed", 0)))
             self._locator.learn(tree)
+            tree.on_warning = self._reporter.tolerated
             self._reporter.tree(tree)
+            self._reporter.stubs(tree)
             self._make_runner(tree, start)
         except BaseException as error:
-            place = self._place_of(error) if not isinstance(error, SystemExit) else Place()
+            place = self._locator.place_of_error(error) if not isinstance(error, SystemExit) else Place()
             self._reporter.not_loaded(error, place)
             return False
         return True
 
     def _build(self, folder: Path, seed: int) -> Tree:
-        from executor.application.forks import limit_forks  # noqa: PLC0415
+        from executor.application.host import enter  # noqa: PLC0415
         from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from tree_gardener import Tree  # noqa: PLC0415
 
-        os.chdir(folder)
+        enter(folder)
         seed_randomness(seed)
-        # Modules of the project can be imported by name; ours and Python's come first.
-        sys.path += [str(folder), str(folder / "actions")]
-        limit_forks()
         document = folder / "self_contained_tree.xml"
         return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
 
@@ -248,7 +246,7 @@ class Application:
             self._reporter.hangs(f"{interrupted.place} did not return and was broken off", interrupted.place)
             self._end_broken("The tick did not return.")
         except BaseException as error:
-            self._reporter.broke_out("exception", error, self._place_of(error))
+            self._reporter.broke_out("exception", error, self._locator.place_of_error(error))
             self._end_broken("An action broke out of its tick.")
 
     def _end_broken(self, message: str) -> None:
@@ -261,7 +259,7 @@ class Application:
         if error is not None:
             self._reporter.finished(status, "action_raised", f"The run ended: {error.message}.")
         else:
-            self._reporter.finished(status, "root_finished", f"The tree ended with {status.name}.")
+            self._reporter.ended(status)
         raise _Stop
 
     def _say_goodbye(self) -> None:
@@ -270,16 +268,9 @@ class Application:
         try:
             self._runner.shutdown()
         except BaseException as error:
-            self._reporter.broke_out("exception", error, self._place_of(error))
+            self._reporter.broke_out("exception", error, self._locator.place_of_error(error))
         for stream in (sys.stdout, sys.stderr):
             stream.flush()
-
-    def _place_of(self, error: BaseException) -> Place:
-        trace = error.__traceback__
-        frame = None
-        while trace is not None:
-            frame, trace = trace.tb_frame, trace.tb_next
-        return self._locator.place_of(frame)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -294,10 +285,9 @@ def main(arguments: list[str] | None = None) -> None:
         os.environ.setdefault(name, value)
     channel = Channel(options.channel_fd)
 
-    from executor.application import compat  # noqa: PLC0415 - ROS reads the environment when it is loaded
+    from executor.application.host import prepare  # noqa: PLC0415 - ROS reads the environment when loaded
 
-    compat.warm_up()
-    compat.install()
+    prepare()
     application = Application(channel)
     own_pid = os.getpid()
     try:

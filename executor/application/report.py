@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.application.preview import preview
 from tree_gardener import BlackboardChange, LoadError, TickError
+from tree_gardener.stubs import stubs_sentence, unwritten
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.application.locate import Place
     from tree_gardener import Status, TickChanges, Tree
+    from tree_gardener.node import Node
 
 __all__ = ["Reporter", "describe_tree"]
 
@@ -64,10 +66,27 @@ class Reporter:
         self._entries_due_s = 0.0
         self._ticks_due_s = 0.0
         self._faults_s: dict[tuple[str, str], float] = {}
+        self._stubs = ""
 
     def tree(self, tree: Tree) -> None:
         """The tree is built."""
         self._send({"type": "tree", "nodes": describe_tree(tree)})
+
+    def stubs(self, tree: Tree) -> None:
+        """The tree is built; says which of its actions nobody has written."""
+        if names := unwritten(tree):
+            self._stubs = stubs_sentence(names)
+            self._send({"type": "log", "level": "warning", "text": self._stubs})
+
+    def tolerated(self, node: Node, message: str) -> None:
+        """Something is tolerated of an action; the engine says it once."""
+        place = {"node_id": node.node_id, "node_path": node.path}
+        self._send({"type": "log", "level": "warning", "text": message, **place})
+
+    def ended(self, status: Status) -> None:
+        """The root succeeded, failed or was skipped."""
+        text = f"The tree ended with {status.name}. {self._stubs}".strip()
+        self.finished(status, "root_finished", text)
 
     def ticked(self, changes: TickChanges) -> None:
         """Observes the tree."""

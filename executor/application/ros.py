@@ -5,15 +5,15 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any, Final
 
-import rclpy
-from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
+from executor.ros.default_context import DefaultContext
 from executor.ros.spin import PatientExecutor
+from tree_gardener.ros_node import ActionNode, MainThreadGroup
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,14 +30,18 @@ _OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
 
 
 class Graph:
-    """Context, node and executor. It is also the clock of the tree: the time of the last `/clock`."""
+    """Context, node and executor. It is also the clock of the tree: the time of the last `/clock`.
+
+    The context is rclpy's default one, so that `rclpy.ok()` and `rclpy.create_node()` work in actions; there
+    can be one graph at a time.
+    """
 
     def __init__(self, domain_id: int, on_clock: Callable[[float], None], *, outside: bool = False) -> None:
-        self._context = Context()
-        rclpy.init(context=self._context, domain_id=domain_id)
+        self._default = DefaultContext(domain_id, simulated=not outside)
+        self._context = self._default.context
         self.domain_id = domain_id
         simulated = not outside or self._has_clock()
-        self.node = Node(
+        self.node = ActionNode(
             NODE_NAME,
             context=self._context,
             parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, simulated)],
@@ -46,10 +50,13 @@ class Graph:
         self._start_s = time.monotonic()
         self.has_time = False
         self._on_clock = on_clock
+        # Ticks have a group of their own: an action may spin the node within one.
+        group = MainThreadGroup()
         if simulated:
-            self.node.create_subscription(Clock, "/clock", self._take_clock, _CLOCK_QOS)
+            take = self._take_clock
+            self.node.create_subscription(Clock, "/clock", take, _CLOCK_QOS, callback_group=group)
         else:
-            self.node.create_timer(WALL_PERIOD_S, self._take_wall_time)
+            self.node.create_timer(WALL_PERIOD_S, self._take_wall_time, callback_group=group)
         self._executor = PatientExecutor(context=self._context)
         self._executor.add_node(self.node)
 
@@ -85,8 +92,8 @@ class Graph:
     def close(self) -> None:
         """Leaves the graph."""
         self._executor.shutdown(timeout_sec=0.2)
-        self.node.destroy_node()
-        self._context.try_shutdown()
+        self.node.close()
+        self._default.close()
 
     def _has_clock(self) -> bool:
         """Whether an outside graph has simulated time; only then somebody publishes it."""

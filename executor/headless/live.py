@@ -18,6 +18,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor import messages
 from executor.headless.errors import HeadlessError
+from executor.headless.lines import mismatch_line
 from executor.headless.measured import Measured
 from executor.headless.recording import Recording, decode_frame, open_recording
 from executor.headless.viewer import RunViewer
@@ -235,7 +236,10 @@ class _Runner:
         if reply is not None:
             reply.set_result(message)
         elif name == "log" and data["source"] == "action":
-            self._say(data["text"])
+            is_about = data["level"] == "warning" and data["node_path"]
+            self._say(f"{data['node_path']}: {data['text']}" if is_about else data["text"])
+        elif name == "topic_mismatch":
+            self._say(mismatch_line(data))
         else:
             self._measured.take_event(name, data, message["t"])
 

@@ -11,13 +11,17 @@ import math
 import os
 import sys
 import time
+import traceback
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.headless.files import write_files
+from executor.headless.lines import mismatch_line
 from executor.headless.report import NodeCount, Report, quantiles
 from executor.ros.environment import lockstep_environment
 from executor.supervision.scratch import Scratch
+from tree_gardener.errors import describe
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +39,9 @@ if TYPE_CHECKING:
 
 PERIOD_STEPS: Final = 4  # steps between looks at the world's topics, as in real time
 TRAJECTORY_HZ: Final = 10.0
-MESSAGE_MODULES: Final = ("geometry_msgs", "nav_msgs", "sensor_msgs", "std_msgs")
+TREE_FILE: Final = "self_contained_tree.xml"
+MISMATCHES_S: Final = 5.0
+TOO_LONG: Final = "an action waited in rclpy until the end of the run; let update() return RUNNING instead"
 
 
 @dataclass(frozen=True)
@@ -58,6 +64,7 @@ def run_lockstep(
     *,
     progress: Progress | None = None,
     watch: Callable[[BulletWorld], None] | None = None,
+    say: Callable[[str], None] | None = None,
 ) -> Report:
     """Runs a project until its tree ends or the time is over.
 
@@ -66,6 +73,7 @@ def run_lockstep(
         options: what differs from the project's own settings.
         progress: called about once a simulated second with the simulated time.
         watch: called before each tick with the world, for measurements.
+        say: called with each warning; on standard error if None.
 
     Raises:
         TranslatorError: the project has errors.
@@ -75,8 +83,9 @@ def run_lockstep(
         HeadlessError: the recording cannot be written.
     """
     _use_environment()
-    run = _Run(_open(project), options or LockstepOptions())
+    run = _Run(_open(project), options or LockstepOptions(), say or _say)
     try:
+        run.set_up()
         return run.play(progress, watch)
     finally:
         run.close()
@@ -85,18 +94,22 @@ def run_lockstep(
 class _Run:
     """One run: world, application and what connects them."""
 
-    def __init__(self, project: Project, options: LockstepOptions) -> None:
-        from rclpy.context import Context  # noqa: PLC0415 - ROS reads the environment when it is loaded
-
+    def __init__(self, project: Project, options: LockstepOptions, say: Callable[[str], None]) -> None:
         settings = project.settings
+        self._project = project
         self._options = options
+        self._say = say
         self._tick_hz = options.tick_hz or settings.tick_hz
         self._on_finish = options.on_finish or settings.on_finish
         self._on_error = options.on_error or settings.on_error
         self._report = Report()
         self._durations: list[float] = []
-        self._context = Context()
         self._stack: list[Callable[[], object]] = []
+        self._scribe: Scribe | None = None  # until the tree is there
+
+    def set_up(self) -> None:
+        """Makes world and application; what was made is taken down by `close` in any case."""
+        project = self._project
         recording = self._open_recording(project)
         self._world = self._make_world(project)
         self._stack.append(self._world.close)
@@ -120,7 +133,11 @@ class _Run:
         ticks = math.floor(self._options.duration_s * self._tick_hz + 1e-9)
         for number in range(ticks):
             self._advance(round(number / self._tick_hz / self._world.step_s))
-            self._executor.drain()
+            if not self._call_back():
+                self._report.root_status = "FAILURE"
+                break
+            if number % max(1, round(self._tick_hz * MISMATCHES_S)) == 1:
+                self._mismatches.look()
             if watch is not None:
                 watch(self._world)
             status = self._tick(runner)
@@ -159,43 +176,57 @@ class _Run:
         return make_world(text, seed=self._options.seed, robot=robot, assets=scratch.path, file=file)
 
     def _join_ros(self) -> None:
-        import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
-        from rclpy.node import Node  # noqa: PLC0415
-        from rclpy.parameter import Parameter  # noqa: PLC0415
+        from rclpy.parameter import Parameter  # noqa: PLC0415 - ROS reads the environment when loaded
 
+        from executor.headless.waiting import wait_in_simulation  # noqa: PLC0415
         from executor.render import make_renderer  # noqa: PLC0415
+        from executor.ros.default_context import DefaultContext  # noqa: PLC0415
+        from executor.ros.mismatches import Mismatches  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
         from executor.world.sensors import Sensors  # noqa: PLC0415
+        from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
 
-        rclpy.init(context=self._context)
-        self._stack.append(self._context.try_shutdown)
+        default = DefaultContext(simulated=True)
+        context = default.context
+        self._stack.append(default.close)
         self._sensors = Sensors(self._world, make_renderer)
         self._stack.append(self._sensors.close)
         renamed = {place.id: place.topics for place in self._world.universe.robots}
-        self._node = WorldNode(self._world, self._context, topics=renamed, clock_hz=self._tick_hz)
+        self._node = WorldNode(self._world, context, topics=renamed, clock_hz=self._tick_hz)
         self._stack.append(self._node.close)
-        self._application = Node(
+        self._application = ActionNode(
             "application",
-            context=self._context,
+            context=context,
             parameter_overrides=[Parameter("use_sim_time", Parameter.Type.BOOL, True)],  # noqa: FBT003
         )
-        self._stack.append(self._application.destroy_node)
-        self._executor: DrainingExecutor = DrainingExecutor(context=self._context)
+        self._stack.append(self._application.close)
+        self._executor: DrainingExecutor = DrainingExecutor(context=context)
         self._executor.add_node(self._application)
         self._stack.append(self._executor.shutdown)
+        self._mismatches = Mismatches(self._application, lambda found: self._say(mismatch_line(found)))
+        self._stack.append(wait_in_simulation(lambda: self._world.time_s, self._let_time_pass))
 
     def _make_tree(self, project: Project) -> Tree:
+        from executor.application.host import enter, prepare  # noqa: PLC0415 - after the environment
+        from executor.application.locate import Locator  # noqa: PLC0415
         from executor.application.randomness import seed_randomness  # noqa: PLC0415
         from translator import self_contained  # noqa: PLC0415
-        from tree_gardener import Tree  # noqa: PLC0415 - after the environment
+        from translator.package.app import app_files  # noqa: PLC0415
+        from tree_gardener import Tree  # noqa: PLC0415
 
-        for package in MESSAGE_MODULES:  # programs use `geometry_msgs.msg` after `import geometry_msgs`
-            __import__(f"{package}.msg")
-        app = project.files.get("self_contained_tree.xml")
+        app = project.files.get(TREE_FILE)
         text = app.decode("utf-8") if app is not None else self_contained(project)
+        folder = Scratch()
+        self._stack.append(folder.remove)
+        write_files(folder.path, app_files(project))
+        prepare()
+        self._stack.append(enter(folder.path))
         self._randomness = seed_randomness(self._options.seed)
         tree = Tree.from_xml(text, clock=_WorldClock(self._world))
+        tree.on_warning = lambda node, message: self._say(f"{node.path}: {message}")
+        self._locator = Locator()
+        self._locator.learn(tree)
         tree.setup(node=self._application)
         self._stack.append(tree.shutdown)
         tree.add_hook(after=self._count)
@@ -236,6 +267,22 @@ class _Run:
                 if self._scribe is not None:
                     self._scribe.look()
 
+    def _let_time_pass(self) -> None:
+        """An action waits: its world goes on, as it would in real time."""
+        if self._world.time_s >= self._options.duration_s:
+            raise TimeoutError(TOO_LONG)
+        self._advance(round(self._world.time_s / self._world.step_s) + PERIOD_STEPS)
+        self._node.poll()
+
+    def _call_back(self) -> bool:
+        """Runs the callbacks of the actions; tells whether none of them broke."""
+        try:
+            self._executor.drain()
+        except (Exception, SystemExit) as error:
+            self._note_broken(error)
+            return False
+        return True
+
     def _tick(self, runner: Any) -> Status | None:
         began_s = time.perf_counter()
         status: Status | None = runner.tick_due(self._world.time_s)
@@ -248,6 +295,21 @@ class _Run:
         name = status.name.lower()
         if hasattr(count, name):
             setattr(count, name, getattr(count, name) + 1)
+
+    def _note_broken(self, error: BaseException) -> None:
+        """Notes what a callback raised."""
+        place = self._locator.place_of_error(error)
+        self._report.errors.append(
+            {
+                "node_path": place.node_path,
+                "node_id": place.node_id,
+                "file": place.file,
+                "line": place.line,
+                "message": describe(error),
+                "traceback": "".join(traceback.format_exception(error)),
+                "t": self._world.time_s,
+            }
+        )
 
     def _note_fault(self, error: TickError) -> None:
         if self._scribe is not None:
@@ -318,13 +380,11 @@ def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
 
 def _write_assets(project: Project, folder: Path) -> None:
     """Writes the project's robots and assets where the world finds them."""
-    for name, data in project.files.items():
-        if name.startswith(("assets/", "robots/")):
-            path = folder / name
-            if not path.resolve().is_relative_to(folder.resolve()):
-                raise ValueError(f"{name!r} leads out of the project")
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_bytes(data)
+    write_files(folder, {k: v for k, v in project.files.items() if k.startswith(("assets/", "robots/"))})
+
+
+def _say(line: str) -> None:
+    sys.stderr.write(f"{line}\n")
 
 
 def _use_environment() -> None:

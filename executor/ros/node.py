@@ -6,15 +6,16 @@ thread and an order of its own, and the same node serves real time and lock-step
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 
 from executor.ros import messages
 from executor.ros.environment import has_tf
 from executor.ros.feed import Due, Feed, Feeds
+from executor.ros.outlet import Outlet, Piped
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics, take
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
 __all__ = ["CLOCK_HZ", "Due", "WorldNode", "take"]
 
 CLOCK_HZ: Final = 60.0
-_CLOCK_QOS: Final = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+_CLOCK_QOS: Final = QoSProfile(depth=10)
+_TF_QOS: Final = QoSProfile(depth=100)
 
 
 class WorldNode:
@@ -41,19 +43,22 @@ class WorldNode:
         *,
         topics: dict[str, dict[str, str]] | None = None,
         clock_hz: float = CLOCK_HZ,
+        outlet: Outlet | None = None,
     ) -> None:
         self._world = world
+        self._outlet = outlet
         self.node = Node(
             "world",
             context=context,
             start_parameter_services=False,
             enable_rosout=False,
+            use_global_arguments=False,
         )
-        self._clock = self.node.create_publisher(Clock, "/clock", _CLOCK_QOS)
+        self._clock = self._publisher(Clock, "/clock", _CLOCK_QOS)
         self._clock_due = Due(clock_hz)
         renamed = topics or {}
         self._robots = [
-            RobotTopics(self.node, self._finder(i), i, renamed.get(robot.id, {}))
+            RobotTopics(self.node, self._finder(i), i, renamed.get(robot.id, {}), outlet)
             for i, robot in enumerate(world.robots)
         ]
         feeds = [feed for robot in self._robots for feed in robot.feeds]
@@ -73,6 +78,8 @@ class WorldNode:
         if self._clock_due(now_s):
             self.publish_clock()
         self._feeds.publish(sensors, now_s)
+        if self._outlet is not None:
+            self._outlet.flush()
 
     def publish_clock(self) -> None:
         """Sends the simulated time, also while it stands still."""
@@ -93,18 +100,24 @@ class WorldNode:
 
     def close(self) -> None:
         """Leaves the graph."""
+        if self._outlet is not None:
+            self._outlet.close()
         self.node.destroy_node()
 
     def _finder(self, index: int) -> Callable[[], Robot]:
         return lambda: self._world.robots[index]
 
+    def _publisher(self, kind: Any, topic: str, qos: QoSProfile) -> Any:
+        publisher = self.node.create_publisher(kind, topic, qos)
+        return publisher if self._outlet is None else Piped(publisher, self._outlet)
+
     def _make_tf(self) -> Feed:
         from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - built at set-up, may be missing
 
-        self._tf_static = self.node.create_publisher(TFMessage, "/tf_static", LATCHED_QOS)
+        self._tf_static = self._publisher(TFMessage, "/tf_static", LATCHED_QOS)
         fixed = [transform for robot in self._robots for transform in robot.fixed_transforms()]
         self._tf_static.publish(messages.transforms(fixed))
-        publisher = self.node.create_publisher(TFMessage, "/tf", 100)
+        publisher = self._publisher(TFMessage, "/tf", _TF_QOS)
         return Feed(
             [publisher],
             lambda _, now_s: messages.transforms(

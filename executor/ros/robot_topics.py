@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Any, Final
 
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, Imu, JointState, LaserScan
 from std_msgs.msg import Bool, Float64, String
 
 from executor.ros import messages
 from executor.ros.feed import Feed
+from executor.ros.outlet import Outlet, Piped
 from executor.world.bumper import ZONES
 from executor.world.kinematics import joint_pose
 
@@ -28,7 +29,9 @@ if TYPE_CHECKING:
 ODOMETRY_HZ: Final = 30.0
 LATCHED_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _OPTICAL: Final = (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5)
-_RELIABLE: Final = 10
+_COMMANDS: Final = 10
+SENSOR_QOS: Final = QoSProfile(depth=5)
+"""Reliable, which matches subscribers of both kinds. Of what is not heard in time the oldest is left out."""
 
 
 class RobotTopics:
@@ -39,9 +42,18 @@ class RobotTopics:
         robot: found anew at each call, since a reset makes robots anew.
         index: which robot of the world; the first one's names have no prefix.
         renamed: topics by the name of the sensor, from the universe.
+        outlet: what the feeds publish through; None for their publishers themselves.
     """
 
-    def __init__(self, node: Node, robot: Callable[[], Robot], index: int, renamed: dict[str, str]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        robot: Callable[[], Robot],
+        index: int,
+        renamed: dict[str, str],
+        outlet: Outlet | None = None,
+    ) -> None:
+        self._outlet = outlet
         self._node = node
         self._robot = robot
         self._renamed = renamed
@@ -49,10 +61,10 @@ class RobotTopics:
         robot_id = robot().id
         self._prefix = "" if index == 0 else f"/{robot_id}"
         self._frames = "" if index == 0 else f"{robot_id}/"
-        self._commands = node.create_subscription(Twist, f"{self._prefix}/cmd_vel", _ignore, _RELIABLE)
+        self._commands = node.create_subscription(Twist, f"{self._prefix}/cmd_vel", _ignore, _COMMANDS)
         self._joints = {
             drive.joint: node.create_subscription(
-                Float64, self._prefix + self._name(drive.joint, drive.topic), _ignore, _RELIABLE
+                Float64, self._prefix + self._name(drive.joint, drive.topic), _ignore, _COMMANDS
             )
             for drive in self._config.joints
         }
@@ -110,8 +122,9 @@ class RobotTopics:
 
     # --- inside ---
 
-    def _publisher(self, kind: Any, topic: str, qos: Any = _RELIABLE) -> Any:
-        return self._node.create_publisher(kind, self._prefix + topic, qos)
+    def _publisher(self, kind: Any, topic: str, qos: Any = SENSOR_QOS) -> Any:
+        publisher = self._node.create_publisher(kind, self._prefix + topic, qos)
+        return publisher if self._outlet is None else Piped(publisher, self._outlet)
 
     def _name(self, sensor: str, topic: str) -> str:
         return self._renamed.get(sensor, topic)
@@ -145,17 +158,17 @@ class RobotTopics:
     def _add_lidar(self, lidar: config.Lidar) -> None:
         name = self._name(lidar.name, lidar.topic)
         self._feed(
-            [self._publisher(LaserScan, name, qos_profile_sensor_data)],
+            [self._publisher(LaserScan, name)],
             lidar.rate_hz,
             lambda sensors, _: messages.laser_scan(lidar, sensors.scan(self._robot(), lidar), self._frames),
         )
 
     def _add_camera(self, camera: config.Camera) -> None:
         names = dict.fromkeys([self._name(camera.name, camera.topic), *camera.aliases])
-        frames, qos = self._frames, qos_profile_sensor_data
+        frames = self._frames
         infos = [camera.info_topic]
         self._feed(
-            [self._publisher(Image, name, qos) for name in names],
+            [self._publisher(Image, name) for name in names],
             camera.rate_hz,
             lambda sensors, now_s: messages.image(
                 camera, sensors.picture(self._robot(), camera), now_s, frames
@@ -164,7 +177,7 @@ class RobotTopics:
         )
         if camera.depth_topic is not None:
             self._feed(
-                [self._publisher(Image, camera.depth_topic, qos)],
+                [self._publisher(Image, camera.depth_topic)],
                 camera.rate_hz,
                 lambda sensors, now_s: messages.depth_image(
                     camera, sensors.depth(self._robot(), camera), now_s, frames
@@ -173,7 +186,7 @@ class RobotTopics:
             )
             infos += [camera.depth_info_topic] if camera.depth_info_topic else []
         self._feed(
-            [self._publisher(CameraInfo, name, qos) for name in dict.fromkeys(infos)],
+            [self._publisher(CameraInfo, name) for name in dict.fromkeys(infos)],
             camera.rate_hz,
             lambda _, now_s: messages.camera_info(camera, now_s, frames),
             of_camera=True,
@@ -181,7 +194,7 @@ class RobotTopics:
 
     def _add_imu(self, imu: config.Imu) -> None:
         self._feed(
-            [self._publisher(Imu, self._name(imu.name, imu.topic), qos_profile_sensor_data)],
+            [self._publisher(Imu, self._name(imu.name, imu.topic))],
             imu.rate_hz,
             lambda _s, _t: messages.imu(imu, self._robot().imu(imu), self._frames),
         )

@@ -12,6 +12,7 @@ from rclpy.exceptions import NameValidationException
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
+from executor.ros.outlet import Outlet, Piped
 from executor.ros.values import FieldError, describe, fill, flatten, message_type
 
 if TYPE_CHECKING:
@@ -75,8 +76,11 @@ class _Unsent:
 class Topics:
     """Answers what clients ask about topics. Rates are those of the last two seconds of real time."""
 
-    def __init__(self, node: Node, send: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(
+        self, node: Node, send: Callable[[dict[str, Any]], None], outlet: Outlet | None = None
+    ) -> None:
         self._node = node
+        self._outlet = outlet
         self._send = send
         self._ears: dict[str, _Ear] = {}
         self._publishers: dict[tuple[str, str], Any] = {}
@@ -249,7 +253,7 @@ class Topics:
                 # The text of ROS goes on with a drawing of the place.
                 text = str(error).partition("\n")[0].rstrip(":")
                 raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
-            self._publishers[topic, type_name] = made
+            self._publishers[topic, type_name] = made if self._outlet is None else Piped(made, self._outlet)
         return self._publishers[topic, type_name]
 
     def _publish_waiting(self, now_s: float) -> None:

@@ -31,7 +31,7 @@ APPLICATION_EVENTS: Final[dict[str, type[Struct]]] = {
 """What an application says that becomes an event of its own name."""
 _FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
     "application": APPLICATION_EVENTS,
-    "world": {"log": messages.Log, "sim": messages.Sim},
+    "world": {"log": messages.Log, "sim": messages.Sim, "topic_mismatch": messages.TopicMismatch},
     "node": {},
 }
 _TOPICS: Final[dict[str, type[Struct]]] = {

@@ -21,6 +21,7 @@ from executor.messages import (
     Snapshot,
     StateChanged,
     Tick,
+    TopicMismatch,
     Tree,
 )
 from executor.session.ladder import State
@@ -33,6 +34,7 @@ __all__ = ["Mirror"]
 LOG_LINES: Final = 500
 FAULTS: Final = 50
 ENTRIES: Final = 5000
+MISMATCHES: Final = 50
 SMOOTHING: Final = 0.1
 
 
@@ -47,6 +49,7 @@ class Mirror:
         self.logs: deque[Log] = deque(maxlen=LOG_LINES)
         self.launch_nodes: list[LaunchNode] = []
         self.faults: deque[Fault] = deque(maxlen=FAULTS)
+        self.mismatches: deque[TopicMismatch] = deque(maxlen=MISMATCHES)
         self.tick = 0
         self.tick_ms = 0.0
         self.tick_hz = 0.0
@@ -84,6 +87,9 @@ class Mirror:
                 self.launch_nodes = event.nodes
             case Fault():
                 self.faults.append(event)
+            case TopicMismatch():
+                if event not in self.mismatches:
+                    self.mismatches.append(event)
             case Sim():
                 self.speed = event.speed
                 self.real_time_factor = event.real_time_factor
@@ -107,6 +113,7 @@ class Mirror:
             speed=self.speed,
             universe=self.universe,
             launch_nodes=self.launch_nodes,
+            mismatches=list(self.mismatches),
         )
 
     def _apply_entries(self, entries: list[BlackboardEntry]) -> None:

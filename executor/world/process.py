@@ -174,7 +174,9 @@ class WorldProcess:
         if message["universe"] == "none":
             self._start_outside(message)
             return
-        from executor.ros.node import WorldNode  # noqa: PLC0415 - ROS reads the environment when loaded
+        from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.node import WorldNode  # noqa: PLC0415
+        from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.clockwork import Clockwork  # noqa: PLC0415
         from executor.world.launch import make_world  # noqa: PLC0415
@@ -198,27 +200,29 @@ class WorldProcess:
         self._progress(0.6, "Joining the ROS graph")
         context = self._join(int(message.get("domain_id") or 0))
         renamed = {place.id: place.topics for place in world.universe.robots}
-        node = WorldNode(world, context, topics=renamed)
+        outlet = Outlet()
+        node = WorldNode(world, context, topics=renamed, outlet=outlet)
         self._close.append(node.close)
-        self._topics = Topics(node.node, self._say)
+        self._topics = Topics(node.node, self._say, outlet)
         clockwork = Clockwork(
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )
-        clockwork.watchers.append(self._topics.poll)
+        clockwork.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
         self._clockwork = clockwork
         self._channel.send(
             {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
         )
 
     def _start_outside(self, message: dict[str, Any]) -> None:
-        from executor.ros.topics import Topics  # noqa: PLC0415 - ROS reads the environment when loaded
+        from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
+        from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.outside import Outside  # noqa: PLC0415
 
         self._progress(0.6, "Joining the outside ROS graph")
         outside = Outside(self._join(int(message.get("domain_id") or 0)), self._channel.send)
         self._close.append(outside.close)
         self._topics = Topics(outside.node, self._say)
-        outside.watchers.append(self._topics.poll)
+        outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
         self._clockwork = outside
         self._channel.send({"type": "ready", "renderer": "", "tf": has_tf(), "universe": "none"})
 

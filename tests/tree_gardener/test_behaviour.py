@@ -66,10 +66,49 @@ def test_update_may_return_our_statuses() -> None:
         assert load("<A/>", nodes={"A": recording(status)}).tick_exactly_once() is status
 
 
-@pytest.mark.parametrize("wrong", [None, PyTreesStatus.INVALID, Status.IDLE, "SUCCESS", 2])
+@pytest.mark.parametrize("wrong", [None, True, Status.IDLE, "SUCCESS", 2])
 def test_anything_else_is_an_error_that_says_so(wrong: object) -> None:
     with pytest.raises(TickError, match=r"A\.update\(\) returned"):
         load("<A/>", nodes={"A": recording(wrong)}).tick_exactly_once()
+
+
+@pytest.mark.parametrize("kind", ["StatefulAction", "SyncAction", "Condition"])
+def test_invalid_counts_as_failure_and_is_said_once_a_node(kind: str) -> None:
+    cls = recording(PyTreesStatus.INVALID, kind=kind)
+    tree = load('<Fallback><A name="a"/><A name="b"/></Fallback>', nodes={"A": cls})
+    said: list[str] = []
+    tree.on_warning = lambda node, text: said.append(f"{node.path}: {text}")
+    for _ in range(3):
+        assert tree.tick_exactly_once() is Status.FAILURE
+    text = "A.update() returned Status.INVALID, which counts as FAILURE"
+    assert said == [f"a: {text}", f"b: {text}"]
+    assert leaf(tree, "a").calls.count("update") == 3
+
+
+def test_a_warning_goes_to_the_log_where_nobody_asked_for_it(caplog: pytest.LogCaptureFixture) -> None:
+    tree = load('<A name="a"/>', nodes={"A": recording(PyTreesStatus.INVALID)})
+    tree.tick_exactly_once()
+    tree.tick_exactly_once()
+    [record] = caplog.records
+    assert (record.name, record.levelname) == ("tree_gardener", "WARNING")
+    assert "node 'a'" in record.getMessage()
+
+
+@pytest.mark.parametrize("method", ["setup", "initialise", "update", "terminate", "shutdown"])
+def test_sys_exit_is_a_fault_of_the_node(method: str) -> None:
+    def leave(*_: object, **__: object) -> None:
+        raise SystemExit(0)
+
+    cls = type("A", (recording(S),), {method: leave})
+    tree = load('<A name="a"/>', nodes={"A": cls})
+
+    def live() -> None:
+        tree.setup()
+        tree.tick_exactly_once()
+        tree.shutdown()
+
+    with pytest.raises(TickError, match=r"node 'a' \[A\]: the action called sys\.exit\(0\)"):
+        live()
 
 
 def test_an_exception_names_node_file_line_and_cause() -> None:

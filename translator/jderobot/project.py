@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from translator.catalog import builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
-from translator.importer import project_files
+from translator.importer import project_files, with_proposal
 from translator.jderobot.graph import GraphOptions, read_graph
 from translator.json_file import parse_json
 from translator.project import Project, load
@@ -65,8 +65,10 @@ def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
         main_tree=next(iter(trees)),
         on_finish="repeat",
     )
-    result = project_files(settings, trees.values())
-    result.update(_other_files(files, layout))
+    others = _other_files(files, layout)
+    settings, proposed = with_proposal(settings, trees.values(), others)
+    found.extend(proposed)
+    result = project_files(settings, trees.values()) | others
     result.update(_stubs(trees, result))
     project = load(result)
     return replace(project, diagnostics=(*found, *project.diagnostics))

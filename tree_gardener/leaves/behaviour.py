@@ -48,7 +48,7 @@ class BehaviourLeaf(Leaf):
             try:
                 if self.terminate is not None:
                     self.terminate(PY_INVALID)
-            except Exception as error:
+            except (Exception, SystemExit) as error:
                 self.status = IDLE
                 self.raise_error(error)
             self.instance_behaviour.status = PY_INVALID
@@ -72,6 +72,9 @@ class BehaviourLeaf(Leaf):
             return RUNNING
         if isinstance(returned, Status) and returned is not IDLE:
             return returned
+        if returned is PY_INVALID:  # py_trees' composites take it for a failure
+            self.tree.warn(self, f"{self.type}.update() returned Status.INVALID, which counts as FAILURE")
+            return FAILURE
         name = self.type
         if returned is None:
             raise TickError(
@@ -79,7 +82,7 @@ class BehaviourLeaf(Leaf):
             )
         raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
 
-    def failed(self, error: Exception) -> Status:
+    def failed(self, error: Exception | SystemExit) -> Status:
         """The behaviour raised: the tick ends with an error, or the node fails, as the tree is configured."""
         located = error if isinstance(error, TickError) else TickError(self, describe(error), error)
         if self.tree.on_error is None:
@@ -88,7 +91,7 @@ class BehaviourLeaf(Leaf):
         self.instance_behaviour.status = PY_FAILURE
         return self.complete(FAILURE)
 
-    def raise_error(self, error: Exception) -> NoReturn:
+    def raise_error(self, error: Exception | SystemExit) -> NoReturn:
         """Names the node of an error."""
         raise TickError(self, describe(error), error) from error
 
@@ -134,7 +137,7 @@ class StatefulLeaf(BehaviourLeaf):
                     self.start()
                 return RUNNING
             return self.skipped() if result is SKIPPED else self.end(result)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             return self.failed(error)
 
 
@@ -153,7 +156,7 @@ class ImmediateLeaf(BehaviourLeaf):
             result = SUCCESS if returned is PY_SUCCESS else self.translate(returned)
             if result is SUCCESS or result is FAILURE:
                 return self.end(result)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             return self.failed(error)
         if result is SKIPPED:
             return self.skipped()

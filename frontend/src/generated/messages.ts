@@ -323,6 +323,21 @@ export interface TypeDescription {
 }
 
 /**
+ * Two ends of a topic do not match, so that nothing arrives; told once for as long as both are there.
+ *
+ * `publisher` and `subscriber` are nodes; `reason` is what differs: the message type, or the quality of
+ * service. `hint` is the remedy.
+ */
+export interface TopicMismatch {
+  topic: string;
+  publisher: string;
+  subscriber: string;
+  reason: "qos" | "type";
+  message: string;
+  hint: string;
+}
+
+/**
  * An extra process of the project's launch files; `file` and `line` are where it is asked for.
  *
  * `end` says how it ended: exit code or signal, or why it could not be started.
@@ -356,6 +371,7 @@ export interface Snapshot {
   speed: number;
   universe: string;
   launch_nodes: LaunchNode[];
+  mismatches: TopicMismatch[];
 }
 
 /** The envelope of an event. */
@@ -548,6 +564,7 @@ export interface Events {
   topics: Topics;
   topic_message: TopicMessage;
   type_description: TypeDescription;
+  topic_mismatch: TopicMismatch;
   launch_nodes: LaunchNodes;
 }
 

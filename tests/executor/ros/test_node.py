@@ -177,12 +177,17 @@ def test_a_command_that_is_no_number_is_counted_not_obeyed(rig: Rig) -> None:
     assert rig.world.robots[0].distance_m < 1e-3
 
 
-def test_sensor_data_is_best_effort(rig: Rig) -> None:
-    for topic in ("/scan", "/camera/image_raw", "/camera/camera_info", "/depth_camera/image_raw"):
+def test_all_publishers_are_reliable(rig: Rig) -> None:
+    for topic in (
+        "/clock",
+        "/scan",
+        "/camera/image_raw",
+        "/camera/camera_info",
+        "/depth_camera/image_raw",
+        "/odom",
+    ):
         [info] = rig.listener.get_publishers_info_by_topic(topic)
-        assert info.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT
-    [info] = rig.listener.get_publishers_info_by_topic("/odom")
-    assert info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
+        assert info.qos_profile.reliability == ReliabilityPolicy.RELIABLE
 
 
 def test_tf_is_published_where_its_messages_are_installed(rig: Rig) -> None:

@@ -49,6 +49,7 @@ const snapshot = (more: Partial<Snapshot> = {}): Snapshot => ({
   speed: 1,
   universe: 'walled_room',
   launch_nodes: [],
+  mismatches: [],
   ...more,
 });
 
@@ -69,6 +70,24 @@ describe('reduce', () => {
   it('follows the ladder and keeps the reason', () => {
     const state = reduce(initialSession, message('state-changed', { state: 'paused', reason: 'asked' }));
     expect(state).toMatchObject({ executor: 'paused', executorReason: 'asked' });
+  });
+
+  it('shows topics whose ends do not match in the console, to those who come later too', () => {
+    const mismatch = {
+      topic: '/scan',
+      publisher: '/world',
+      subscriber: '/bt_application',
+      reason: 'qos',
+      message: 'Nothing arrives: they differ.',
+      hint: 'Do this.',
+    } as const;
+    const told = reduce(initialSession, message('topic_mismatch', mismatch));
+    const late = reduce(initialSession, message('snapshot', snapshot({ mismatches: [mismatch] })));
+    for (const state of [told, late]) {
+      expect(state.logs).toMatchObject([
+        { level: 'warning', source: 'world', text: '/scan: Nothing arrives: they differ. Do this.' },
+      ]);
+    }
   });
 
   it('remembers that another page took over, until this one drives again', () => {

@@ -1,4 +1,4 @@
-import type { BlackboardEntry, Events, Fault, Log, ServerMessage } from '@/generated/messages';
+import type { BlackboardEntry, Events, Fault, Log, ServerMessage, TopicMismatch } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
 /** Older lines are dropped; about an hour of a talkative action. */
@@ -71,10 +71,11 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     faults: [...state.faults, data],
     ...appendLogs(state, [logOf(data, t)]),
   }),
+  topic_mismatch: (state, data, { t }) => appendLogs(state, [mismatchLog(data, t)]),
   launch_nodes: (_, data) => ({ launchNodes: data.nodes }),
   finished: (_, data) => ({ finished: data }),
   sim: (_, data) => ({ sim: data, speed: data.speed }),
-  snapshot: (state, data, { seq }) => ({
+  snapshot: (state, data, { seq, t }) => ({
     executor: data.state,
     tree: data.tree?.nodes ?? [],
     blackboard: mergeBlackboard({}, data.blackboard, seq),
@@ -85,7 +86,10 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
       ? {}
       : { tickHz: data.tick_hz, speed: data.speed }),
     universe: data.universe,
-    ...appendLogs({ ...state, logs: [] }, data.logs),
+    ...appendLogs({ ...state, logs: [] }, [
+      ...data.logs,
+      ...data.mismatches.map((mismatch) => mismatchLog(mismatch, t)),
+    ]),
   }),
 };
 
@@ -125,6 +129,12 @@ function logOf(fault: Fault, time: number): Log {
   const text = fault.traceback || fault.message;
   const { node_id, node_path } = fault;
   return { source, level: 'error', text, node_id, node_path, time, launch_node: '' };
+}
+
+/** A topic whose ends do not match, in the console. */
+function mismatchLog({ topic, message, hint }: TopicMismatch, time: number): Log {
+  const text = `${topic}: ${message} ${hint}`;
+  return { source: 'world', level: 'warning', text, node_id: '', node_path: '', time, launch_node: '' };
 }
 
 /** Adds lines as the console shows them: one row a line of text, numbered. */

@@ -1,0 +1,25 @@
+"""Writing the files of a project where a run finds them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+__all__ = ["write_files"]
+
+
+def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Writes files by their paths in a folder.
+
+    Raises:
+        ValueError: a path leads out of the folder.
+    """
+    for name, data in files.items():
+        path = folder / name
+        if not path.resolve().is_relative_to(folder.resolve()):
+            raise ValueError(f"{name!r} leads out of the project")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)

@@ -1,0 +1,123 @@
+"""Topics whose two ends do not match: messages never arrive, and nothing else would say so."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from rclpy.qos import DurabilityPolicy, QoSCompatibility, ReliabilityPolicy, qos_check_compatible
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rclpy.node import Node
+
+__all__ = ["Mismatches"]
+
+LOOK_S: Final = 1.0
+OURS: Final = "world"
+"""The nodes of the world begin so: they may listen to a topic in more than one type."""
+_IGNORED: Final = ("/rosout", "/parameter_events")
+_NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
+
+
+class Mismatches:
+    """Looks for them, and tells of each once for as long as it is there.
+
+    Args:
+        node: through which the graph is seen.
+        tell: takes a `topic_mismatch` message.
+    """
+
+    def __init__(self, node: Node, tell: Callable[[dict[str, Any]], None]) -> None:
+        self._node = node
+        self._tell = tell
+        self._told: set[tuple[str, ...]] = set()
+        self._look_s = 0.0
+
+    def poll(self, now_s: float) -> None:
+        """Looks once a second of real time."""
+        if now_s >= self._look_s:
+            self._look_s = now_s + LOOK_S
+            self.look()
+
+    def look(self) -> None:
+        """Looks now."""
+        present = set()
+        for topic, _ in self._node.get_topic_names_and_types():
+            if topic in _IGNORED:
+                continue
+            publishers = _named(self._node.get_publishers_info_by_topic(topic))
+            subscribers = _named(self._node.get_subscriptions_info_by_topic(topic))
+            for found in (*_types_differ(publishers, subscribers), *_qos_differs(publishers, subscribers)):
+                key = (topic, *found.values())
+                present.add(key)
+                if key not in self._told:
+                    self._tell({"type": "topic_mismatch", "topic": topic, **found})
+        self._told = present
+
+
+def _named(ends: list[Any]) -> list[Any]:
+    return [end for end in ends if end.node_name != _NO_NAME_YET]
+
+
+def _name(end: Any) -> str:
+    return f"{end.node_namespace.rstrip('/')}/{end.node_name}"
+
+
+def _types_differ(publishers: list[Any], subscribers: list[Any]) -> Iterator[dict[str, str]]:
+    said, heard = {end.topic_type for end in publishers}, {end.topic_type for end in subscribers}
+    for publisher in publishers:
+        for subscriber in subscribers:
+            if publisher.topic_type == subscriber.topic_type:
+                continue
+            is_lost = publisher.topic_type not in heard
+            is_deaf = subscriber.topic_type not in said and not subscriber.node_name.startswith(OURS)
+            if is_lost or is_deaf:
+                yield _mismatch(
+                    publisher,
+                    subscriber,
+                    "type",
+                    f"{_name(publisher)} publishes {publisher.topic_type}, "
+                    f"{_name(subscriber)} subscribes to {subscriber.topic_type}",
+                    "Use the same message type at both ends.",
+                )
+
+
+def _qos_differs(publishers: list[Any], subscribers: list[Any]) -> Iterator[dict[str, str]]:
+    for publisher in publishers:
+        for subscriber in subscribers:
+            if publisher.topic_type != subscriber.topic_type:
+                continue
+            said, wanted = publisher.qos_profile, subscriber.qos_profile
+            compatible, reason = qos_check_compatible(said, wanted)
+            if compatible == QoSCompatibility.ERROR:
+                yield _mismatch(publisher, subscriber, "qos", *_explained(publisher, subscriber, reason))
+
+
+def _explained(publisher: Any, subscriber: Any, reason: str) -> tuple[str, str]:
+    said, wanted = publisher.qos_profile, subscriber.qos_profile
+    if said.reliability is ReliabilityPolicy.BEST_EFFORT and wanted.reliability is ReliabilityPolicy.RELIABLE:
+        return (
+            f"{_name(publisher)} publishes best effort, {_name(subscriber)} asks for reliable delivery",
+            "Subscribe with rclpy.qos.qos_profile_sensor_data, or publish with QoSProfile(depth=10).",
+        )
+    if said.durability is DurabilityPolicy.VOLATILE and wanted.durability is DurabilityPolicy.TRANSIENT_LOCAL:
+        return (
+            f"{_name(publisher)} keeps nothing for late subscribers, {_name(subscriber)} asks for that",
+            "Subscribe with DurabilityPolicy.VOLATILE, or publish with DurabilityPolicy.TRANSIENT_LOCAL.",
+        )
+    text = reason.strip().rstrip(";").removeprefix("ERROR: ")
+    return (
+        f"{_name(publisher)} and {_name(subscriber)} differ in quality of service: {text}",
+        "Use the same QoSProfile at both ends.",
+    )
+
+
+def _mismatch(publisher: Any, subscriber: Any, reason: str, text: str, hint: str) -> dict[str, str]:
+    return {
+        "publisher": _name(publisher),
+        "subscriber": _name(subscriber),
+        "reason": reason,
+        "message": f"Nothing arrives: {text}.",
+        "hint": hint,
+    }

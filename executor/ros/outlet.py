@@ -1,0 +1,149 @@
+"""Publishes in a thread of its own: a subscriber that is frozen must not hold up the world.
+
+Fast DDS hands messages over in shared memory, whose lock a process may hold when it is stopped (a debugger,
+SIGSTOP); whoever publishes to it then waits for up to three seconds. rclpy holds the interpreter's lock while
+it publishes, so a thread alone would not help: the call goes to rcl directly.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import threading
+from collections import deque
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.serialization import serialize_message
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["Outlet", "Piped", "RclPublish"]
+
+DEPTH: Final = 5
+"""Messages of one topic that wait; of more the oldest is left out."""
+PATIENCE_S: Final = 0.02
+
+
+class _Array(ctypes.Structure):
+    """`rcl_serialized_message_t`; the allocator is not used, since nothing is resized."""
+
+    _fields_ = (
+        ("buffer", ctypes.c_char_p),
+        ("length", ctypes.c_size_t),
+        ("capacity", ctypes.c_size_t),
+        ("allocator", ctypes.c_void_p * 5),
+    )
+
+
+class RclPublish:
+    """Publishes a serialized message without the interpreter's lock."""
+
+    def __init__(self) -> None:
+        # rclpy has loaded it: asking by name again gives the same.
+        library = ctypes.CDLL(_loaded("librcl.so"))
+        self._publish = library.rcl_publish_serialized_message
+        self._publish.argtypes = (ctypes.c_void_p, ctypes.POINTER(_Array), ctypes.c_void_p)
+        self._publish.restype = ctypes.c_int
+
+    def __call__(self, publisher: Any, data: bytes) -> None:
+        """Sends; what cannot be sent is lost, as with a publisher that nobody hears."""
+        array = _Array(data, len(data), len(data))
+        with contextlib.suppress(rclpy_implementation.InvalidHandle), publisher.handle:
+            self._publish(publisher.handle.pointer, ctypes.byref(array), None)
+
+
+class Outlet:
+    """Sends messages in the order in which they come; never makes anybody wait for longer than a moment.
+
+    Args:
+        send: sends one serialized message of a publisher; may block.
+    """
+
+    def __init__(self, send: Callable[[Any, bytes], None] | None = None) -> None:
+        self._send = send or RclPublish()
+        self._waiting: deque[tuple[Any, bytes]] = deque()
+        self._counts: dict[int, int] = {}
+        self._changed = threading.Condition()
+        self._is_closed = False
+        self._is_late = False
+        self._is_sending = False
+        self.left_out = 0
+        self._thread = threading.Thread(target=self._work, name="outlet", daemon=True)
+        self._thread.start()
+
+    def publish(self, publisher: Any, message: Any) -> None:
+        """Has a message sent; it is read now, and may be changed afterwards."""
+        self.put(publisher, serialize_message(message))
+
+    def put(self, publisher: Any, data: bytes) -> None:
+        """Has a serialized message sent."""
+        with self._changed:
+            count = self._counts.get(id(publisher), 0)
+            if count >= DEPTH:
+                self._leave_out(publisher)
+            else:
+                self._counts[id(publisher)] = count + 1
+            self._waiting.append((publisher, data))
+            self._changed.notify_all()
+
+    def flush(self) -> None:
+        """Lets the thread send what waits, as far as it comes in a moment."""
+        with self._changed:
+            patience_s = 0.0 if self._is_late else PATIENCE_S
+            self._is_late = not self._changed.wait_for(self._is_done, patience_s)
+
+    def close(self) -> None:
+        """Sends no more; what waits is lost."""
+        with self._changed:
+            self._is_closed = True
+            self._changed.notify_all()
+        self._thread.join(PATIENCE_S)
+
+    def _is_done(self) -> bool:
+        return not self._waiting and not self._is_sending
+
+    def _leave_out(self, publisher: Any) -> None:
+        at = next(i for i, (other, _) in enumerate(self._waiting) if other is publisher)
+        del self._waiting[at]
+        self.left_out += 1
+
+    def _work(self) -> None:
+        while True:
+            with self._changed:
+                self._is_sending = False
+                self._changed.notify_all()
+                self._changed.wait_for(lambda: bool(self._waiting) or self._is_closed)
+                if self._is_closed:
+                    return
+                publisher, data = self._waiting.popleft()
+                self._counts[id(publisher)] -= 1
+                self._is_sending = True
+            self._send(publisher, data)
+
+
+class Piped:
+    """A publisher that sends through an outlet."""
+
+    def __init__(self, publisher: Any, outlet: Outlet) -> None:
+        self._publisher = publisher
+        self._outlet = outlet
+
+    def publish(self, message: Any) -> None:
+        """Has a message sent."""
+        self._outlet.publish(self._publisher, message)
+
+    def get_subscription_count(self) -> int:
+        """Returns how many listen."""
+        return int(self._publisher.get_subscription_count())
+
+
+def _loaded(name: str) -> str:
+    """Returns the path of a library that this process has loaded."""
+    for line in Path("/proc/self/maps").read_text(encoding="utf-8").splitlines():
+        path = line.rpartition(" ")[2]
+        if Path(path).name.startswith(name):
+            return path
+    raise OSError(f"{name} is not loaded")

@@ -1,0 +1,129 @@
+"""Topics whose ends do not match: told once, with both ends, the reason and the remedy."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rclpy.context import Context
+
+
+@pytest.fixture
+def graph(context: Context) -> Iterator[tuple[Any, Any, list[dict[str, Any]], Any]]:
+    from rclpy.node import Node
+
+    from executor.ros.mismatches import Mismatches
+
+    world, application = Node("world", context=context), Node("bt_application", context=context)
+    told: list[dict[str, Any]] = []
+    yield world, application, told, Mismatches(world, told.append)
+    application.destroy_node()
+    world.destroy_node()
+
+
+def test_best_effort_said_and_reliable_wanted(graph: Any) -> None:
+    from rclpy.qos import qos_profile_sensor_data
+    from sensor_msgs.msg import LaserScan
+
+    world, application, told, mismatches = graph
+    application.create_publisher(LaserScan, "/mine", qos_profile_sensor_data)
+    ear = world.create_subscription(LaserScan, "/mine", print, 10)
+    world.create_subscription(LaserScan, "/mine", print, qos_profile_sensor_data)
+    mismatches.look()
+    mismatches.look()
+    [found] = told
+    assert found == {
+        "type": "topic_mismatch",
+        "topic": "/mine",
+        "publisher": "/bt_application",
+        "subscriber": "/world",
+        "reason": "qos",
+        "message": "Nothing arrives: /bt_application publishes best effort, "
+        "/world asks for reliable delivery.",
+        "hint": "Subscribe with rclpy.qos.qos_profile_sensor_data, or publish with QoSProfile(depth=10).",
+    }
+    world.destroy_subscription(ear)
+    mismatches.look()
+    world.create_subscription(LaserScan, "/mine", print, 10)
+    mismatches.look()
+    assert len(told) == 2  # it was gone meanwhile: another run, say
+
+
+def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
+    from rclpy.node import Node
+    from rclpy.qos import qos_profile_sensor_data
+
+    from executor.ros.mismatches import Mismatches
+    from executor.ros.node import WorldNode
+    from executor.ros.values import message_type
+    from executor.world.launch import make_world
+
+    world = make_world("walled_room")
+    ours, theirs = WorldNode(world, context), Node("theirs", context=context)
+    told: list[dict[str, Any]] = []
+    said = [row for row in theirs.get_topic_names_and_types() if ours.node.count_publishers(row[0])]
+    for topic, types in said:
+        for qos in (10, qos_profile_sensor_data):
+            theirs.create_subscription(message_type(types[0]), topic, print, qos)
+    Mismatches(theirs, told.append).look()
+    assert told == []
+    assert {"/clock", "/scan", "/camera/image_raw", "/odom", "/imu", "/bumper"} <= {
+        topic for topic, _ in said
+    }
+    for topic in ("/scan", "/camera/image_raw", "/depth_camera/depth/image_raw"):
+        [end] = ours.node.get_publishers_info_by_topic(topic)
+        assert end.qos_profile.reliability.name == "RELIABLE"
+    theirs.destroy_node()
+    ours.close()
+    world.close()
+
+
+class End:
+    """An end as the graph tells of it: in one process a topic has one type only."""
+
+    def __init__(self, node: str, kind: str) -> None:
+        from rclpy.qos import QoSProfile
+
+        self.node_name, self.node_namespace, self.topic_type = node, "/", kind
+        self.qos_profile = QoSProfile(depth=10)
+
+
+class Graph:
+    def __init__(self, publishers: list[End], subscribers: list[End]) -> None:
+        self._ends = publishers, subscribers
+
+    def get_topic_names_and_types(self) -> list[tuple[str, list[str]]]:
+        return [("/odom", [])]
+
+    def get_publishers_info_by_topic(self, _: str) -> list[End]:
+        return self._ends[0]
+
+    def get_subscriptions_info_by_topic(self, _: str) -> list[End]:
+        return self._ends[1]
+
+
+@pytest.mark.parametrize(
+    ("publishers", "subscribers", "expected"),
+    [
+        ([("world", "Odom")], [("mine", "Text")], [("/world", "/mine")]),
+        ([("world", "Odom")], [("mine", "Text"), ("other", "Odom")], [("/world", "/mine")]),
+        ([("world", "Odom")], [("other", "Odom")], []),
+        # The world may take commands in two types; whoever publishes one of them is heard.
+        ([("mine", "Twist")], [("world", "Twist"), ("world_stamped", "Stamped")], []),
+        ([("mine", "Text")], [("world", "Twist")], [("/mine", "/world")]),
+    ],
+)
+def test_types_that_differ(
+    publishers: list[tuple[str, str]], subscribers: list[tuple[str, str]], expected: list[tuple[str, str]]
+) -> None:
+    from executor.ros.mismatches import Mismatches
+
+    told: list[dict[str, Any]] = []
+    ends = [[End(*end) for end in side] for side in (publishers, subscribers)]
+    Mismatches(Graph(*ends), told.append).look()
+    assert [(found["publisher"], found["subscriber"]) for found in told] == expected
+    assert all(found["reason"] == "type" and "same message type" in found["hint"] for found in told)

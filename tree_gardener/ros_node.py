@@ -1,0 +1,146 @@
+"""The rclpy that actions find: a node that they share, and a default context that the run has opened.
+
+Tutorials say `rclpy.init()`, `rclpy.spin_once(node)` and `rclpy.ok()`; in an action these work as there. What
+would take ROS away from the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raises a sentence.
+"""
+
+import contextlib
+import threading
+import weakref
+from collections.abc import Callable, Iterator
+from typing import Any, Final
+
+import rclpy
+import rclpy.utilities
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.node import Node
+
+__all__ = ["ActionNode", "MainThreadGroup", "guard_rclpy"]
+
+NO_SHUTDOWN: Final = (
+    "rclpy.shutdown() would end ROS for the whole tree: leave it out, the run shuts rclpy down when it ends"
+)
+NO_DESTROY: Final = (
+    "node.destroy_node() would take the node from the whole tree: "
+    "destroy what the action made, with node.destroy_subscription(…) and the like"
+)
+
+
+class ActionNode(Node):
+    """A node that stays with the executor that it was added to first, whoever else spins it.
+
+    `rclpy.spin_once(node)` adds a node to another executor for a moment and would leave it without any.
+    """
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        self._first: weakref.ref[Any] | None = None
+        self._spinners: weakref.WeakSet[Any] = weakref.WeakSet()
+        self._is_over = False
+        super().__init__(*arguments, **options)
+
+    @property
+    def executor(self) -> Any:
+        """The executor of the run."""
+        return None if self._first is None else self._first()
+
+    @executor.setter
+    def executor(self, executor: Any) -> None:
+        if executor is not None:
+            self._spinners.add(executor)
+            if self.executor is None:
+                self._first = weakref.ref(executor)
+
+    def _wake_executor(self) -> None:
+        for executor in list(self._spinners):
+            executor.wake()
+
+    def create_subscription(self, msg_type: Any, topic: str, *arguments: Any, **options: Any) -> Any:
+        """Makes a subscription, as rclpy does.
+
+        Raises:
+            TypeError: this process has the topic in another type.
+        """
+        with self._other_type_named(msg_type, topic):
+            return super().create_subscription(msg_type, topic, *arguments, **options)
+
+    def create_publisher(self, msg_type: Any, topic: str, *arguments: Any, **options: Any) -> Any:
+        """Makes a publisher, as rclpy does.
+
+        Raises:
+            TypeError: this process has the topic in another type.
+        """
+        with self._other_type_named(msg_type, topic):
+            return super().create_publisher(msg_type, topic, *arguments, **options)
+
+    @contextlib.contextmanager
+    def _other_type_named(self, msg_type: Any, topic: str) -> Iterator[None]:
+        """Says what rcl means by "invalid allocator": one participant cannot have a topic in two types."""
+        try:
+            yield
+        except RuntimeError:  # RCLError
+            name = self.resolve_topic_name(topic)
+            there = dict(self.get_topic_names_and_types()).get(name, [])
+            wanted = f"{msg_type.__module__.split('.')[0]}/msg/{msg_type.__name__}"
+            if not there or wanted in there:
+                raise
+            text = f"{name} is of the type {there[0]}, not {wanted}: use the same message type at both ends"
+            raise TypeError(text) from None
+
+    def destroy_node(self) -> None:
+        """Refuses: it is not an action's to destroy.
+
+        Raises:
+            RuntimeError: always, before `close`.
+        """
+        if not self._is_over:
+            raise RuntimeError(NO_DESTROY)
+        super().destroy_node()
+
+    def close(self) -> None:
+        """Leaves the graph: the run is over."""
+        self._is_over = True
+        self.destroy_node()
+
+
+class MainThreadGroup(MutuallyExclusiveCallbackGroup):
+    """Callbacks of the main thread alone: no tick runs in a thread in which an action spins its node."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the callback may run now, and here."""
+        return threading.current_thread() is threading.main_thread() and bool(super().can_execute(entity))
+
+
+def guard_rclpy() -> Callable[[], None]:
+    """Makes rclpy's default context that of the run, which is open; gives the function that ends that.
+
+    `rclpy.init()` does nothing then, and `rclpy.shutdown()` raises.
+    """
+    names = ("init", "shutdown", "try_shutdown")
+    before = [
+        (module, name, getattr(module, name))
+        for module in (rclpy, rclpy.utilities)
+        for name in names
+        if hasattr(module, name)
+    ]
+    real_init = rclpy.init
+
+    def init(*, context: Any = None, **options: Any) -> None:
+        if context is not None and context is not rclpy.utilities.get_default_context():
+            real_init(context=context, **options)
+
+    def ending(real: Callable[..., None]) -> Callable[..., None]:
+        def end(*, context: Any = None, **options: Any) -> None:
+            if context is None or context is rclpy.utilities.get_default_context():
+                raise RuntimeError(NO_SHUTDOWN)
+            real(context=context, **options)
+
+        return end
+
+    for module, name, real in before:
+        setattr(module, name, init if name == "init" else ending(real))
+
+    def restore() -> None:
+        for module, name, real in before:
+            setattr(module, name, real)
+
+    return restore

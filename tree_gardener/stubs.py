@@ -1,0 +1,42 @@
+"""Actions that nobody has written yet: the importer leaves stubs of them, which always fail."""
+
+import linecache
+import sys
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from tree_gardener.tree import Tree
+
+STUB_MARK: Final = "bt-studio: to be written"
+STUB_UPDATE: Final = "    def update(self):\n        return py_trees.common.Status.FAILURE\n"
+
+
+def is_stub(source: str) -> bool:
+    """Whether the source of an action is as the importer left it."""
+    return STUB_MARK in source and STUB_UPDATE in source.replace("\r\n", "\n")
+
+
+def unwritten(tree: "Tree") -> list[str]:
+    """Names the actions of a tree that are stubs."""
+    found = set()
+    for node in tree.nodes:
+        if node.type not in found and node.behaviour is not None and is_stub(_source_of(node.behaviour)):
+            found.add(node.type)
+    return sorted(found)
+
+
+def stubs_sentence(names: "Sequence[str]") -> str:
+    """Says which actions are stubs, and what to do."""
+    one = len(names) == 1
+    listed = names[0] if one else f"{', '.join(names[:-1])} and {names[-1]}"
+    is_are = "is an unwritten stub, which always fails" if one else "are unwritten stubs, which always fail"
+    files = ", ".join(f"actions/{name}.py" for name in names)
+    return f"{listed} {is_are}: write update() in {files}."
+
+
+def _source_of(behaviour: object) -> str:
+    module = sys.modules.get(type(behaviour).__module__)
+    file = getattr(module, "__file__", None)
+    return "".join(linecache.getlines(file)) if file and file.startswith("actions/") else ""

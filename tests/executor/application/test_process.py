@@ -396,7 +396,9 @@ async def test_rclpy_in_an_action_does_what_tutorials_expect():
         self.other.create_subscription(String, "/words", self.words.append, 10)
         self.speaker = self.node.create_publisher(String, "/words", 10)
         self.timer = self.node.create_timer(0.02, self.count)
-        threading.Thread(target=rclpy.spin, args=(self.other,), daemon=True).start()
+        # rclpy.spin without an executor would share the global one with spin_once below, in another thread.
+        executor = rclpy.executors.SingleThreadedExecutor()
+        threading.Thread(target=rclpy.spin, args=(self.other, executor), daemon=True).start()
 
     def count(self):
         self.turns += 1

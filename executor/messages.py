@@ -255,7 +255,8 @@ class TopicInfo(Struct):
     """One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
 
     `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
-    client echoes them, and the first `list_topics` after a while starts the measuring.
+    client echoes them, and the first `list_topics` after a while starts the measuring. `types` has more than
+    `type` where a robot takes several on its topic of commands.
     """
 
     name: str
@@ -264,6 +265,7 @@ class TopicInfo(Struct):
     bytes_per_s: float | None
     publishers: list[str]
     subscribers: list[str]
+    types: list[str] = []
 
 
 class Topics(Struct):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import sys
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Final
 
 __all__ = ["install", "warm_up"]
@@ -25,6 +26,7 @@ MESSAGES: Final = (
     "trajectory_msgs.msg",
     "visualization_msgs.msg",
 )
+ROS_PYTHON: Final = Path(__file__).parents[1] / "ros_python"
 LIBRARIES: Final = ("rclpy.executors", "rclpy.qos", "py_trees", "numpy", "cv2")
 
 
@@ -40,9 +42,11 @@ def warm_up() -> None:
 
 
 def install() -> None:
-    """Makes `tree_tools` and `cv_bridge` importable where they are not installed."""
+    """Makes `tree_tools`, `cv_bridge` and Python parts of ROS importable where they are not installed."""
     from tree_gardener import tree_tools  # noqa: PLC0415 - not before ROS has its environment
 
     tree_tools.install()
     if find_spec("cv_bridge") is None:
         sys.modules["cv_bridge"] = importlib.import_module("executor.application.cv_bridge")
+    if str(ROS_PYTHON) not in sys.path:
+        sys.path.append(str(ROS_PYTHON))  # the last: what is installed wins

@@ -142,6 +142,8 @@ class _Run:
                 watch(self._world)
             status = self._tick(runner)
             self._node.poll()
+            for note in self._node.take_notes():
+                print(note, file=sys.stderr)  # noqa: T201 - what the console of a session shows
             self._sample(number)
             if progress is not None and number % max(1, round(self._tick_hz)) == 0:
                 progress(self._world.time_s)
@@ -183,6 +185,7 @@ class _Run:
         from executor.ros.default_context import DefaultContext  # noqa: PLC0415
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415
         from executor.ros.node import WorldNode  # noqa: PLC0415
+        from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
         from executor.world.sensors import Sensors  # noqa: PLC0415
         from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
@@ -193,8 +196,12 @@ class _Run:
         self._sensors = Sensors(self._world, make_renderer)
         self._stack.append(self._sensors.close)
         renamed = {place.id: place.topics for place in self._world.universe.robots}
-        self._node = WorldNode(self._world, context, topics=renamed, clock_hz=self._tick_hz)
+        true_poses = {place.id for place in self._world.universe.robots if place.ground_truth}
+        self._node = WorldNode(
+            self._world, context, topics=renamed, true_poses=true_poses, clock_hz=self._tick_hz
+        )
         self._stack.append(self._node.close)
+        self._stack.append(share_commands(self._node, context))
         self._application = ActionNode(
             "application",
             context=context,

@@ -37,6 +37,7 @@ __all__ = [
     "Battery",
     "Bumper",
     "Camera",
+    "CommandType",
     "Drive",
     "Imu",
     "JointDrive",
@@ -49,6 +50,8 @@ __all__ = [
 ]
 
 _FOLDER: Final = Path(__file__).parent
+
+CommandType = Literal["twist", "twist_stamped", "both"]
 
 
 class RobotError(DocumentError):
@@ -93,7 +96,11 @@ class JointDrive(Strict):
 
 
 class RobotDocument(Strict):
-    """A `robot.yaml`, before its names are looked up in the URDF."""
+    """A `robot.yaml`, before its names are looked up in the URDF.
+
+    `command_type` is what the robot takes on `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped`
+    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it says on `/ground_truth/odom` where it truly is.
+    """
 
     format: Literal["bt-studio/robot"]
     version: Literal[1]
@@ -101,6 +108,8 @@ class RobotDocument(Strict):
     description: str = ""
     urdf: str
     drive: Drive
+    command_type: CommandType = "both"
+    ground_truth: bool = False
     joints: tuple[JointDrive, ...] = Field(default=(), max_length=20)
     wheels: tuple[str, ...] = ()
     friction: dict[str, NotNegative] = Field(default_factory=dict)
@@ -116,6 +125,8 @@ class RobotConfig:
         wheels: links whose contact is no collision: wheels and casters.
         friction: friction by link, where it is not 0.8.
         joints: other joints that have a motor.
+        command_type: the messages that it takes on `/cmd_vel`.
+        ground_truth: whether it says where it truly is.
         skid: what is left of it along y by link, from 0 to 1: wheels that turn by skidding slide sideways.
     """
 
@@ -134,6 +145,8 @@ class RobotConfig:
     bumpers: tuple[Bumper, ...] = ()
     batteries: tuple[Battery, ...] = ()
     joints: tuple[JointDrive, ...] = ()
+    command_type: CommandType = "both"
+    ground_truth: bool = False
 
 
 def robot_ids() -> tuple[str, ...]:
@@ -183,6 +196,8 @@ def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
         meshes=meshes,
         drive=document.drive,
         joints=document.joints,
+        command_type=document.command_type,
+        ground_truth=document.ground_truth,
         wheels=document.wheels,
         friction=document.friction,
         skid=document.skid,

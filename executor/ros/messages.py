@@ -29,7 +29,10 @@ if TYPE_CHECKING:
     from executor.world.transforms import Pose
 
 ODOM_FRAME = "odom"
-BASE_FRAME = "base_link"
+BASE_FRAME = "base_footprint"
+LINK_FRAME = "base_link"
+WORLD_FRAME = "world"
+_LEAST_VARIANCE = 1e-6  # of what is known exactly; filters must be able to invert it
 _UNKNOWN = 1e6
 
 
@@ -99,20 +102,44 @@ def camera_info(camera: Camera, time_s: float, prefix: str = "") -> CameraInfo:
     return message
 
 
-def odometry(state: Odometry, noise: float, time_s: float, prefix: str = "") -> OdometryMessage:
-    """Returns where the wheels say that the robot is; `noise` is the drive's `slip_noise`."""
+def odometry(
+    state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME
+) -> OdometryMessage:
+    """Returns where the wheels say that the robot is; the covariance of the pose grows with the way."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = prefix + ODOM_FRAME
-    message.child_frame_id = prefix + BASE_FRAME
+    message.child_frame_id = prefix + frame
     message.pose.pose.position.x = state.x
     message.pose.pose.position.y = state.y
     message.pose.pose.orientation = _heading(state.yaw)
     message.twist.twist.linear.x = state.linear
     message.twist.twist.angular.z = state.angular
-    planar = max(noise, 1e-3) ** 2
-    message.pose.covariance = _diagonal(planar, planar, _UNKNOWN, _UNKNOWN, _UNKNOWN, planar)
-    message.twist.covariance = _diagonal(planar, planar, _UNKNOWN, _UNKNOWN, _UNKNOWN, planar)
+    xx, xy, xt, yy, yt, tt = state.covariance
+    known = [max(each, _LEAST_VARIANCE) for each in (xx, yy, tt)]
+    matrix = _diagonal(known[0], known[1], _UNKNOWN, _UNKNOWN, _UNKNOWN, known[2])
+    matrix[1] = matrix[6] = xy
+    matrix[5] = matrix[30] = xt
+    matrix[11] = matrix[31] = yt
+    message.pose.covariance = matrix
+    # What the wheels do now is measured well: only its sum drifts.
+    least = _LEAST_VARIANCE
+    message.twist.covariance = _diagonal(least, least, _UNKNOWN, _UNKNOWN, _UNKNOWN, least)
+    return message
+
+
+def ground_truth(
+    pose: Pose, twist: tuple[float, float, float], time_s: float, prefix: str = "", frame: str = BASE_FRAME
+) -> OdometryMessage:
+    """Returns where the robot truly is in the world, and how it truly moves; known exactly."""
+    message = OdometryMessage()
+    message.header.stamp = to_time(time_s)
+    message.header.frame_id = WORLD_FRAME
+    message.child_frame_id = prefix + frame
+    place, turn = message.pose.pose.position, message.pose.pose.orientation
+    place.x, place.y, place.z = map(float, pose[:3])
+    turn.x, turn.y, turn.z, turn.w = map(float, pose[3:])
+    message.twist.twist.linear.x, message.twist.twist.linear.y, message.twist.twist.angular.z = twist
     return message
 
 
@@ -127,10 +154,12 @@ def transform(parent: str, child: str, pose: Pose, time_s: float = 0.0) -> Trans
     return message
 
 
-def odometry_transform(state: Odometry, time_s: float, prefix: str = "") -> TransformStamped:
+def odometry_transform(
+    state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME
+) -> TransformStamped:
     """Returns the transform from the odometry's frame to the robot."""
     pose = from_xyz_rpy((state.x, state.y, 0.0, 0.0, 0.0, state.yaw))
-    return transform(prefix + ODOM_FRAME, prefix + BASE_FRAME, pose, time_s)
+    return transform(prefix + ODOM_FRAME, prefix + frame, pose, time_s)
 
 
 def imu(sensor: Imu, reading: ImuReading, prefix: str = "") -> ImuMessage:

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+import rclpy
+from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
@@ -16,12 +18,11 @@ from executor.ros import messages
 from executor.ros.environment import has_tf
 from executor.ros.feed import Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
-from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics, take
+from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
+from executor.ros.taking import take
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rclpy.context import Context
+    from collections.abc import Callable, Collection
 
     from executor.world.interface import Robot, World
     from executor.world.sensors import Sensors
@@ -42,6 +43,7 @@ class WorldNode:
         context: Context,
         *,
         topics: dict[str, dict[str, str]] | None = None,
+        true_poses: Collection[str] = (),
         clock_hz: float = CLOCK_HZ,
         outlet: Outlet | None = None,
     ) -> None:
@@ -57,8 +59,17 @@ class WorldNode:
         self._clock = self._publisher(Clock, "/clock", _CLOCK_QOS)
         self._clock_due = Due(clock_hz)
         renamed = topics or {}
+        self._second: Node | None = None
         self._robots = [
-            RobotTopics(self.node, self._finder(i), i, renamed.get(robot.id, {}), outlet)
+            RobotTopics(
+                self.node,
+                self._finder(i),
+                i,
+                renamed.get(robot.id, {}),
+                self._second_node,
+                ground_truth=robot.id in true_poses,
+                outlet=outlet,
+            )
             for i, robot in enumerate(world.robots)
         ]
         feeds = [feed for robot in self._robots for feed in robot.feeds]
@@ -70,7 +81,7 @@ class WorldNode:
 
     def poll(self) -> None:
         """Takes the commands that arrived; the last one of each robot counts."""
-        self.refused_commands += sum(not robot.poll() for robot in self._robots)
+        self.refused_commands += sum(not robot.poll(self._world.time_s) for robot in self._robots)
 
     def publish(self, sensors: Sensors) -> None:
         """Sends what is due now. Nothing is measured or drawn that nobody receives."""
@@ -98,11 +109,46 @@ class WorldNode:
         """Tells whether anybody receives a camera's pictures."""
         return any(feed.has_receiver for feed in self._pictures)
 
+    def take_notes(self) -> list[str]:
+        """Returns what people should know of the commands that came, once."""
+        notes = [note for robot in self._robots for note in robot.commands.notes]
+        for robot in self._robots:
+            robot.commands.notes.clear()
+        return notes
+
+    def types_of(self, topic: str) -> tuple[type, ...]:
+        """Returns the types that a robot takes on a topic of commands; none for another topic."""
+        return next((robot.commands.types for robot in self._robots if robot.commands.topic == topic), ())
+
+    def node_for(self, topic: str, message_type: type) -> Node:
+        """Returns the node whose participant can hold a topic as of a type."""
+        types = self.types_of(topic)
+        return self._second_node() if message_type in types and message_type is not types[0] else self.node
+
+    def make_way(self, topic: str, message_type: type) -> None:
+        """Leaves a topic of commands, in this participant, to one of the types that its robot takes."""
+        for robot in self._robots:
+            if robot.commands.topic == topic:
+                robot.commands.make_way(message_type)
+
     def close(self) -> None:
         """Leaves the graph."""
         if self._outlet is not None:
             self._outlet.close()
         self.node.destroy_node()
+        if self._second is not None:
+            self._second.destroy_node()
+            self._second.context.try_shutdown()
+
+    def _second_node(self) -> Node:
+        """Returns a node in a participant of its own, made when it is first needed."""
+        if self._second is None:
+            context = Context()
+            rclpy.init(context=context, domain_id=self.node.context.get_domain_id())
+            self._second = Node(
+                "world_stamped", context=context, start_parameter_services=False, enable_rosout=False
+            )
+        return self._second
 
     def _finder(self, index: int) -> Callable[[], Robot]:
         return lambda: self._world.robots[index]

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, Imu, JointState, LaserScan
 from std_msgs.msg import Bool, Float64, String
 
-from executor.ros import messages
+from executor.ros import base_frames, messages
+from executor.ros.commands import Commands
 from executor.ros.feed import Feed
 from executor.ros.outlet import Outlet, Piped
+from executor.ros.taking import ignore, take
 from executor.world.bumper import ZONES
 from executor.world.kinematics import joint_pose
 
@@ -42,15 +43,19 @@ class RobotTopics:
         robot: found anew at each call, since a reset makes robots anew.
         index: which robot of the world; the first one's names have no prefix.
         renamed: topics by the name of the sensor, from the universe.
+        second: makes a node for messages of a second type on one topic.
         outlet: what the feeds publish through; None for their publishers themselves.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - a robot, and what its names come from
         self,
         node: Node,
         robot: Callable[[], Robot],
         index: int,
         renamed: dict[str, str],
+        second: Callable[[], Node],
+        *,
+        ground_truth: bool = False,
         outlet: Outlet | None = None,
     ) -> None:
         self._outlet = outlet
@@ -61,15 +66,21 @@ class RobotTopics:
         robot_id = robot().id
         self._prefix = "" if index == 0 else f"/{robot_id}"
         self._frames = "" if index == 0 else f"{robot_id}/"
-        self._commands = node.create_subscription(Twist, f"{self._prefix}/cmd_vel", _ignore, _COMMANDS)
+        config = self._config
+        self._base = base_frames.odometry_frame(config)
+        self.commands = Commands(
+            node, f"{self._prefix}/cmd_vel", config.command_type, config.drive.timeout_s, second
+        )
         self._joints = {
             drive.joint: node.create_subscription(
-                Float64, self._prefix + self._name(drive.joint, drive.topic), _ignore, _COMMANDS
+                Float64, self._prefix + self._name(drive.joint, drive.topic), ignore, _COMMANDS
             )
             for drive in self._config.joints
         }
         self.feeds: list[Feed] = []
         self._add_motion()
+        if ground_truth or config.ground_truth:
+            self._add_ground_truth()
         for lidar in self._config.lidars:
             self._add_lidar(lidar)
         for camera in self._config.cameras:
@@ -82,10 +93,12 @@ class RobotTopics:
             self._add_battery(battery)
         self._describe()
 
-    def poll(self) -> bool:
+    def poll(self, now_s: float) -> bool:
         """Takes the commands that arrived; the last one of each topic counts. Tells whether it obeyed all."""
-        robot, twist = self._robot(), _last(self._commands)
-        obeyed = twist is None or robot.command(twist.linear.x, twist.angular.z)
+        robot = self._robot()
+        command, obeyed = self.commands.take(now_s)
+        if command is not None:
+            obeyed = robot.command(*command)
         for joint, subscription in self._joints.items():
             wanted = _last(subscription)
             obeyed &= wanted is None or robot.command_joint(joint, wanted.data)
@@ -94,7 +107,7 @@ class RobotTopics:
     def moving_transforms(self, now_s: float) -> list[Any]:
         """Returns where the robot is by its odometry, and where its moving links are."""
         robot = self._robot()
-        found = [messages.odometry_transform(robot.odometry, now_s, self._frames)]
+        found = [messages.odometry_transform(robot.odometry, now_s, self._frames, self._base)]
         for name, (position, _) in robot.joint_states().items():
             joint = self._config.urdf.joints[name]
             found.append(
@@ -115,6 +128,7 @@ class RobotTopics:
             for joint in self._config.urdf.joints.values()
             if joint.kind == "fixed"
         ]
+        fixed += base_frames.fixed_transforms(self._config, frames)
         return fixed + [
             messages.transform(frames + camera.link, frames + messages.optical_frame(camera), _OPTICAL)
             for camera in self._config.cameras
@@ -143,16 +157,23 @@ class RobotTopics:
         )
 
     def _add_motion(self) -> None:
-        noise, frames = self._config.drive.slip_noise, self._frames
+        frames, base = self._frames, self._base
         self._feed(
             [self._publisher(Odometry, "/odom")],
             ODOMETRY_HZ,
-            lambda _, now_s: messages.odometry(self._robot().odometry, noise, now_s, frames),
+            lambda _, now_s: messages.odometry(self._robot().odometry, now_s, frames, base),
         )
         self._feed(
             [self._publisher(JointState, "/joint_states")],
             ODOMETRY_HZ,
             lambda _, now_s: messages.joint_state(self._robot().joint_states(), now_s),
+        )
+
+    def _add_ground_truth(self) -> None:
+        self._feed(
+            [self._publisher(Odometry, "/ground_truth/odom")],
+            ODOMETRY_HZ,
+            lambda _, now_s: base_frames.true_odometry(self._robot(), now_s, self._frames),
         )
 
     def _add_lidar(self, lidar: config.Lidar) -> None:
@@ -224,19 +245,8 @@ class RobotTopics:
         self._description.publish(String(data=self._config.urdf.text))
 
 
-def take(subscription: Any) -> Any:
-    """Takes one message of a subscription without an executor; None if there is none."""
-    with subscription.handle:
-        taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-    return None if taken is None else taken[0]
-
-
 def _last(subscription: Any) -> Any:
     last = None
     while (taken := take(subscription)) is not None:
         last = taken
     return last
-
-
-def _ignore(message: object) -> None:
-    """Never called: messages are taken, no executor spins this node."""

@@ -93,6 +93,9 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
 class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
     """For lock-step: what was published in this process before `drain` is called back within it."""
 
+    holds_time = True
+    """No time passes during a callback: waiting in one for something else is in vain."""
+
     _drains = 0
 
     def drain(self) -> int:

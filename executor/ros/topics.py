@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     from rclpy.node import Node
 
+    from executor.ros.node import WorldNode
+
 __all__ = ["TopicError", "Topics"]
 
 WINDOW_S: Final = 2.0
@@ -57,6 +59,7 @@ class _Ear:
     type_name: str
     subscription: Any
     since_s: float
+    node: Node
     heard: deque[tuple[float, int]] = field(default_factory=deque)
     echo_hz: float = 0.0
     next_echo_s: float = 0.0
@@ -74,12 +77,24 @@ class _Unsent:
 
 
 class Topics:
-    """Answers what clients ask about topics. Rates are those of the last two seconds of real time."""
+    """Answers what clients ask about topics. Rates are those of the last two seconds of real time.
+
+    Args:
+        node: who looks, and speaks.
+        commands: the world, whose robots may take two types on one topic.
+        outlet: what is published through; None for the publishers themselves.
+    """
 
     def __init__(
-        self, node: Node, send: Callable[[dict[str, Any]], None], outlet: Outlet | None = None
+        self,
+        node: Node,
+        send: Callable[[dict[str, Any]], None],
+        *,
+        commands: WorldNode | None = None,
+        outlet: Outlet | None = None,
     ) -> None:
         self._node = node
+        self._commands = commands
         self._outlet = outlet
         self._send = send
         self._ears: dict[str, _Ear] = {}
@@ -114,7 +129,8 @@ class Topics:
         self._begin_patient(now_s)
         for name, ear in list(self._ears.items()):
             if not ear.echo_hz and now_s > ear.until_s:
-                self._node.destroy_subscription(self._ears.pop(name).subscription)
+                self._ears.pop(name)
+                ear.node.destroy_subscription(ear.subscription)
                 continue
             newest = None
             while (taken := _take_raw(ear.subscription)) is not None:
@@ -131,6 +147,7 @@ class Topics:
     def _list(self, now_s: float) -> None:
         rows = []
         for name, types in sorted(self._node.get_topic_names_and_types()):
+            types = self._types(name, types)
             if types[0] not in _UNHEARD and name not in self._ears:
                 self._listen(name, types[0], now_s)
             ear = self._ears.get(name)
@@ -141,6 +158,7 @@ class Topics:
                 {
                     "name": name,
                     "type": types[0],
+                    "types": types,
                     "hz": hz,
                     "bytes_per_s": bytes_per_s,
                     "publishers": self._node_names(self._node.get_publishers_info_by_topic(name)),
@@ -169,7 +187,7 @@ class Topics:
             if name in self._ears:
                 self._ears[name].echo_hz = 0.0
             return
-        types = dict(self._node.get_topic_names_and_types()).get(name)
+        types = self._types(name, dict(self._node.get_topic_names_and_types()).get(name, []))
         if not types:
             raise TopicError("unknown_topic", f"There is no topic {name!r} in the graph.")
         if name not in self._ears:
@@ -198,8 +216,9 @@ class Topics:
             end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in says
         )
         qos = _LATCHED_QOS if latched else _QOS
-        subscription = self._node.create_subscription(kind, name, _ignore, qos, raw=True)
-        self._ears[name] = _Ear(type_name, subscription, now_s)
+        node = self._node_for(name, kind)
+        subscription = node.create_subscription(kind, name, _ignore, qos, raw=True)
+        self._ears[name] = _Ear(type_name, subscription, now_s, node)
         return True
 
     def _tell(self, name: str, ear: _Ear, raw: bytes) -> None:
@@ -242,19 +261,31 @@ class Topics:
     def _publisher(self, topic: str, kind: Any) -> Any:
         type_name = f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}"
         there = dict(self._node.get_topic_names_and_types()).get(topic)
-        if there and type_name not in there:
+        if there and type_name not in self._types(topic, there):
             raise TopicError("type_differs", f"{topic} is of the type {there[0]}, not {type_name}.")
         if (topic, type_name) not in self._publishers:
             if len(self._publishers) >= MOST_PUBLISHERS:
                 raise TopicError("too_many", f"At most {MOST_PUBLISHERS} topics can be published on.")
             try:
-                made = self._node.create_publisher(kind, topic, 10)
+                made = self._node_for(topic, kind).create_publisher(kind, topic, 10)
             except (NameValidationException, ValueError, RuntimeError) as error:
                 # The text of ROS goes on with a drawing of the place.
                 text = str(error).partition("\n")[0].rstrip(":")
                 raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
             self._publishers[topic, type_name] = made if self._outlet is None else Piped(made, self._outlet)
         return self._publishers[topic, type_name]
+
+    def _types(self, topic: str, there: list[str]) -> list[str]:
+        """Returns the types of a topic; first the one that is said, of those that a robot takes."""
+        takes = () if self._commands is None else self._commands.types_of(topic)
+        if not takes or not there:
+            return there
+        names = [f"geometry_msgs/msg/{each.__name__}" for each in takes]
+        said = {end.topic_type for end in self._node.get_publishers_info_by_topic(topic)}
+        return sorted(names, key=lambda name: name not in said) + [name for name in there if name not in names]
+
+    def _node_for(self, topic: str, kind: type) -> Node:
+        return self._node if self._commands is None else self._commands.node_for(topic, kind)
 
     def _publish_waiting(self, now_s: float) -> None:
         """A publisher that was just made is not yet known to other processes: what it says would be lost."""

@@ -179,7 +179,10 @@ class Actor(_Strict):
 
 
 class RobotPlace(_Strict):
-    """A robot and where it starts; `topics` renames what its sensors publish."""
+    """A robot and where it starts; `topics` renames what its sensors publish.
+
+    With `ground_truth` it says on `/ground_truth/odom` where it truly is.
+    """
 
     id: Name = "robot"
     model: Name = "turtle2"
@@ -187,6 +190,7 @@ class RobotPlace(_Strict):
     topics: dict[str, Annotated[str, StringConstraints(pattern=r"^/[A-Za-z0-9_/]+$")]] = Field(
         default_factory=dict
     )
+    ground_truth: bool = False
 
 
 class Light(_Strict):

@@ -144,6 +144,8 @@ class Clockwork:
                 self._node.poll()
                 self._node.publish(self._sensors)
         self._tell_collisions()
+        for note in self._node.take_notes():
+            self._log("warning", note)
 
     def _tell_collisions(self) -> None:
         for robot, collision in self._world.take_collisions():

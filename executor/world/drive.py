@@ -13,14 +13,21 @@ if TYPE_CHECKING:
     from executor.robots.config import Drive
 
 
+Covariance = tuple[float, float, float, float, float, float]
+
+
 class Odometry(NamedTuple):
-    """Where the wheels say that the robot is: pose in the odom frame, m and rad, and twist in its own."""
+    """Where the wheels say that the robot is: pose in the odom frame, m and rad, and twist in its own.
+
+    `covariance` is that of the pose: xx, xy, x·yaw, yy, y·yaw and yaw·yaw.
+    """
 
     x: float = 0.0
     y: float = 0.0
     yaw: float = 0.0
     linear: float = 0.0
     angular: float = 0.0
+    covariance: Covariance = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class DriveState(NamedTuple):
@@ -83,6 +90,7 @@ class DifferentialDrive:
             old.y + chord * math.sin(middle),
             wrap(old.yaw + turned),
             *rates,
+            self._grown(old.covariance, ways, moved, middle),
         )
         self.state = self.state._replace(wheel_angles=(left, right), odometry=odometry)
         return odometry
@@ -90,6 +98,32 @@ class DifferentialDrive:
     def _motion(self, left: float, right: float) -> tuple[float, float]:
         limit = self._config
         return (left + right) / 2, (right - left) / (limit.track * limit.turn_factor)
+
+    def _grown(
+        self, old: Covariance, ways: tuple[float, float], moved: float, middle: float
+    ) -> Covariance:
+        """Returns the covariance after one more piece of way: J P Jᵀ + G Q Gᵀ.
+
+        J is how the new pose follows from the old one, G from the ways of the wheels; Q = slip_noise² ·
+        diag(|left|, |right|), which is the noise that `_believed` adds. Siegwart and Nourbakhsh,
+        Introduction to Autonomous Mobile Robots, 5.2.4: the error of odometry for a differential drive.
+        """
+        limit = self._config
+        if limit.slip_noise <= 0:
+            return old
+        xx, xy, xt, yy, yt, tt = old
+        cosine, sine = math.cos(middle), math.sin(middle)
+        a, b = -moved * sine, moved * cosine  # J: x grows by a, y by b for each rad of yaw
+        xx, xy, yy = xx + 2 * a * xt + a * a * tt, xy + a * yt + b * xt + a * b * tt, yy + 2 * b * yt + b * b * tt
+        xt, yt = xt + a * tt, yt + b * tt
+        width = limit.track * limit.turn_factor
+        for way, side in zip(ways, (-1.0, 1.0), strict=True):
+            turn = side / width
+            gx, gy = cosine / 2 + a * turn / 2, sine / 2 + b * turn / 2
+            q = limit.slip_noise**2 * abs(way)
+            xx, xy, xt = xx + q * gx * gx, xy + q * gx * gy, xt + q * gx * turn
+            yy, yt, tt = yy + q * gy * gy, yt + q * gy * turn, tt + q * turn * turn
+        return xx, xy, xt, yy, yt, tt
 
     def _believed(self, way: float) -> float:
         """Returns what odometry takes a wheel's way for: a random walk along the way."""

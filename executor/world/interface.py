@@ -61,8 +61,19 @@ class Robot(Protocol):
     def collisions(self) -> int:
         """How many times the robot has bumped into something."""
 
-    def command(self, linear: float, angular: float) -> bool:
-        """Sets the wanted twist in m/s and rad/s; refuses (False) one that is not finite."""
+    def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
+        """Sets the wanted twist in m/s and rad/s; refuses (False) one that is not finite.
+
+        `at_s` is when it was wanted, in simulated time; now if None. It holds for the drive's timeout from then.
+        """
+
+    @property
+    def base_pose(self) -> Pose:
+        """True pose of the root link in the world."""
+
+    @property
+    def twist(self) -> tuple[float, float, float]:
+        """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
 
     def stop(self) -> None:
         """Wants no motion any more."""

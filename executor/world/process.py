@@ -200,10 +200,11 @@ class WorldProcess:
         self._progress(0.6, "Joining the ROS graph")
         context = self._join(int(message.get("domain_id") or 0))
         renamed = {place.id: place.topics for place in world.universe.robots}
+        true_poses = {place.id for place in world.universe.robots if place.ground_truth}
         outlet = Outlet()
-        node = WorldNode(world, context, topics=renamed, outlet=outlet)
+        node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
-        self._topics = Topics(node.node, self._say, outlet)
+        self._topics = Topics(node.node, self._say, commands=node, outlet=outlet)
         clockwork = Clockwork(
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )

@@ -127,9 +127,20 @@ class BulletRobot:
         lows, highs = zip(*boxes, strict=True)
         return tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
 
-    def command(self, linear: float, angular: float) -> bool:
-        """Sets the wanted twist; refuses one that is not finite."""
-        return self._drive.command(linear, angular, self._clock_s)
+    @property
+    def twist(self) -> tuple[float, float, float]:
+        """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
+        (x, y, _), (_, _, turn) = self._bullet.getBaseVelocity(self.uid)
+        # The velocity is that of the centre of mass.
+        center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
+        base = self.base_pose
+        x, y = x + turn * (center[1] - base[1]), y - turn * (center[0] - base[0])
+        cosine, sine = math.cos(self.pose[2]), math.sin(self.pose[2])
+        return x * cosine + y * sine, y * cosine - x * sine, turn
+
+    def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
+        """Sets the wanted twist, as of now or of some time before; refuses one that is not finite."""
+        return self._drive.command(linear, angular, self._clock_s if at_s is None else at_s)
 
     def stop(self) -> None:
         """Wants no motion any more."""

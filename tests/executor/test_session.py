@@ -94,7 +94,7 @@ async def test_topics_are_listed_echoed_published_and_described():
         assert await client.ask("echo_topic", {"topic": "/odom", "max_hz": 5}) == "ack"
         message = (await client.event("topic_message"))["data"]
         assert message["type"] == "nav_msgs/msg/Odometry"
-        assert message["message"]["child_frame_id"] == "base_link"
+        assert message["message"]["child_frame_id"] == "base_footprint"
         rate = None
         while not rate:  # the first lists start the measuring
             assert await client.ask("list_topics") == "ack"

@@ -160,7 +160,7 @@ def test_commands_drive_and_odometry_tells(rig: Rig) -> None:
         publisher.publish(twist)
         heard = rig.run(0.4)["/odom"]
     last = heard[-1]
-    assert last.child_frame_id == "base_link"
+    assert last.child_frame_id == "base_footprint"
     assert last.twist.twist.linear.x == pytest.approx(0.4, abs=0.01)
     assert last.twist.twist.angular.z == pytest.approx(0.2, abs=0.01)
     x, y, _ = rig.world.robots[0].pose
@@ -198,7 +198,7 @@ def test_tf_is_published_where_its_messages_are_installed(rig: Rig) -> None:
 
         rig.listen(TFMessage, "/tf")
         transform = rig.run(0.2)["/tf"][-1].transforms[0]
-        assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_link")
+        assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
 
 
 def test_a_joint_goes_where_its_topic_says_and_tf_follows(context: Context) -> None:

@@ -1,0 +1,53 @@
+"""The frames below a robot's sensors, as TurtleBot3 has them: `odom`, `base_footprint`, `base_link`.
+
+`base_footprint` lies on the ground below the robot; odometry and the ground truth are about it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from executor.ros import messages
+from executor.world.transforms import IDENTITY, Pose, compose, inverse
+
+if TYPE_CHECKING:
+    from executor.robots.config import RobotConfig
+    from executor.world.interface import Robot
+
+
+def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
+    """Returns what joins `base_footprint` to the links of the URDF, where the URDF does not do so itself.
+
+    `base_link` is there also for a robot whose links are called otherwise.
+    """
+    links, root = config.urdf.links, config.urdf.root
+    chain: list[tuple[str, str, Pose]] = []
+    if messages.BASE_FRAME not in links:
+        chain.append((messages.BASE_FRAME, root, footprint_of(config)))
+        if messages.LINK_FRAME not in links:
+            chain = [(messages.BASE_FRAME, messages.LINK_FRAME, footprint_of(config))]
+            chain.append((messages.LINK_FRAME, root, IDENTITY))
+    return [messages.transform(prefix + parent, prefix + child, pose) for parent, child, pose in chain]
+
+
+def footprint_of(config: RobotConfig) -> Pose:
+    """Returns where the root link is in `base_footprint`: so high that the driven wheels stand on the ground."""
+    joint = config.urdf.joints[config.drive.left[0]]
+    _, above = config.urdf.rigid_parent(joint.parent)
+    height = config.drive.wheel_radius - compose(above, joint.origin)[2]
+    return (0.0, 0.0, height, 0.0, 0.0, 0.0, 1.0)
+
+
+def odometry_frame(config: RobotConfig) -> str:
+    """Returns the frame that odometry places: the root of the URDF if `base_footprint` is somewhere below it."""
+    below = messages.BASE_FRAME in config.urdf.links and config.urdf.root != messages.BASE_FRAME
+    return config.urdf.root if below else messages.BASE_FRAME
+
+
+def true_odometry(robot: Robot, now_s: float, prefix: str) -> Any:
+    """Returns the message of `/ground_truth/odom`."""
+    config = robot.config
+    base = robot.base_pose
+    if odometry_frame(config) != config.urdf.root:
+        base = compose(base, inverse(footprint_of(config)))
+    return messages.ground_truth(base, robot.twist, now_s, prefix, odometry_frame(config))

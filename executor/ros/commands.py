@@ -1,0 +1,116 @@
+"""What a robot is told on `/cmd_vel`: `Twist`, `TwistStamped`, or both.
+
+A participant of the middleware holds one type for a topic. A robot that takes both hears `Twist` by the
+world's own one; for `TwistStamped` a second one is made once somebody publishes it, since it takes memory and
+time. Where the application is in the world's participant (lock-step), the robot hears what is published there.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from geometry_msgs.msg import Twist, TwistStamped
+
+from executor.ros.taking import ignore, take_with_info
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+
+    from executor.robots.config import CommandType
+
+TYPES: Final[dict[CommandType, tuple[type, ...]]] = {
+    "twist": (Twist,),
+    "twist_stamped": (TwistStamped,),
+    "both": (Twist, TwistStamped),
+}
+STAMPED: Final = "geometry_msgs/msg/TwistStamped"
+LOOK_EVERY: Final = 15
+"""Whether somebody publishes the second type is looked at each so many takes: four times a second."""
+_DEPTH: Final = 10
+_NS: Final = 1e-9
+
+
+class Command(NamedTuple):
+    """A wanted twist in m/s and rad/s, and when it was wanted, in simulated time."""
+
+    linear: float
+    angular: float
+    at_s: float
+
+
+class Commands:
+    """The commands of one robot.
+
+    A stamped one holds for `timeout_s` from its stamp, as with ROS 2's diff_drive_controller: one that is
+    older is refused. A stamp of 0 is now, and so is one of the future, as of a program that does not use
+    simulated time. Its frame is not looked at: a twist is the robot's own.
+
+    Args:
+        node: who hears the first type.
+        second: makes, or returns, the node that hears the other one.
+    """
+
+    def __init__(
+        self, node: Node, topic: str, kind: CommandType, timeout_s: float, second: Callable[[], Node]
+    ) -> None:
+        self.topic = topic
+        self.types = TYPES[kind]
+        self.notes: list[str] = []
+        self._node = node
+        self._timeout_s = timeout_s
+        self._second = second
+        self._ears = {self.types[0]: self._hear(node, self.types[0])}
+        self._looks = 0
+        self._noted = False
+
+    def take(self, now_s: float) -> tuple[Command | None, bool]:
+        """Returns the last command that arrived, and whether the last one can be obeyed."""
+        if len(self._ears) < len(self.types):
+            self._look()
+        arrived: list[tuple[int, Any]] = []
+        for ear in self._ears.values():
+            while (taken := take_with_info(ear)) is not None:
+                arrived.append((int(taken[1].get("received_timestamp", 0)), taken[0]))
+        if not arrived:
+            return None, True
+        newest = max(arrived, key=lambda each: each[0])[1] if len(self._ears) > 1 else arrived[-1][1]
+        if isinstance(newest, Twist):
+            return Command(newest.linear.x, newest.angular.z, now_s), True
+        return self._stamped(newest, now_s)
+
+    def make_way(self, message_type: type) -> None:
+        """Leaves the topic, in this participant, to one of the types that the robot takes."""
+        if message_type in self.types and message_type not in self._ears:
+            for ear in self._ears.values():
+                self._node.destroy_subscription(ear)
+            self._ears = {message_type: self._hear(self._node, message_type)}
+
+    # --- inside ---
+
+    def _hear(self, node: Node, message_type: type) -> Any:
+        return node.create_subscription(message_type, self.topic, ignore, _DEPTH)
+
+    def _look(self) -> None:
+        self._looks += 1
+        if self._looks % LOOK_EVERY or Twist not in self._ears:
+            return
+        said = {end.topic_type for end in self._node.get_publishers_info_by_topic(self.topic)}
+        if STAMPED in said:
+            self._ears[TwistStamped] = self._hear(self._second(), TwistStamped)
+
+    def _stamped(self, message: Any, now_s: float) -> tuple[Command | None, bool]:
+        stamp, twist = message.header.stamp, message.twist
+        stamp_s = stamp.sec + stamp.nanosec * _NS
+        at_s = now_s if stamp_s == 0 else min(stamp_s, now_s)
+        if now_s - at_s > self._timeout_s:
+            if not self._noted:
+                self._noted = True
+                self.notes.append(
+                    f"{self.topic}: a command is left out since its stamp ({stamp_s:.2f} s) is "
+                    f"{now_s - at_s:.2f} s old; the drive holds commands for {self._timeout_s:g} s. Stamp it "
+                    "with the node's clock (use_sim_time), or with 0."
+                )
+            return None, False
+        return Command(twist.linear.x, twist.angular.z, at_s), True

@@ -1,0 +1,52 @@
+"""Message, service and action packages of which there is no wheel: which they are, and what they define.
+
+`interfaces/<package>.txt` has a section `[kind/Name]` for each interface, in the syntax of ROS's own
+interface files.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Final
+
+FOLDER: Final = Path(__file__).with_name("interfaces")
+# Each package after those whose interfaces it uses; and the packages with wheels that it needs.
+PACKAGES: Final[dict[str, tuple[str, ...]]] = {
+    "tf2_msgs": ("geometry_msgs", "action_msgs"),
+    "geographic_msgs": ("geometry_msgs", "unique_identifier_msgs"),
+    "nav2_msgs": ("geographic_msgs", "geometry_msgs", "nav_msgs", "action_msgs"),
+    "example_interfaces": ("action_msgs",),
+    "control_msgs": ("geometry_msgs", "sensor_msgs", "trajectory_msgs", "action_msgs"),
+    "vision_msgs": ("geometry_msgs",),
+}
+# What every one needs: of a service or an action too.
+COMMON: Final = ("builtin_interfaces", "std_msgs", "service_msgs", "unique_identifier_msgs")
+
+_SECTION: Final = re.compile(r"^\[((msg|srv|action)/\w+)\]$")
+
+
+def definitions_of(package: str) -> dict[str, str]:
+    """Returns the interface files of a package: text by path, as `msg/Name.msg`."""
+    found: dict[str, list[str]] = {}
+    path = ""
+    for line in (FOLDER / f"{package}.txt").read_text(encoding="utf-8").splitlines():
+        if section := _SECTION.match(line):
+            path = f"{section[1]}.{section[2]}"
+            found[path] = []
+        elif path:
+            found[path].append(_told_apart(line, len(found[path])))
+    return {path: "\n".join(lines).strip() + "\n" for path, lines in found.items()}
+
+
+def _told_apart(line: str, number: int) -> str:
+    """Gives a constant a remark: rosidl takes two that read the same, in parts of an action, for one."""
+    return f"{line}  # line {number}" if "=" in line else line
+
+
+def needed_by(package: str) -> tuple[str, ...]:
+    """Returns all packages whose interfaces one needs, without itself, in the order of `PACKAGES`."""
+    needs = {*COMMON, *PACKAGES.get(package, ())}
+    for name in PACKAGES.get(package, ()):
+        needs |= {*needed_by(name)} if name in PACKAGES else set()
+    return tuple(sorted(needs))

@@ -1,0 +1,7 @@
+"""Filters that sit between subscriptions and callbacks, and bring together what belongs together."""
+
+from message_filters.cache import Cache
+from message_filters.simple import SimpleFilter, Subscriber
+from message_filters.synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
+
+__all__ = ["ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber", "TimeSynchronizer"]

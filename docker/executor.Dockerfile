@@ -24,15 +24,16 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
     /build/tools/bin/uv venv -q --python /usr/bin/python3 /opt/bt-studio/.venv && \
     /build/tools/bin/uv pip install -q --link-mode=copy --compile-bytecode --python /opt/bt-studio/.venv/bin/python \
       --no-deps --require-hashes -r executor.lock
-# tf2_msgs, of which there is no wheel.
+# Message packages of which there is no wheel: tf2_msgs, nav2_msgs …
 COPY executor/__init__.py /opt/bt-studio/executor/__init__.py
 COPY executor/ros /opt/bt-studio/executor/ros
 RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run/secrets/ca.crt \
     if [ -s /run/secrets/ca.crt ]; then export SSL_CERT_FILE=/run/secrets/ca.crt; fi; \
     cd /opt/bt-studio && ln -s /build/tools/bin/uv .venv/bin/uv && \
-    .venv/bin/python -m executor.ros.build_tf2_msgs && .venv/bin/python -c 'import tf2_msgs.msg' && rm .venv/bin/uv
+    .venv/bin/python -m executor.ros.build_interfaces && test -f .venv/share/bt_studio_interfaces/complete && rm .venv/bin/uv
 # What a language server is shown: the engine, and stubs of ROS messages.
 COPY backend/__init__.py /build/backend/__init__.py
+COPY executor/ros_python /opt/bt-studio/executor/ros_python
 COPY backend/language/__init__.py backend/language/library.py backend/language/message_stubs.py /build/backend/language/
 RUN /opt/bt-studio/.venv/bin/python -m backend.language.library \
       /opt/bt-studio/.venv/lib/python3.11/site-packages /opt/bt-studio /opt/bt-studio/library

@@ -265,7 +265,7 @@ class TopicInfo(Struct):
     bytes_per_s: float | None
     publishers: list[str]
     subscribers: list[str]
-    types: list[str] = []
+    types: list[str]
 
 
 class Topics(Struct):

@@ -14,6 +14,8 @@ from typing import Final
 from backend.language import message_stubs
 
 ENGINE: Final = ("tree_gardener",)
+# Python parts of ROS that have no wheel, as actions import them.
+ROS_PYTHON: Final = "executor/ros_python"
 # `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
 _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
@@ -24,6 +26,9 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
     message_stubs.write_message_stubs(site_packages, folder)
     for package in ENGINE:
         (folder / package).symlink_to(repository / package, target_is_directory=True)
+    for package in sorted((repository / ROS_PYTHON).iterdir()):
+        if (package / "__init__.py").is_file() and not (site_packages / package.name).exists():
+            (folder / package.name).symlink_to(package, target_is_directory=True)
     (folder / "tree_tools.py").write_text(_TREE_TOOLS)
 
 

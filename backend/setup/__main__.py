@@ -56,7 +56,7 @@ def main(arguments: list[str]) -> None:
         bytecode_step(),
         node_step(),
         front_end_step(),
-        tf2_step(),
+        interfaces_step(),
     ]
     if goal == "test":
         steps.append(ram_client_step())
@@ -223,15 +223,20 @@ def front_end_step() -> Step:
     )
 
 
-def tf2_step() -> Step:
-    """ROS 2's transform messages, of which there is no wheel; without a compiler /tf is left out."""
-    script = ROOT / "executor" / "ros" / "build_tf2_msgs.py"
+def interfaces_step() -> Step:
+    """ROS 2's message packages of which there are no wheels; without a compiler they are left out.
+
+    What it makes is there when all were built: without a compiler it is tried again at each start.
+    """
+    ros = ROOT / "executor" / "ros"
+    programs = [ros / f"{name}.py" for name in ("build_interfaces", "generate_interfaces")]
     return Step(
-        "tf2_msgs",
-        "building ROS 2's tf2_msgs",
-        [script, ROOT / "requirements.lock"],
-        VENV,
-        lambda: run([str(PYTHON), "-m", "executor.ros.build_tf2_msgs"], cwd=ROOT),
+        "interfaces",
+        "building ROS 2's messages of tf2, Nav2, control and vision (a minute or two, once)",
+        [*programs, ros / "interface_definitions.py", *sorted((ros / "interfaces").glob("*.txt"))]
+        + [ROOT / "requirements.lock"],
+        VENV / "share" / "bt_studio_interfaces" / "complete",
+        lambda: run([str(PYTHON), "-m", "executor.ros.build_interfaces"], cwd=ROOT),
     )
 
 

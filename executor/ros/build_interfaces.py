@@ -56,10 +56,12 @@ RUNTIME_LIBRARIES: Final = (
 )
 # By these names rosidl looks for the parts of a package's type support; here they are one library.
 SUPPORTS: Final = ("typesupport_fastrtps_c", "typesupport_introspection_c")
+INTROSPECTION: Final = "introspection"  # the folder that generate_interfaces makes beside the packages
 PREFIX: Final = Path(sys.prefix)
 STAMPS: Final = PREFIX / "share" / "bt_studio_interfaces"
 COMPLETE: Final = STAMPS / "complete"
 _PROGRAMS: Final = ("build_interfaces.py", "generate_interfaces.py", "interface_definitions.py")
+_ERROR: Final = re.compile(r"\berror: |^\S*(?:Error|Support)\b.*:")
 _STATIC: Final = re.compile(r"^static .*?(\w+)(?:\[\w*\])? =", re.MULTILINE)
 # Optimised for size: half the time to compile, and converting messages takes the same.
 _FLAGS: Final = ("-Os", "-fPIC", "-w")
@@ -191,6 +193,7 @@ class _Build:
             "structures.c": structures,
             "python.c": sorted(folder.glob("*/*_s.c")),
             "descriptions.c": descriptions,
+            "introspection.c": sorted((self._work / INTROSPECTION / package).glob("*/detail/*.c")),
             "types.cpp": sorted(folder.glob("*/*.cpp")),
         }
 
@@ -207,7 +210,7 @@ class _Build:
         import numpy as np  # noqa: PLC0415 - the set-up's Python may lack it; then this is an honest error
 
         folders = [PREFIX / "include" / name for name in (*needed_by(package), *RUNTIME)]
-        folders += [self._work, PREFIX / "include", Path(sysconfig.get_path("include")), Path(np.get_include())]
+        folders += [self._work, self._work / INTROSPECTION, PREFIX / "include", Path(sysconfig.get_path("include")), Path(np.get_include())]
         return [f"-I{folder}" for folder in folders]
 
     def _link(self, package: str, objects: list[Path]) -> None:
@@ -318,7 +321,7 @@ def _run(command: list[str], environment: dict[str, str] | None = None) -> None:
         raise CannotBuildError(f"{command[0]} cannot be run: {error}") from error
     if done.returncode != 0:
         lines = (done.stderr or done.stdout).strip().splitlines() or ["no output"]
-        errors = [line for line in lines if "error" in line.lower()]
+        errors = [line for line in lines if _ERROR.search(line)]
         raise CannotBuildError(f"{Path(command[0]).name} failed: {(errors or lines)[-1]}")
 
 

@@ -25,6 +25,7 @@ from rosidl_typesupport_fastrtps_c.cli import GenerateFastRTPSCTypesupport
 from rosidl_typesupport_introspection_c.cli import GenerateIntrospectionCTypesupport
 
 KINDS: Final = ("msg", "srv", "action")
+INTROSPECTION: Final = "introspection"
 
 
 def describe(folder: Path, share: list[str]) -> None:
@@ -46,7 +47,9 @@ def structures(folder: Path, share: list[str]) -> None:
 def support(folder: Path, share: list[str]) -> None:
     """Writes the type support: how our middleware packs messages, and what it tells others of their types."""
     GenerateFastRTPSCTypesupport("fastrtps_c").generate(folder.name, _idl(folder), share, folder)
-    GenerateIntrospectionCTypesupport("introspection_c").generate(folder.name, _idl(folder), share, folder)
+    # Its sources have the names of others.
+    beside = folder.parent / INTROSPECTION / folder.name
+    GenerateIntrospectionCTypesupport("introspection_c").generate(folder.name, _idl(folder), share, beside)
     kinds = ["rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c"]
     GenerateCTypesupport("c", typesupport_implementations=kinds).generate(folder.name, _idl(folder), share, folder)
 

@@ -116,7 +116,7 @@ def odometry(
     message.twist.twist.linear.x = state.linear
     message.twist.twist.angular.z = state.angular
     xx, xy, xt, yy, yt, tt = state.covariance
-    known = [max(each, _LEAST_VARIANCE) for each in (xx, yy, tt)]
+    known = [each + _LEAST_VARIANCE for each in (xx, yy, tt)]
     matrix = _diagonal(known[0], known[1], _UNKNOWN, _UNKNOWN, _UNKNOWN, known[2])
     matrix[1] = matrix[6] = xy
     matrix[5] = matrix[30] = xt

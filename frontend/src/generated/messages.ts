@@ -284,7 +284,8 @@ export interface Sim {
  * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
  *
  * `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
- * client echoes them, and the first `list_topics` after a while starts the measuring.
+ * client echoes them, and the first `list_topics` after a while starts the measuring. `types` has more than
+ * `type` where a robot takes several on its topic of commands.
  */
 export interface TopicInfo {
   name: string;
@@ -293,6 +294,7 @@ export interface TopicInfo {
   bytes_per_s: number | null;
   publishers: string[];
   subscribers: string[];
+  types: string[];
 }
 
 /** The topics of the session's ROS graph. */

@@ -1,8 +1,9 @@
+import { Checkbox, NativeSelect } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { FieldGroup, NumberField, TextField } from '@/features/editor3d/fields';
 import { setTrack, setValue, setWheels, wheelWidth } from '@/model/robot/edits';
-import type { Robot } from '@/model/robot/types';
+import { COMMAND_TYPES, type Robot } from '@/model/robot/types';
 import { edit, type RobotEditor } from './editor';
 import { ValueFields } from './ValueFields';
 
@@ -34,6 +35,27 @@ export function DriveFields({ editor, robot }: DriveFieldsProps) {
         values={robot.drive}
         without={['wheel_radius', 'track']}
         onChange={(field, value) => edit(editor, 'drive', (now) => setValue(now, ['drive', field], value))}
+      />
+      <NativeSelect
+        size="xs"
+        label={t('commandType')}
+        data-testid="command-type"
+        value={robot.commandType}
+        data={COMMAND_TYPES.map((value) => ({ value, label: t(`command.${value}`) }))}
+        onChange={({ currentTarget }) =>
+          edit(editor, 'drive', (now) => setValue(now, ['command_type'], currentTarget.value))
+        }
+      />
+      <Checkbox
+        size="xs"
+        label={t('groundTruth')}
+        data-testid="ground-truth"
+        checked={robot.groundTruth}
+        onChange={({ currentTarget }) =>
+          edit(editor, 'drive', (now) =>
+            setValue(now, ['ground_truth'], currentTarget.checked ? true : undefined),
+          )
+        }
       />
       <p className={classes['note']}>{t('wholeHint')}</p>
     </div>

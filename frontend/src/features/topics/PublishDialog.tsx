@@ -37,7 +37,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
   const chooseTopic = (name: string) => {
     setTopic(name);
     const known = topics.find((row) => row.name === name);
-    if (!known || known.type === type) return;
+    if (!known || known.types.includes(type)) return;
     setType(known.type);
     setTyped(null);
   };
@@ -80,7 +80,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
           <Autocomplete
             label={t('type')}
             placeholder="geometry_msgs/msg/Twist"
-            data={[...new Set(topics.map((row) => row.type))].sort()}
+            data={[...new Set(topics.flatMap((row) => [row.type, ...row.types]))].sort()}
             value={type}
             required
             error={unknown}

@@ -93,8 +93,9 @@ function Row({ topic }: { readonly topic: TopicInfo }) {
           </button>
         </Tooltip>
       </th>
-      <td className={classes['type']} title={topic.type}>
+      <td className={classes['type']} title={(topic.types.length > 0 ? topic.types : [topic.type]).join('\n')}>
         {topic.type.replace('/msg/', '/')}
+        {topic.types.length > 1 ? ` +${topic.types.length - 1}` : ''}
       </td>
       <td className={classes['number']}>{rateLabel(topic.hz)}</td>
       <td className={sizeClass}>{bytesLabel(topic.bytes_per_s)}</td>

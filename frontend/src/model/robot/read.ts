@@ -5,7 +5,7 @@ import { parseXml, XmlError } from '../document/xml';
 import { placed, remembering, valueOfYaml, type DocumentProblem } from '../document/yaml';
 import { HERE } from '../document/frames';
 import { checkConfig, checkNames } from './rules';
-import { SENSOR_KINDS, type Part, type PartKind, type Robot, type Sensor, type SensorKind } from './types';
+import { COMMAND_TYPES, SENSOR_KINDS, type Part, type PartKind, type Robot, type Sensor, type SensorKind } from './types';
 import { poseOfLink, readUrdf, type Urdf, type UrdfIssue } from './urdf';
 
 /** Two texts as far as they can be read; without a robot, one of them says nothing that can be shown. */
@@ -111,6 +111,8 @@ function robotOf(raw: JsonObject, urdf: Urdf, urdfText: string): Robot {
     name: text(raw['name'], ''),
     description: text(raw['description'], ''),
     drive,
+    commandType: COMMAND_TYPES.find((kind) => kind === raw['command_type']) ?? 'both',
+    groundTruth: raw['ground_truth'] === true,
     left,
     right,
     wheelRadius: number(drive['wheel_radius'], 0.05),

@@ -187,6 +187,16 @@ describe('edits', () => {
     );
   });
 
+  it('says what it takes on /cmd_vel, and whether it tells where it truly is', () => {
+    expect(robotOf(START)).toMatchObject({ commandType: 'both', groundTruth: false });
+    const stamped = after(START, (robot) => setValue(robot, ['command_type'], 'twist_stamped'));
+    const told = after(stamped, (robot) => setValue(robot, ['ground_truth'], true));
+    expect(problemsOf(told)).toEqual([]);
+    expect(robotOf(told)).toMatchObject({ commandType: 'twist_stamped', groundTruth: true });
+    expect(after(told, (robot) => setValue(robot, ['ground_truth'], undefined))).toEqual(stamped);
+    expect(problemsOf(after(START, (robot) => setValue(robot, ['command_type'], 'twists')))).toHaveLength(1);
+  });
+
   it('leaves the base, the wheels and what carries others on the robot', () => {
     const robot = robotOf(robots.find(([id]) => id === 'lookout')?.[1] ?? START);
     const kept = robot.parts.filter((part) => !canRemove(robot, part)).map(({ name }) => name);

@@ -6,6 +6,10 @@ import type { Urdf } from './urdf';
 export type SensorKind = 'lidar' | 'camera' | 'imu' | 'bumper' | 'battery';
 export const SENSOR_KINDS: readonly SensorKind[] = ['lidar', 'camera', 'imu', 'bumper', 'battery'];
 
+/** What a robot takes on `/cmd_vel`. */
+export const COMMAND_TYPES = ['both', 'twist', 'twist_stamped'] as const;
+export type CommandType = (typeof COMMAND_TYPES)[number];
+
 export interface Sensor {
   readonly index: number;
   readonly kind: SensorKind;
@@ -35,6 +39,9 @@ export interface Robot {
   readonly name: string;
   readonly description: string;
   readonly drive: JsonObject;
+  readonly commandType: CommandType;
+  /** Whether it says where it truly is. */
+  readonly groundTruth: boolean;
   /** Joints of the driven wheels. */
   readonly left: readonly string[];
   readonly right: readonly string[];

@@ -26,9 +26,9 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
     message_stubs.write_message_stubs(site_packages, folder)
     for package in ENGINE:
         (folder / package).symlink_to(repository / package, target_is_directory=True)
-    for package in sorted((repository / ROS_PYTHON).iterdir()):
-        if (package / "__init__.py").is_file() and not (site_packages / package.name).exists():
-            (folder / package.name).symlink_to(package, target_is_directory=True)
+    for offered in sorted((repository / ROS_PYTHON).iterdir()):
+        if (offered / "__init__.py").is_file() and not (site_packages / offered.name).exists():
+            (folder / offered.name).symlink_to(offered, target_is_directory=True)
     (folder / "tree_tools.py").write_text(_TREE_TOOLS)
 
 

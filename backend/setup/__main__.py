@@ -29,6 +29,7 @@ PYTHON = VENV / "bin" / "python"
 FRONTEND = ROOT / "frontend"
 STAMPS = ROOT / "var" / "setup"
 NEEDED_NODE = (20, 19)
+INTERFACE_PROGRAMS = ("build_interfaces", "generate_interfaces", "interface_definitions")
 TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-server")
 
 
@@ -229,12 +230,11 @@ def interfaces_step() -> Step:
     What it makes is there when all were built: without a compiler it is tried again at each start.
     """
     ros = ROOT / "executor" / "ros"
-    programs = [ros / f"{name}.py" for name in ("build_interfaces", "generate_interfaces")]
+    programs = [ros / f"{name}.py" for name in INTERFACE_PROGRAMS]
     return Step(
         "interfaces",
         "building ROS 2's messages of tf2, Nav2, control and vision (a minute or two, once)",
-        [*programs, ros / "interface_definitions.py", *sorted((ros / "interfaces").glob("*.txt"))]
-        + [ROOT / "requirements.lock"],
+        [*programs, *sorted((ros / "interfaces").glob("*.txt")), ROOT / "requirements.lock"],
         VENV / "share" / "bt_studio_interfaces" / "complete",
         lambda: run([str(PYTHON), "-m", "executor.ros.build_interfaces"], cwd=ROOT),
     )

@@ -99,7 +99,8 @@ class RobotDocument(Strict):
     """A `robot.yaml`, before its names are looked up in the URDF.
 
     `command_type` is what the robot takes on `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped`
-    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it says on `/ground_truth/odom` where it truly is.
+    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it says on `/ground_truth/odom` where it truly
+    is.
     """
 
     format: Literal["bt-studio/robot"]

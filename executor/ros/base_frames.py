@@ -31,7 +31,7 @@ def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
 
 
 def footprint_of(config: RobotConfig) -> Pose:
-    """Returns where the root link is in `base_footprint`: so high that the driven wheels stand on the ground."""
+    """Returns where the root link is in `base_footprint`: its wheels stand on the ground."""
     joint = config.urdf.joints[config.drive.left[0]]
     _, above = config.urdf.rigid_parent(joint.parent)
     height = config.drive.wheel_radius - compose(above, joint.origin)[2]
@@ -39,7 +39,7 @@ def footprint_of(config: RobotConfig) -> Pose:
 
 
 def odometry_frame(config: RobotConfig) -> str:
-    """Returns the frame that odometry places: the root of the URDF if `base_footprint` is somewhere below it."""
+    """Returns the frame that odometry places: the URDF's root if `base_footprint` is somewhere below it."""
     below = messages.BASE_FRAME in config.urdf.links and config.urdf.root != messages.BASE_FRAME
     return config.urdf.root if below else messages.BASE_FRAME
 

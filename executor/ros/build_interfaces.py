@@ -84,7 +84,8 @@ for package in sys.argv[1:]:
                 parts = [getattr(interface, name, None) for name in ("Request", "Goal")]
                 message = next((part for part in parts if part is not None), interface)()
                 if kind == "msg":
-                    node.create_publisher(interface, f"/bt_studio_check/{interface.__name__}", 1).publish(message)
+                    publisher = node.create_publisher(interface, f"/check/{interface.__name__}", 1)
+                    publisher.publish(message)
     node.destroy_node()
     node = rclpy.create_node("check")
 rclpy.shutdown()
@@ -210,7 +211,13 @@ class _Build:
         import numpy as np  # noqa: PLC0415 - the set-up's Python may lack it; then this is an honest error
 
         folders = [PREFIX / "include" / name for name in (*needed_by(package), *RUNTIME)]
-        folders += [self._work, self._work / INTROSPECTION, PREFIX / "include", Path(sysconfig.get_path("include")), Path(np.get_include())]
+        folders += [
+            self._work,
+            self._work / INTROSPECTION,
+            PREFIX / "include",
+            Path(sysconfig.get_path("include")),
+            Path(np.get_include()),
+        ]
         return [f"-I{folder}" for folder in folders]
 
     def _link(self, package: str, objects: list[Path]) -> None:
@@ -225,9 +232,7 @@ class _Build:
         links = [f"-l{name}" for name in (*others, *RUNTIME_LIBRARIES)]
         target = lib / f"lib{own}.so"
         head = ["c++", "-shared", "-Wl,--as-needed"]
-        self._take_turn(
-            [*head, *map(str, objects), *paths, "-Wl,-rpath,$ORIGIN", *links, "-o", str(target)]
-        )
+        self._take_turn([*head, *map(str, objects), *paths, "-Wl,-rpath,$ORIGIN", *links, "-o", str(target)])
         folder = self._work / package
         (entry,) = folder.glob("_*.ep.rosidl_typesupport_c.c")
         suffix = sysconfig.get_config_var("EXT_SUFFIX")
@@ -237,7 +242,7 @@ class _Build:
         self._take_turn([*head, str(compiled), *paths, up, f"-l{own}", *links, "-o", str(extension)])
 
     def _install(self, package: str) -> None:
-        """Copies what runs; the package's folder last, so that a broken copy is never taken for a whole one."""
+        """Copies what runs; the package's folder last, so that a broken copy never passes for a whole one."""
         STAMPS.mkdir(parents=True, exist_ok=True)
         (STAMPS / package).unlink(missing_ok=True)
         library = f"lib{package}__bt_studio.so"

@@ -1,8 +1,9 @@
 """What a robot is told on `/cmd_vel`: `Twist`, `TwistStamped`, or both.
 
 A participant of the middleware holds one type for a topic. A robot that takes both hears `Twist` by the
-world's own one; for `TwistStamped` a second one is made once somebody publishes it, since it takes memory and
-time. Where the application is in the world's participant (lock-step), the robot hears what is published there.
+world's own one; for `TwistStamped` a second one is made once somebody publishes it, since it takes memory
+and time. Where the application is in the world's participant (lock-step), the robot hears what is published
+there.
 """
 
 from __future__ import annotations

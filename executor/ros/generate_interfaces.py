@@ -51,7 +51,9 @@ def support(folder: Path, share: list[str]) -> None:
     beside = folder.parent / INTROSPECTION / folder.name
     GenerateIntrospectionCTypesupport("introspection_c").generate(folder.name, _idl(folder), share, beside)
     kinds = ["rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c"]
-    GenerateCTypesupport("c", typesupport_implementations=kinds).generate(folder.name, _idl(folder), share, folder)
+    GenerateCTypesupport("c", typesupport_implementations=kinds).generate(
+        folder.name, _idl(folder), share, folder
+    )
 
 
 def python(folder: Path, share: list[str]) -> None:

@@ -102,9 +102,7 @@ def camera_info(camera: Camera, time_s: float, prefix: str = "") -> CameraInfo:
     return message
 
 
-def odometry(
-    state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME
-) -> OdometryMessage:
+def odometry(state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME) -> OdometryMessage:
     """Returns where the wheels say that the robot is; the covariance of the pose grows with the way."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)

@@ -146,8 +146,8 @@ class Topics:
 
     def _list(self, now_s: float) -> None:
         rows = []
-        for name, types in sorted(self._node.get_topic_names_and_types()):
-            types = self._types(name, types)
+        for name, there in sorted(self._node.get_topic_names_and_types()):
+            types = self._types(name, there)
             if types[0] not in _UNHEARD and name not in self._ears:
                 self._listen(name, types[0], now_s)
             ear = self._ears.get(name)
@@ -282,7 +282,9 @@ class Topics:
             return there
         names = [f"geometry_msgs/msg/{each.__name__}" for each in takes]
         said = {end.topic_type for end in self._node.get_publishers_info_by_topic(topic)}
-        return sorted(names, key=lambda name: name not in said) + [name for name in there if name not in names]
+        return sorted(names, key=lambda name: name not in said) + [
+            name for name in there if name not in names
+        ]
 
     def _node_for(self, topic: str, kind: type) -> Node:
         return self._node if self._commands is None else self._commands.node_for(topic, kind)

@@ -99,9 +99,7 @@ class DifferentialDrive:
         limit = self._config
         return (left + right) / 2, (right - left) / (limit.track * limit.turn_factor)
 
-    def _grown(
-        self, old: Covariance, ways: tuple[float, float], moved: float, middle: float
-    ) -> Covariance:
+    def _grown(self, old: Covariance, ways: tuple[float, float], moved: float, middle: float) -> Covariance:
         """Returns the covariance after one more piece of way: J P Jᵀ + G Q Gᵀ.
 
         J is how the new pose follows from the old one, G from the ways of the wheels; Q = slip_noise² ·
@@ -114,7 +112,11 @@ class DifferentialDrive:
         xx, xy, xt, yy, yt, tt = old
         cosine, sine = math.cos(middle), math.sin(middle)
         a, b = -moved * sine, moved * cosine  # J: x grows by a, y by b for each rad of yaw
-        xx, xy, yy = xx + 2 * a * xt + a * a * tt, xy + a * yt + b * xt + a * b * tt, yy + 2 * b * yt + b * b * tt
+        xx, xy, yy = (
+            xx + 2 * a * xt + a * a * tt,
+            xy + a * yt + b * xt + a * b * tt,
+            yy + 2 * b * yt + b * b * tt,
+        )
         xt, yt = xt + a * tt, yt + b * tt
         width = limit.track * limit.turn_factor
         for way, side in zip(ways, (-1.0, 1.0), strict=True):

@@ -64,7 +64,7 @@ class Robot(Protocol):
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
         """Sets the wanted twist in m/s and rad/s; refuses (False) one that is not finite.
 
-        `at_s` is when it was wanted, in simulated time; now if None. It holds for the drive's timeout from then.
+        `at_s` is when it was wanted, in simulated time; now if None. It holds for the drive's timeout.
         """
 
     @property

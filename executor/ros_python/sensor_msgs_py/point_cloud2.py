@@ -46,13 +46,14 @@ def read_points(
     kind = dtype_from_fields(cloud.fields, cloud.point_step)
     rows = np.frombuffer(cloud.data, np.uint8).reshape(cloud.height, cloud.row_step)
     width = cloud.width * cloud.point_step
-    points = np.ascontiguousarray(rows[:, :width]).reshape(-1).view(kind)
+    points: Any = np.ascontiguousarray(rows[:, :width]).reshape(-1).view(kind)
     if cloud.is_bigendian != (sys.byteorder != "little"):
         points = points.byteswap()
     if field_names is not None:
-        unknown = [name for name in field_names if name not in kind.names]
+        names = points.dtype.names
+        unknown = [name for name in field_names if name not in names]
         if unknown:
-            raise ValueError(f"the cloud has no field {unknown[0]!r}; it has {', '.join(kind.names)}")
+            raise ValueError(f"the cloud has no field {unknown[0]!r}; it has {', '.join(names)}")
         points = points[field_names]
     if uvs is not None:
         points = points[_indices(uvs, cloud.width)]
@@ -90,7 +91,8 @@ def read_points_list(
 ) -> list[Any]:
     """Returns the points of a cloud as a list of named tuples."""
     points = read_points(cloud, field_names, skip_nans, uvs)
-    point = namedtuple("Point", points.dtype.names)  # noqa: PYI024 - its fields are known now
+    names: list[str] = list(points.dtype.names)
+    point: Any = namedtuple("Point", names)  # type: ignore[misc]  # noqa: PYI024 - known now
     return [point._make(each) for each in points.tolist()]
 
 
@@ -112,7 +114,7 @@ def dtype_from_fields(fields: Iterable[Any], point_step: int | None = None) -> n
             offsets.append(field.offset + part * kind.itemsize)
     if len(set(names)) < len(names):
         raise ValueError("two fields have one name")
-    layout: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
+    layout: Any = {"names": names, "formats": formats, "offsets": offsets}
     if point_step is not None:
         layout["itemsize"] = point_step
     return np.dtype(layout)

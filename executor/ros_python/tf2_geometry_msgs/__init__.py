@@ -1,5 +1,6 @@
 """Transforms of `geometry_msgs` for `tf2_ros.Buffer.transform`; importing it is enough."""
 
+from geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from tf2_geometry_msgs.tf2_geometry_msgs import (
     do_transform_point,
     do_transform_polygon_stamped,
@@ -12,7 +13,6 @@ from tf2_geometry_msgs.tf2_geometry_msgs import (
     to_msg_msg,
     transform_covariance,
 )
-from geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 
 __all__ = [
     "PointStamped",

@@ -100,7 +100,7 @@ class BufferCore:
             stamp_ns, motion = self._look_up(target_frame, source_frame, _ns(time))
         return _message(target_frame, source_frame, stamp_ns, motion)
 
-    def lookup_transform_full_core(  # noqa: PLR0913 - as in tf2
+    def lookup_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
         """Returns the transform from one frame at one time into another at another time.
@@ -121,7 +121,7 @@ class BufferCore:
             return False, str(error)
         return True, ""
 
-    def can_transform_full_core(  # noqa: PLR0913 - as in tf2
+    def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[bool, str]:
         """Tells whether `lookup_transform_full_core` would find something, and else why not."""

@@ -1,7 +1,7 @@
 """Why there is no transform."""
 
 
-class TransformException(Exception):
+class TransformException(Exception):  # noqa: N818 - its name in tf2
     """Anything that tf2 raises."""
 
 

@@ -69,9 +69,7 @@ def normalised(turn: Turn) -> Turn:
 
 def between(before: Motion, after: Motion, share: float) -> Motion:
     """Returns the motion at a share of the way from one to another: straight, and turning evenly."""
-    x, y, z = (
-        a + share * (b - a) for a, b in zip(before.translation, after.translation, strict=True)
-    )
+    x, y, z = (a + share * (b - a) for a, b in zip(before.translation, after.translation, strict=True))
     return Motion((x, y, z), _slerp(before.rotation, after.rotation, share))
 
 

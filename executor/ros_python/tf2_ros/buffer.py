@@ -67,7 +67,7 @@ class Buffer(BufferCore, BufferInterface):
         self._wait(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
-    def lookup_transform_full(  # noqa: PLR0913 - as in tf2
+    def lookup_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
         self,
         target_frame: str,
         target_time: Any,
@@ -94,7 +94,7 @@ class Buffer(BufferCore, BufferInterface):
         result = self.can_transform_core(target_frame, source_frame, time)
         return result if return_debug_tuple else result[0]
 
-    def can_transform_full(  # noqa: PLR0913 - as in tf2
+    def can_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
         self,
         target_frame: str,
         target_time: Any,
@@ -117,7 +117,7 @@ class Buffer(BufferCore, BufferInterface):
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
-    async def lookup_transform_full_async(  # noqa: PLR0913 - as in tf2
+    async def lookup_transform_full_async(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
         """Returns a transform over time once there is one."""
@@ -132,7 +132,7 @@ class Buffer(BufferCore, BufferInterface):
             lambda: self.can_transform_core(*ways)[0], lambda: self.lookup_transform_core(*ways)
         )
 
-    def wait_for_transform_full_async(  # noqa: PLR0913 - as in tf2
+    def wait_for_transform_full_async(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> Any:
         """Returns a future that gets the transform over time once there is one."""

@@ -108,7 +108,7 @@ class BufferInterface:
         found = self.lookup_transform(target_frame, header.frame_id, header.stamp, wait)
         return self._transformed(object_stamped, found, new_type)
 
-    def transform_full(  # noqa: PLR0913 - as in tf2
+    def transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
         self,
         object_stamped: Any,
         target_frame: str,
@@ -125,13 +125,11 @@ class BufferInterface:
         )
         return self._transformed(object_stamped, found, new_type)
 
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = None
-    ) -> Any:
+    def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
         """Returns a transform; a buffer says how."""
         raise NotImplementedException
 
-    def lookup_transform_full(  # noqa: PLR0913 - as in tf2
+    def lookup_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
         self,
         target_frame: str,
         target_time: Any,
@@ -143,13 +141,11 @@ class BufferInterface:
         """Returns a transform over time; a buffer says how."""
         raise NotImplementedException
 
-    def can_transform(
-        self, target_frame: str, source_frame: str, time: Any, timeout: Any = None
-    ) -> Any:
+    def can_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
         """Tells whether there is a transform; a buffer says how."""
         raise NotImplementedException
 
-    def can_transform_full(  # noqa: PLR0913 - as in tf2
+    def can_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
         self,
         target_frame: str,
         target_time: Any,

@@ -21,14 +21,16 @@ from executor.world.sensors import Sensors
 
 OWN = """<robot name="own"><link name="{root}"/>{more}
   <link name="left"/><link name="right"/>
-  <joint name="l" type="continuous"><parent link="{root}"/><child link="left"/><origin xyz="0 0.1 {z}"/><axis xyz="0 1 0"/></joint>
-  <joint name="r" type="continuous"><parent link="{root}"/><child link="right"/><origin xyz="0 -0.1 {z}"/><axis xyz="0 1 0"/></joint>
+  <joint name="l" type="continuous"><parent link="{root}"/><child link="left"/>
+    <origin xyz="0 0.1 {z}"/><axis xyz="0 1 0"/></joint>
+  <joint name="r" type="continuous"><parent link="{root}"/><child link="right"/>
+    <origin xyz="0 -0.1 {z}"/><axis xyz="0 1 0"/></joint>
 </robot>"""
 YAML = """format: bt-studio/robot
 version: 1
 name: Own
 urdf: own.urdf
-drive: {kind: differential, left: [l], right: [r], wheel_radius: 0.05, track: 0.2, max_linear: 1, max_angular: 2}
+drive: {left: [l], right: [r], wheel_radius: 0.05, track: 0.2, max_linear: 1, max_angular: 2}
 """
 
 

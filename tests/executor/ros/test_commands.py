@@ -1,4 +1,4 @@
-"""What robots take on `/cmd_vel`: Twist, TwistStamped, or both; from other participants and from their own."""
+"""What robots take on `/cmd_vel`: Twist, TwistStamped, or both; from other participants and their own."""
 
 import time
 from collections.abc import Iterator

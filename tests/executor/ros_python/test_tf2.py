@@ -174,7 +174,7 @@ def test_an_unknown_frame_and_a_split_tree_are_told_apart() -> None:
     from tf2_ros import ConnectivityException, InvalidArgumentException, LookupException
 
     buffer = buffer_of([stamped("map", "base", plain(1)), stamped("other", "thing", plain(1))])
-    with pytest.raises(LookupException, match='"nowhere" passed to lookupTransform .* does not exist'):
+    with pytest.raises(LookupException, match=r'"nowhere" passed to lookupTransform .* does not exist'):
         buffer.lookup_transform("map", "nowhere", Time())
     with pytest.raises(ConnectivityException, match="two or more unconnected trees"):
         buffer.lookup_transform("map", "thing", Time())

@@ -1,0 +1,31 @@
+"""Nav2's `navigate_to_pose` as far as a goal goes: accepts it, works for a moment, and says how it ended."""
+
+import json
+import sys
+import time
+
+import rclpy
+from nav2_msgs.action import NavigateToPose
+from rclpy.action import ActionServer
+from rclpy.node import Node
+
+rclpy.init()
+node = Node("navigator")
+
+
+def reach(handle):
+    position = handle.request.pose.pose.position
+    handle.publish_feedback(NavigateToPose.Feedback(distance_remaining=position.x))
+    time.sleep(0.2)
+    if position.x < 0:
+        handle.abort()
+    else:
+        handle.succeed()
+    print(json.dumps([handle.request.pose.header.frame_id, position.x, position.y]), flush=True)
+    return NavigateToPose.Result()
+
+
+server = ActionServer(node, NavigateToPose, "/navigate_to_pose", reach)
+print("ready", flush=True)
+sys.stdout.flush()
+rclpy.spin(node)

@@ -49,21 +49,24 @@ async def test_a_goal_is_sent_to_a_server_in_another_process(x, status):
     async with manager_process() as manager:
         environment = {**os.environ, **ros_environment(manager.ready["domain_id"])}
         command = [sys.executable, str(Path(__file__).with_name("goal_server.py"))]
-        server = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
-        try:
-            assert await asyncio.to_thread(server.stdout.readline) == "ready\n"
-            client = await SessionClient(manager.ready["port"]).open()
-            application = app(GOAL, tree=f"<Act _bts_id='n1' x='{x}' y='2.5'/>")
-            assert await client.ask("connect") == "ack"
-            assert await client.ask("run", run_data(application, on_finish="stop")) == "ack"
-            ended = await client.event("finished")
-            assert ended["data"]["status"] == status
-            line = await asyncio.to_thread(server.stdout.readline)
-            assert json.loads(line) == ["map", float(x), 2.5]
-            await client.close()
-        finally:
-            server.kill()
-            server.wait()
+        with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as server:
+            try:
+                await _send(manager, server, x, status)
+            finally:
+                server.kill()
+
+
+async def _send(manager, server, x, status):
+    assert await asyncio.to_thread(server.stdout.readline) == "ready\n"
+    client = await SessionClient(manager.ready["port"]).open()
+    application = app(GOAL, tree=f"<Act _bts_id='n1' x='{x}' y='2.5'/>")
+    assert await client.ask("connect") == "ack"
+    assert await client.ask("run", run_data(application, on_finish="stop")) == "ack"
+    ended = await client.event("finished")
+    assert ended["data"]["status"] == status
+    line = await asyncio.to_thread(server.stdout.readline)
+    assert json.loads(line) == ["map", float(x), 2.5]
+    await client.close()
 
 
 @pytest.mark.parametrize(("x", "status"), [("1.5", "SUCCESS"), ("-1.0", "FAILURE")])

@@ -21,11 +21,12 @@ def reach(handle):
         handle.abort()
     else:
         handle.succeed()
-    print(json.dumps([handle.request.pose.header.frame_id, position.x, position.y]), flush=True)
+    sys.stdout.write(json.dumps([handle.request.pose.header.frame_id, position.x, position.y]) + "\n")
+    sys.stdout.flush()
     return NavigateToPose.Result()
 
 
 server = ActionServer(node, NavigateToPose, "/navigate_to_pose", reach)
-print("ready", flush=True)
+sys.stdout.write("ready\n")
 sys.stdout.flush()
 rclpy.spin(node)

@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[2]
 TEMPLATE = ROOT / "frontend" / "src" / "features" / "code" / "templates" / "goal.py"
 GOAL = TEMPLATE.read_text(encoding="utf-8").replace("NewAction", "Act")
 
-SERVER = '''
+SERVER = """
 import py_trees
 from nav2_msgs.action import NavigateToPose
 from rclpy.action import ActionServer
@@ -35,13 +35,13 @@ class Serve(py_trees.behaviour.Behaviour):
 
     def update(self):
         return py_trees.common.Status.SUCCESS
-'''
-RUN = '''
+"""
+RUN = """
 import sys
 from executor.headless.lockstep import LockstepOptions, run_lockstep
 report = run_lockstep({"self_contained_tree.xml": sys.stdin.buffer.read()}, LockstepOptions(duration_s=5))
 print(report.root_status, report.sim_time_s, report.errors)
-'''
+"""
 
 
 @pytest.mark.parametrize(("x", "status"), [("1.5", "SUCCESS"), ("-1.0", "FAILURE")])
@@ -49,11 +49,15 @@ async def test_a_goal_is_sent_to_a_server_in_another_process(x, status):
     async with manager_process() as manager:
         environment = {**os.environ, **ros_environment(manager.ready["domain_id"])}
         command = [sys.executable, str(Path(__file__).with_name("goal_server.py"))]
-        with subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True) as server:
+        with _started(command, environment) as server:
             try:
                 await _send(manager, server, x, status)
             finally:
                 server.kill()
+
+
+def _started(command, environment):
+    return subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True)
 
 
 async def _send(manager, server, x, status):

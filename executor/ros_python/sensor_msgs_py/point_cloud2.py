@@ -92,7 +92,7 @@ def read_points_list(
     """Returns the points of a cloud as a list of named tuples."""
     points = read_points(cloud, field_names, skip_nans, uvs)
     names: list[str] = list(points.dtype.names)
-    point: Any = namedtuple("Point", names)  # type: ignore[misc]  # noqa: PYI024 - known now
+    point: Any = namedtuple("Point", names)  # type: ignore[misc]
     return [point._make(each) for each in points.tolist()]
 
 

@@ -72,7 +72,8 @@ def test_constants_and_defaults_are_there() -> None:
     from control_msgs.msg import VDA5050SafetyState
     from nav2_msgs.action import FollowObject
 
-    assert (FollowObject.Result.NONE, FollowObject.Result.TF_ERROR, FollowObject.Feedback.RETRY) == (0, 901, 4)
+    assert (FollowObject.Result.NONE, FollowObject.Result.TF_ERROR) == (0, 901)
+    assert FollowObject.Feedback.RETRY == 4
     assert FollowObject.Feedback.NONE == 0, "of the same name as one of the result"
     assert VDA5050SafetyState.AUTO_ACK == "autoAck"
     assert not math.isnan(FollowObject.Result().error_code)

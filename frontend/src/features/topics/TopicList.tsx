@@ -93,7 +93,10 @@ function Row({ topic }: { readonly topic: TopicInfo }) {
           </button>
         </Tooltip>
       </th>
-      <td className={classes['type']} title={(topic.types.length > 0 ? topic.types : [topic.type]).join('\n')}>
+      <td
+        className={classes['type']}
+        title={(topic.types.length > 0 ? topic.types : [topic.type]).join('\n')}
+      >
         {topic.type.replace('/msg/', '/')}
         {topic.types.length > 1 ? ` +${topic.types.length - 1}` : ''}
       </td>

@@ -5,7 +5,15 @@ import { parseXml, XmlError } from '../document/xml';
 import { placed, remembering, valueOfYaml, type DocumentProblem } from '../document/yaml';
 import { HERE } from '../document/frames';
 import { checkConfig, checkNames } from './rules';
-import { COMMAND_TYPES, SENSOR_KINDS, type Part, type PartKind, type Robot, type Sensor, type SensorKind } from './types';
+import {
+  COMMAND_TYPES,
+  SENSOR_KINDS,
+  type Part,
+  type PartKind,
+  type Robot,
+  type Sensor,
+  type SensorKind,
+} from './types';
 import { poseOfLink, readUrdf, type Urdf, type UrdfIssue } from './urdf';
 
 /** Two texts as far as they can be read; without a robot, one of them says nothing that can be shown. */

@@ -54,7 +54,7 @@ def test_a_topic_is_listed_with_its_nodes_and_once_it_was_heard_with_its_rate(
     first = panel.row("/chatter")
     assert first == {
         "name": "/chatter", "type": "std_msgs/msg/String", "hz": None, "bytes_per_s": None,
-        "publishers": ["/robot/talker"], "subscribers": [],
+        "publishers": ["/robot/talker"], "subscribers": [], "types": ["std_msgs/msg/String"],
     }  # fmt: skip
     for n in range(20):
         publisher.publish(String(data=f"hello {n:02}"))

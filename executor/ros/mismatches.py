@@ -32,6 +32,7 @@ class Mismatches:
         self._node = node
         self._tell = tell
         self._told: set[tuple[str, ...]] = set()
+        self._seen: set[tuple[str, ...]] = set()
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
@@ -42,7 +43,7 @@ class Mismatches:
 
     def look(self) -> None:
         """Looks now."""
-        present = set()
+        present: set[tuple[str, ...]] = set()
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
                 continue
@@ -51,9 +52,16 @@ class Mismatches:
             for found in (*_types_differ(publishers, subscribers), *_qos_differs(publishers, subscribers)):
                 key = (topic, *found.values())
                 present.add(key)
-                if key not in self._told:
+                if key not in self._told and (key in self._seen or not _may_pass(found)):
+                    self._told.add(key)
                     self._tell({"type": "topic_mismatch", "topic": topic, **found})
-        self._told = present
+        self._seen = present
+        self._told &= present
+
+
+def _may_pass(found: dict[str, str]) -> bool:
+    """Whether a robot may be about to listen to this type, too: then the next look finds no mismatch."""
+    return found["reason"] == "type" and found["subscriber"].startswith(f"/{OURS}")
 
 
 def _named(ends: list[Any]) -> list[Any]:

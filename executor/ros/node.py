@@ -37,7 +37,7 @@ _TF_QOS: Final = QoSProfile(depth=100)
 class WorldNode:
     """The topics of a world and of its robots."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - a world, and how it takes part in the graph
         self,
         world: World,
         context: Context,

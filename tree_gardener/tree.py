@@ -1,5 +1,6 @@
 """A behaviour tree that runs."""
 
+import ctypes
 import logging
 import pathlib
 import threading
@@ -42,7 +43,7 @@ class Tree:
         on_warning: called with a node and a sentence where something is tolerated, once a node and sentence;
             if None, the sentence goes to the logger ``tree_gardener``.
         tick_number: how many ticks there were.
-        current_uid: the action that is being ticked, while leaves are timed; else 0.
+        current: holds `current_uid`; it may be given memory that another process sees.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
         node_times_s: time of each node in the tick, while an observer asked for it; else None.
     """
@@ -61,7 +62,7 @@ class Tree:
         self.on_warning: Callable[[Node, str], None] | None = None
         self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
-        self.current_uid = 0
+        self.current = ctypes.c_uint32(0)
         self.slowest: tuple[float, int] = (0.0, 0)
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)
@@ -163,6 +164,11 @@ class Tree:
     def root(self) -> Any:
         """The tree as py_trees sees it: its tools, visitors and ``BehaviourTree`` work on it."""
         return self.nodes[0].behaviour
+
+    @property
+    def current_uid(self) -> int:
+        """The action that is being ticked, while leaves are timed; else 0."""
+        return self.current.value
 
     def use_clock(self, clock: Clock) -> None:
         """Takes another clock, before the first tick: one that needs an rclpy node, say."""
@@ -392,7 +398,7 @@ class Tree:
         return self._hooks.add(Hook(uid, before, after))
 
     def time_leaves(self, *, on: bool = True) -> None:
-        """Keeps `current_uid` and `slowest` up to date, so that a slow action can be named."""
+        """Keeps `current` and `slowest` up to date, so that a slow action can be named."""
         self._hooks.times_leaves = on
         self.link()
 

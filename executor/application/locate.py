@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import traceback
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Final
+
+from executor.supervision.pulse import place_in_our_code
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -37,6 +39,10 @@ class Place:
     def __str__(self) -> str:
         what = f"{self.node_type or 'an action'} '{self.node_path}'" if self.node_path else "an action"
         return f"{what} ({self.file}:{self.line})" if self.file else what
+
+    def to_message(self) -> dict[str, Any]:
+        """Returns what a beat says of it."""
+        return {**asdict(self), "text": str(self)} if self.is_in_action else {}
 
 
 class Locator:
@@ -71,6 +77,10 @@ class Locator:
         while trace is not None:
             frame, trace = trace.tb_frame, trace.tb_next
         return self.place_of(frame)
+
+    def beat_place(self, frame: FrameType | None) -> dict[str, Any]:
+        """Returns where the main thread is, for a beat: in the user's code, or in ours."""
+        return self.place_of(frame).to_message() or place_in_our_code(frame)
 
     def place_of(self, frame: FrameType | None) -> Place:
         """Returns node, file and line of a stack, innermost user code first."""

@@ -2,7 +2,7 @@
 
 It may be started ahead of its use: it imports what takes long, joins the ROS graph, and waits for
 ``start``. The main thread loads, ticks and runs the actions' callbacks; a second one listens to the
-manager; a third one notices when the first does not come back.
+manager; a third one tells it how the first does (`executor.supervision.pulse`).
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any, Final
 from executor.ros.environment import ros_environment
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
+from executor.supervision.pulse import Pulse
 
 if TYPE_CHECKING:
     from executor.application.ros import Graph
@@ -39,18 +40,20 @@ class _Stop(Exception):  # noqa: N818 - the way out, not an error
 class Application:
     """Loads one application, runs it, and says how it ended."""
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: Channel, pulse: Pulse) -> None:
         from executor.application.locate import Locator  # noqa: PLC0415 - after the environment is set
         from executor.application.report import Reporter  # noqa: PLC0415 - dito
         from executor.application.ros import Graph  # noqa: PLC0415 - dito
-        from executor.application.watchdog import Watchdog  # noqa: PLC0415 - dito
+        from executor.application.watchdog import Breaker  # noqa: PLC0415 - dito
 
         self._channel = channel
+        self._pulse = pulse
         self._commands: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
         self._graph: Graph = Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
         self._reporter = Reporter(channel.send, self._now)
         self._locator = Locator()
-        self._watchdog = Watchdog(self._locator, self._reporter.hangs, channel.send)
+        self._breaker = Breaker(self._locator)
+        pulse.locate = self._locator.beat_place
         self._runner: Runner | None = None
         self._connect_by_s: float | None = None
         self._is_connected = False
@@ -61,18 +64,20 @@ class Application:
         start = self._wait_for_start()
         if start is None:
             return
-        self._redirect_output()
-        self._join(start)
-        if not self._load(start):
-            return
+        with self._pulse.busy("loading"):
+            self._channel.send({"type": "starting"})
+            self._redirect_output()
+            self._join(start)
+            if not self._load(start):
+                return
         self._channel.send({"type": "ready"})
-        self._watchdog.start()
+        self._breaker.arm()
         try:
             while True:
                 self._turn()
         except _Stop:
             pass
-        self._watchdog.stop()
+        self._breaker.disarm()
         self._say_goodbye()
 
     def close(self) -> None:
@@ -94,7 +99,9 @@ class Application:
             os._exit(0)  # without a manager there is nobody to run for
 
     def _wait_for_start(self) -> dict[str, Any] | None:
+        self._pulse.rests()
         while True:
+            self._pulse.moved()
             # Spinning lets the graph's discovery go on.
             self._graph.spin_once(SPIN_S)
             while not self._commands.empty():
@@ -105,8 +112,8 @@ class Application:
                     return message
 
     def _turn(self) -> None:
-        self._watchdog.alive()
-        if self._watchdog.is_interrupted:
+        self._pulse.moved()
+        if self._breaker.is_interrupted:
             raise _Stop
         while not self._commands.empty():
             self._obey(self._commands.get())
@@ -133,6 +140,7 @@ class Application:
                 self._channel.send({"type": "stepped"})
             case "set_tick_rate":
                 runner.set_tick_rate(float(message["tick_hz"]))
+                self._channel.send({"type": "answer", "request": message.get("request")})
             case "set_blackboard":
                 self._channel.send({"type": "blackboard_set", "error": self._set_blackboard(message)})
 
@@ -213,6 +221,7 @@ class Application:
             fault=self._reporter.raised,
         )
         tree.observe(self._reporter.ticked)
+        tree.current = self._pulse.current_uid
         self._runner.pause()
 
     # --- running ----------------------------------------------------------------------------------
@@ -221,6 +230,7 @@ class Application:
         return self._graph.now()  # of the graph of the moment: it may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:
+        self._pulse.clocks += 1
         if self._runner is None:
             return
         if not self._is_connected:
@@ -284,11 +294,12 @@ def main(arguments: list[str] | None = None) -> None:
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
     channel = Channel(options.channel_fd)
+    pulse = Pulse(channel.send)
 
     from executor.application.host import prepare  # noqa: PLC0415 - ROS reads the environment when loaded
 
     prepare()
-    application = Application(channel)
+    application = Application(channel, pulse)
     own_pid = os.getpid()
     try:
         application.run()

@@ -26,6 +26,7 @@ from executor.ros.environment import ros_environment
 from executor.session.events import (
     EndSession,
     Event,
+    Inspect,
     Interrupt,
     Kill,
     Kind,
@@ -225,7 +226,7 @@ class Manager:
             match effect:
                 case Send() if self._server is not None:
                     self._server.send(effect)
-                case Spawn() | Tell() | Interrupt() | Retire() | Kill():
+                case Spawn() | Tell() | Interrupt() | Inspect() | Retire() | Kill():
                     self._supervisor.apply(effect)
                 case Unpack():
                     task = asyncio.get_running_loop().create_task(self._unpack(effect))

@@ -7,38 +7,37 @@ from typing import TYPE_CHECKING, Final, cast
 from executor import messages
 from executor.session.clients import MOST_ECHOED_BY_VIEWER
 from executor.session.ladder import State
+from executor.session.steps import RESET_TIMEOUT_S
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from executor.session.events import CommandCame, Kind
+    from executor.session.events import CommandCame
     from executor.session.protocol import Session
 
 __all__ = ["ACTIONS", "ANSWER_LATER"]
 
 
-def _forward(kind: Kind, *commands: str) -> dict[str, Callable[[Session, CommandCame], None]]:
-    def act(session: Session, event: CommandCame) -> None:
-        fields = {name: getattr(event.data, name) for name in event.data.__struct_fields__}
-        session.tell(kind, event.command, **fields)
-
-    return dict.fromkeys(commands, act)
-
-
 def _set_tick_rate(session: Session, event: CommandCame) -> None:
     data = cast("messages.SetTickRate", event.data)
-    session.mirror.tick_hz = data.tick_hz
-    session.tell("application", "set_tick_rate", tick_hz=data.tick_hz)
+
+    def note() -> None:
+        session.mirror.tick_hz = data.tick_hz
+
+    session.ask("application", event, {"tick_hz": data.tick_hz}, then=note)
 
 
 def _set_speed(session: Session, event: CommandCame) -> None:
     data = cast("messages.SetSpeed", event.data)
-    session.mirror.speed = data.speed
-    session.tell("world", "set_speed", speed=data.speed)
+
+    def note() -> None:
+        session.mirror.speed = data.speed
+
+    session.ask("world", event, {"speed": data.speed}, then=note)
 
 
-def _reset_world(session: Session, _: CommandCame) -> None:
-    session.tell("world", "reset")
+def _reset_world(session: Session, event: CommandCame) -> None:
+    session.ask("world", event, type_="reset", patience_s=RESET_TIMEOUT_S)
 
 
 def _subscribe(session: Session, event: CommandCame) -> None:
@@ -63,7 +62,7 @@ def _teleop(session: Session, event: CommandCame) -> None:
 
 def _move_body(session: Session, event: CommandCame) -> None:
     data = cast("messages.MoveBody", event.data)
-    session.ask("world", event, id=data.id, pose=data.pose)
+    session.ask("world", event, {"id": data.id, "pose": data.pose})
 
 
 def _list_topics(session: Session, event: CommandCame) -> None:
@@ -73,11 +72,11 @@ def _list_topics(session: Session, event: CommandCame) -> None:
 def _publish_topic(session: Session, event: CommandCame) -> None:
     data = cast("messages.PublishTopic", event.data)
     # `type` is the channel's own field.
-    session.ask("world", event, topic=data.topic, message_type=data.type, message=data.message)
+    session.ask("world", event, {"topic": data.topic, "message_type": data.type, "message": data.message})
 
 
 def _describe_type(session: Session, event: CommandCame) -> None:
-    session.ask("world", event, message_type=cast("messages.DescribeType", event.data).type)
+    session.ask("world", event, {"message_type": cast("messages.DescribeType", event.data).type})
 
 
 def _echo_topic(session: Session, event: CommandCame) -> None:
@@ -87,7 +86,7 @@ def _echo_topic(session: Session, event: CommandCame) -> None:
         session.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
         return
     rate_hz = session.clients.echo(event.client, data.topic, data.max_hz)
-    session.ask("world", event, topic=data.topic, max_hz=rate_hz)
+    session.ask("world", event, {"topic": data.topic, "max_hz": rate_hz})
 
 
 def _restart_node(session: Session, event: CommandCame) -> None:
@@ -125,6 +124,16 @@ ACTIONS: Final[dict[str, Callable[[Session, CommandCame], None]]] = {
 }
 
 ANSWER_LATER: Final = frozenset(
-    {"move_body", "list_topics", "echo_topic", "publish_topic", "describe_type", "restart_node"}
+    {
+        "set_tick_rate",
+        "set_speed",
+        "reset_world",
+        "move_body",
+        "list_topics",
+        "echo_topic",
+        "publish_topic",
+        "describe_type",
+        "restart_node",
+    }
 )
-"""Those that answer by themselves, or have the world do it."""
+"""Those that answer by themselves, or have a child do it."""

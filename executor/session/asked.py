@@ -17,13 +17,14 @@ ANSWER_S: Final = 5.0
 
 @dataclass(frozen=True)
 class Question:
-    """One command of a client that a child answers."""
+    """One command of a client that a child answers; `then` is done once it did what it was asked."""
 
     client: str
     request: str
     child: tuple[Kind, int]
     until_s: float
     topic: str = ""
+    then: Callable[[], None] | None = None
 
 
 class Asked:
@@ -33,13 +34,25 @@ class Asked:
         self._questions: dict[str, Question] = {}
         self._count = 0
 
-    def add(
-        self, client: str, request: str, child: tuple[Kind, int], now_s: float, *, topic: str = ""
+    def token(self) -> str:
+        """Returns a token that none had before."""
+        self._count += 1
+        return f"q{self._count}"
+
+    def add(  # noqa: PLR0913 - one question
+        self,
+        client: str,
+        request: str,
+        child: tuple[Kind, int],
+        now_s: float,
+        *,
+        topic: str = "",
+        patience_s: float = ANSWER_S,
+        then: Callable[[], None] | None = None,
     ) -> str:
         """Notes a question; returns its token."""
-        self._count += 1
-        token = f"q{self._count}"
-        self._questions[token] = Question(client, request, child, now_s + ANSWER_S, topic)
+        token = self.token()
+        self._questions[token] = Question(client, request, child, now_s + patience_s, topic, then)
         return token
 
     def asker(self, token: Any) -> str | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from executor.session.vitals import Vitals
+
 if TYPE_CHECKING:
     from executor.session.events import Kind
 
@@ -13,10 +15,14 @@ __all__ = ["Child"]
 class Child:
     """A world or an application process.
 
-    A child is spawned ahead of its use; it counts from the `start` that it was told.
+    A child is spawned ahead of its use; it counts from the `start` that it was told, and is in use once it
+    has taken that: until then none of the user's code is in it, and another one can stand in for it.
+
+    Attributes:
+        hang: what people were told of it, while it hangs.
     """
 
-    def __init__(self, kind: Kind, number: int) -> None:
+    def __init__(self, kind: Kind, number: int, now_s: float = 0.0) -> None:
         self.kind = kind
         self.number = number
         self.is_started = False
@@ -24,16 +30,45 @@ class Child:
         self.is_alive = True
         self.exit_reason = ""
         self.last_lines: tuple[str, ...] = ()
-        self.hanging_node = ""
+        self.vitals = Vitals(now_s)
+        self.hang = ""
+        self.was_inspected = False
         self._said: dict[str, dict[str, Any]] = {}
+        self._answers: dict[str, dict[str, Any] | None] = {}
+
+    @property
+    def is_in_use(self) -> bool:
+        """Whether it took its `start`."""
+        return self.is_started and bool(self._said.keys() & {"starting", "ready", "error", "fault"})
+
+    @property
+    def hanging_node(self) -> str:
+        """Where its main thread was last seen in the user's code."""
+        return str(self.vitals.place.get("text", "")) if self.vitals.is_in_action else ""
+
+    def expect(self, token: str) -> None:
+        """Remembers that it was asked something by the session itself."""
+        self._answers[token] = None
+
+    def take_answer(self, message: dict[str, Any]) -> bool:
+        """Takes an answer, if it was asked for by the session itself."""
+        if message.get("request") not in self._answers:
+            return False
+        self._answers[str(message["request"])] = message
+        return True
+
+    def answer(self, token: str) -> dict[str, Any] | None:
+        """Returns the answer to what it was asked, once it is there."""
+        return self._answers.get(token)
 
     def note(self, message: dict[str, Any]) -> None:
         """Remembers the last message of each type."""
-        if message["type"] == "heartbeat":
-            self.hanging_node = str(message.get("in_tick_node") or "")
+        self.vitals.heard()
+        if message["type"] == "beat":
+            self.vitals.beat(message)
         elif message["type"] == "fault" and message.get("kind") == "timeout":
             pass  # a tick that takes long may still end well
-        elif message["type"] not in {"tick", "log", "blackboard", "tree", "sim"}:
+        elif message["type"] not in {"tick", "log", "blackboard", "tree", "sim", "answer"}:
             self._said[message["type"]] = message
 
     def said(self, type_: str) -> dict[str, Any] | None:

@@ -18,13 +18,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ChildExited",
+    "ChildLooked",
     "ChildSaid",
+    "ChildTraced",
     "ClientJoined",
     "ClientLeft",
     "CommandCame",
     "Effect",
     "EndSession",
     "Event",
+    "Inspect",
     "Interrupt",
     "Kill",
     "Kind",
@@ -113,6 +116,34 @@ class ChildExited:
 
 
 @dataclass(frozen=True)
+class ChildLooked:
+    """The supervisor looked at a child from outside, as it does several times a second.
+
+    `state` is Linux's letter. `ran_s` is what its main thread computed since the last look, `waited_s` how
+    long it, or the thread that waited most, could have and got no processor.
+    """
+
+    kind: Kind
+    number: int
+    state: str
+    ran_s: float
+    waited_s: float
+
+
+@dataclass(frozen=True)
+class ChildTraced:
+    """A child was asked by `Inspect` where it is: faulthandler's text, "" if it did not say.
+
+    `uid` is the node that it was ticking; 0 if none.
+    """
+
+    kind: Kind
+    number: int
+    text: str = ""
+    uid: int = 0
+
+
+@dataclass(frozen=True)
 class Unpacked:
     """An archive was unpacked into `folder`, or refused with `error`.
 
@@ -139,6 +170,8 @@ Event = (
     | StreamPaced
     | CommandCame
     | ChildSaid
+    | ChildLooked
+    | ChildTraced
     | ChildExited
     | Unpacked
     | TimePassed
@@ -189,6 +222,14 @@ class Interrupt:
 
 
 @dataclass(frozen=True)
+class Inspect:
+    """Ask a child that is silent where its threads are, and say so with `ChildTraced`."""
+
+    kind: Kind
+    number: int
+
+
+@dataclass(frozen=True)
 class Retire:
     """Let a child that was told to stop end by itself within `grace_s`, then kill what is left of it."""
 
@@ -220,4 +261,4 @@ class EndSession:
     reason: str
 
 
-Effect = Send | Spawn | Tell | Interrupt | Retire | Kill | Unpack | EndSession
+Effect = Send | Spawn | Tell | Interrupt | Inspect | Retire | Kill | Unpack | EndSession

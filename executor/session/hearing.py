@@ -50,7 +50,7 @@ def hear(session: Session, event: ChildSaid) -> None:
     elif type_ in _TOPICS:
         _forward_topics(session, event.message, _TOPICS[type_])
     elif type_ == "answer":
-        _answer(session, event.message)
+        _answer(session, event)
     elif type_ == "error" and session.state.reaches(State.UNIVERSE_READY):
         text = f"{event.message.get('message', '')} {event.message.get('hint', '')}".strip()
         session.emit(messages.Log("world", "error", text))
@@ -89,7 +89,10 @@ def _payload(kind: type[Struct], message: dict[str, Any]) -> Struct | None:
         return None
 
 
-def _answer(session: Session, message: dict[str, Any]) -> None:
+def _answer(session: Session, event: ChildSaid) -> None:
+    message = event.message
+    if session.children[event.kind].take_answer(message):
+        return
     question = session.asked.answered(message.get("request"))
     if question is None:
         return

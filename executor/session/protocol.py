@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
@@ -17,13 +18,15 @@ import msgspec
 from msgspec import Struct
 
 from executor import messages
-from executor.session import actions, hearing, steps
-from executor.session.asked import Asked
+from executor.session import actions, hearing, steps, watch
+from executor.session.asked import ANSWER_S, Asked
 from executor.session.child import Child
 from executor.session.clients import Clients
 from executor.session.events import (
     ChildExited,
+    ChildLooked,
     ChildSaid,
+    ChildTraced,
     ClientJoined,
     ClientLeft,
     CommandCame,
@@ -47,12 +50,13 @@ from executor.session.events import (
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.mirror import Mirror
 from executor.session.nodes import Nodes
-from executor.session.steps import StepFailed, Wait
+from executor.session.waits import NOT_ANSWERING, StepFailed, Wait
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Mapping
 
     from executor.session.asked import Question
+    from executor.session.waits import Step
 
 __all__ = ["About", "Session"]
 
@@ -103,6 +107,7 @@ class Session:
         self.clients = Clients(now_s)
         self.children: dict[Kind, Child] = {}
         self.leaving: set[tuple[Kind, int]] = set()
+        self.spares_lost: Counter[Kind] = Counter()
         self.run = steps.LastRun()
         self.sim_time_s = 0.0
         self._now_s = now_s
@@ -175,7 +180,7 @@ class Session:
     def child(self, kind: Kind) -> Child:
         """Returns the living child of a kind, and starts it where there is none."""
         if kind not in self.children:
-            self.children[kind] = Child(kind, self.next_number())
+            self.children[kind] = Child(kind, self.next_number(), self._now_s)
             self._effects.append(Spawn(kind, self._count.child))
         return self.children[kind]
 
@@ -189,18 +194,50 @@ class Session:
         if kind in self.children:
             self._effects.append(Tell(kind, self.children[kind].number, {"type": type_, **fields}))
 
-    def ask(self, kind: Kind, event: CommandCame, **fields: Any) -> None:
-        """Has the child of a kind answer a command."""
-        if kind not in self.children:
+    def ask(  # noqa: PLR0913 - one question
+        self,
+        kind: Kind,
+        event: CommandCame,
+        fields: dict[str, Any] | None = None,
+        *,
+        type_: str = "",
+        patience_s: float = ANSWER_S,
+        then: Callable[[], None] | None = None,
+    ) -> None:
+        """Has the child of a kind answer a command; `then` is done when it did what it was asked."""
+        child, fields = self.children.get(kind), fields or {}
+        if child is None:
             self.refuse(event, "process_died", f"The {kind} is gone.")
             return
-        number, topic = self.children[kind].number, str(fields.get("topic", ""))
-        token = self.asked.add(event.client, event.request, (kind, number), self._now_s, topic=topic)
-        self.tell(kind, event.command, request=token, **fields)
+        topic = str(fields.get("topic", ""))
+        if child.hang:
+            if topic:
+                self.clients.echo(event.client, topic, 0.0)
+            self.refuse(event, NOT_ANSWERING, child.hang)
+            return
+        token = self.asked.add(
+            event.client,
+            event.request,
+            (kind, child.number),
+            self._now_s,
+            topic=topic,
+            patience_s=patience_s,
+            then=then,
+        )
+        self.tell(kind, type_ or event.command, request=token, **fields)
+
+    def order(self, kind: Kind, type_: str, **fields: Any) -> tuple[Child, str]:
+        """Has a child confirm what it is told; returns it, and the token that its answer will have."""
+        child, token = self.child(kind), self.asked.token()
+        child.expect(token)
+        self.tell(kind, type_, request=token, **fields)
+        return child, token
 
     def answer(self, question: Question, error: messages.Error | None) -> None:
         """Answers a command whose child has answered, or cannot any more."""
         if error is None:
+            if question.then is not None:
+                question.then()
             self._ack(question.client, question.request)
             return
         if question.topic:
@@ -217,7 +254,7 @@ class Session:
         if child is None:
             return
         child.end(reason)  # whoever waits for it waits no more
-        self._answer_late(self.asked.orphaned((kind, child.number)), "process_died", reason)
+        self.answer_late(self.asked.orphaned((kind, child.number)), "process_died", reason)
         self.leaving.add((kind, child.number))
         if grace_s:
             self._effects.append(Tell(kind, child.number, {"type": "stop"}))
@@ -269,6 +306,10 @@ class Session:
                 self._on_command(event)
             case ChildSaid():
                 self._on_message(event)
+            case ChildLooked():
+                watch.looked(self, event, self._now_s)
+            case ChildTraced():
+                watch.traced(self, event)
             case ChildExited():
                 self._on_exit(event)
             case Unpacked():
@@ -353,18 +394,23 @@ class Session:
             return
         del self.children[event.kind]
         child.end(event.reason, event.last_lines)
-        self._answer_late(self.asked.orphaned((event.kind, event.number)), "process_died", event.reason)
+        self.answer_late(self.asked.orphaned((event.kind, event.number)), "process_died", event.reason)
         if child.is_stopping:
             self._stopped()
             return
         what = "The simulated world" if event.kind == "world" else "The application"
         message = f"{what} {event.reason}."
         lines = "\n".join(event.last_lines)
-        if not child.is_started:
+        if not child.is_in_use:
             text = f"{message} It was not in use yet. {lines}".strip()
             self.emit(messages.Log("manager", "warning", text))
             return
         self.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
+        self._fall(child, message)
+
+    def lose(self, child: Child, reason: str, message: str) -> None:
+        """Ends a child that is in use, and goes down to what is true without it."""
+        self.drop(child.kind, reason=reason)
         self._fall(child, message)
 
     def _stopped(self) -> None:
@@ -415,6 +461,15 @@ class Session:
     def _begin(self, event: CommandCame) -> None:
         generator = steps.STEPS[event.command](self, event.data)
         self._job = _Job(event.command, [(event.client, event.request)], generator)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether no step is going on."""
+        return self._job is None
+
+    def begin_own(self, command: str, generator: Step) -> None:
+        """Begins a step that no client asked for."""
+        self._job = _Job(command, [], generator)
 
     def _join_or_refuse(self, job: _Job, event: CommandCame) -> None:
         if job.command == event.command and event.command.startswith("terminate_"):
@@ -474,12 +529,14 @@ class Session:
         job.deadline_s = self._now_s + job.wait.timeout_s
         return True
 
-    def _answer_late(self, questions: list[Question], code: str, reason: str) -> None:
+    def answer_late(self, questions: list[Question], code: str, reason: str, why: str = "") -> None:
+        """Answers commands whose child will not."""
         for question in questions:
-            self.answer(question, messages.Error(code, f"The {question.child[0]} {reason}."))
+            text = why or f"The {question.child[0]} {reason}."
+            self.answer(question, messages.Error(code, text))
 
     def _expire(self) -> None:
-        self._answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
+        self.answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
         for client in self.clients.promote(self._now_s, self.about.promote_s):
             self.introspect(client)
         if self.clients.is_abandoned(self._now_s, self.about.grace_s):
@@ -490,6 +547,8 @@ class Session:
 
     def _fail(self, job: _Job, failure: StepFailed) -> None:
         payload = messages.Error(failure.code, failure.message, failure.hint)
+        if not job.askers:
+            self.emit(messages.Log("manager", "error", f"{failure.message} {failure.hint}".strip()))
         for client, request in job.askers:
             self.send(client, payload, request)
 

@@ -7,22 +7,38 @@ ladder on the last rung that it reached.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, cast
 
 from executor import messages
 from executor.launching.model import LaunchPlan
 from executor.session.ladder import HAS_APPLICATION, State
+from executor.session.waits import (
+    NOT_ANSWERING,
+    REPLY_TIMEOUT_S,
+    Answered,
+    Ended,
+    Step,
+    StepFailed,
+    Wait,
+    answered,
+    confirmed,
+    gone,
+    is_spare_lost,
+    message_of,
+    taken,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from msgspec import Struct
 
     from executor.session.child import Child
     from executor.session.events import Unpacked
     from executor.session.protocol import Session
 
-__all__ = ["STEPS", "LastRun", "StepFailed", "Wait", "stop_moving"]
+__all__ = ["RESET_TIMEOUT_S", "STEPS", "LastRun", "restart_application", "stop_moving"]
 
 LAUNCH_TIMEOUT_S: Final = 60.0
 LOAD_TIMEOUT_S: Final = 60.0
@@ -30,27 +46,9 @@ UNPACK_TIMEOUT_S: Final = 30.0
 TICK_PATIENCE_S: Final = 1.0
 INTERRUPT_PATIENCE_S: Final = 1.0
 WORLD_GRACE_S: Final = 2.0
-REPLY_TIMEOUT_S: Final = 5.0
 EXIT_TIMEOUT_S: Final = 10.0
-
-
-class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
-    """The step cannot be done; code, message and hint are for the client."""
-
-    def __init__(self, code: str, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.code = code
-        self.message = message
-        self.hint = hint
-
-
-@dataclass(frozen=True)
-class Wait:
-    """What a step waits for: until `until` returns something, or raises `StepFailed`."""
-
-    until: Callable[[], Any]
-    timeout_s: float
-    too_late: str
+RESET_TIMEOUT_S: Final = 60.0
+_PLACE: Final = frozenset({"node_id", "tree_id", "node_path", "file", "traceback"})
 
 
 @dataclass
@@ -64,34 +62,13 @@ class LastRun:
     domain_id: int = 0
     is_outside: bool = False
     seed: int = 0
-
-
-Step = Generator[Wait, Any, None]
+    clocks: int = 0
+    """How often the world had told the time when the application last heard it."""
+    deaf_until_s: float = 0.0
+    """Until then an application that hears no time is not started again once more."""
 
 
 # --- helpers --------------------------------------------------------------------------------------
-
-
-def _message_of(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
-    """Returns a condition: the child sent one of these messages; it fails if the child is gone."""
-
-    def until() -> dict[str, Any] | None:
-        for type_ in types:
-            if (message := child.said(type_)) is not None:
-                return message
-        if not child.is_alive:
-            raise StepFailed("process_died", f"The {child.kind} {child.exit_reason}.", _last_words(child))
-        return None
-
-    return until
-
-
-def _gone(child: Child) -> Callable[[], bool | None]:
-    return lambda: None if child.is_alive else True
-
-
-def _last_words(child: Child) -> str:
-    return "\n".join(child.last_lines[-5:])
 
 
 def stop_moving(session: Session) -> None:
@@ -125,26 +102,17 @@ def _launch_universe(session: Session, data: Struct) -> Step:
             assets = _folder_of(unpacked, "assets")
         file = universe.file
         universe = universe.document
-    world = session.child("world")
-    world.is_started = True
-    session.tell(
-        "world",
-        "start",
-        universe=universe,
-        file=file,
-        assets=assets,
-        robot=data.robot,
-        seed=data.seed,
-        speed=data.speed,
-        domain_id=_domain_of(session, data),
-    )
+    start = {
+        "universe": universe,
+        "file": file,
+        "assets": assets,
+        "robot": data.robot,
+        "seed": data.seed,
+        "speed": data.speed,
+        "domain_id": _domain_of(session, data),
+    }
     try:
-        reply = yield Wait(
-            _message_of(world, "ready", "error"), LAUNCH_TIMEOUT_S, "The world did not become ready in time."
-        )
-        if reply["type"] == "error":
-            hint = str(reply.get("hint", ""))
-            raise StepFailed(str(reply.get("code") or "launch_failed"), str(reply.get("message", "")), hint)
+        reply = yield from _start_world(session, start)
     except StepFailed:
         session.run.universe = None
         session.drop("world")
@@ -155,6 +123,26 @@ def _launch_universe(session: Session, data: Struct) -> Step:
     session.resume_echoes()
     _progress(session, "launch_universe", 1.0, "The world is ready")
     session.enter(State.UNIVERSE_READY)
+
+
+def _start_world(session: Session, start: dict[str, Any], tries: int = 2) -> Answered:
+    """Has the world that waits build what is asked for; a spare that was lost is replaced once."""
+    world = session.child("world")
+    world.is_started = True
+    session.tell("world", "start", **start)
+    late = "The world did not become ready in time."
+    try:
+        reply: dict[str, Any] = yield Wait(taken(world, "ready", "error"), LAUNCH_TIMEOUT_S, late)
+    except StepFailed as failure:
+        if tries == 1 or not is_spare_lost(world, failure):
+            raise
+        if session.children.get("world") is world:
+            session.drop("world")
+        return (yield from _start_world(session, start, tries - 1))
+    if reply["type"] == "error":
+        hint = str(reply.get("hint", ""))
+        raise StepFailed(str(reply.get("code") or "launch_failed"), str(reply.get("message", "")), hint)
+    return reply
 
 
 def _prepare_visualization(session: Session, _: Struct) -> Step:
@@ -195,7 +183,8 @@ def _run_application(session: Session, data: Struct) -> Step:
     yield from _await_application(session, application)
 
 
-def _restart_application(session: Session, data: Struct) -> Step:
+def restart_application(session: Session, data: Struct) -> Step:
+    """Starts the application of the last run again."""
     if session.run.application is None:
         raise StepFailed("nothing_to_restart", "No application was run yet.", "Press Run.")
     if session.state in HAS_APPLICATION:
@@ -225,24 +214,38 @@ def _start_application(session: Session) -> Child:
     return application
 
 
-def _await_application(session: Session, application: Child) -> Step:
+def _await_application(session: Session, application: Child, tries: int = 2) -> Step:
+    """Waits until it has loaded, and lets time pass; a spare that was lost is replaced once."""
     try:
         reply = yield Wait(
-            _message_of(application, "fault", "ready"),
+            taken(application, "fault", "ready"),
             LOAD_TIMEOUT_S,
             "The application did not finish loading in time: a module or a setup() hangs.",
         )
         if reply["type"] == "fault":
             raise StepFailed("load_failed", str(reply.get("message")), str(reply.get("hint", "")))
-    except StepFailed:
+        _progress(session, "run_application", 1.0, "The application runs")
+        yield from _go(session, application)
+    except StepFailed as failure:
         if session.children.get("application") is application:
             session.drop("application")
+        has_world = session.state.reaches(State.VISUALIZATION_READY)
+        if tries > 1 and has_world and is_spare_lost(application, failure):
+            yield from _await_application(session, _start_application(session), tries - 1)
+            return
         session.replenish()
         raise
-    _progress(session, "run_application", 1.0, "The application runs")
-    session.tell("world", "resume")
-    session.tell("application", "resume")
     session.enter(State.APPLICATION_RUNNING)
+
+
+def _go(session: Session, application: Child) -> Step:
+    """Lets time pass in both processes."""
+    application.forget("resumed")
+    world = session.order("world", "resume")
+    session.tell("application", "resume")
+    yield confirmed(world, "resume")
+    late = "The application did not resume in time."
+    yield Wait(answered(application, "resumed"), REPLY_TIMEOUT_S, late)
 
 
 def _run(session: Session, data: Struct) -> Step:
@@ -252,13 +255,12 @@ def _run(session: Session, data: Struct) -> Step:
         yield from _terminate_application(session, data)
     if session.state is State.IDLE:
         yield from _connect(session, data)
+    orders = []
     if session.state.reaches(State.UNIVERSE_READY):
-        if _is_same_world(session.run.universe, data.universe):
-            session.tell("world", "reset")
-            if not session.run.is_outside:
-                session.tell("world", "set_speed", speed=data.universe.speed)
-        else:
+        if session.child("world").hang or not _is_same_world(session.run.universe, data.universe):
             yield from _end_world(session)
+        else:
+            orders = _reuse_world(session, data.universe.speed)
     unpacking = _unpacking(session, data.application.app_zip_base64)
     unpacked = yield unpacking
     _take_folder(session, unpacked)
@@ -266,6 +268,8 @@ def _run(session: Session, data: Struct) -> Step:
     _aim(session, data.universe)
     application = _start_application(session)
     try:
+        for order in orders:
+            yield confirmed(order, "reset", RESET_TIMEOUT_S)
         if not session.state.reaches(State.UNIVERSE_READY):
             yield from _launch_universe(session, data.universe)
     except StepFailed:
@@ -275,6 +279,15 @@ def _run(session: Session, data: Struct) -> Step:
     if not session.state.reaches(State.VISUALIZATION_READY):
         yield from _prepare_visualization(session, data)
     yield from _await_application(session, application)
+
+
+def _reuse_world(session: Session, speed: float) -> list[tuple[Child, str]]:
+    """Has a world that is up begin again; returns what it has to confirm."""
+    orders = [session.order("world", "reset")]
+    if not session.run.is_outside:
+        orders.append(session.order("world", "set_speed", speed=speed))
+        session.mirror.speed = speed
+    return orders
 
 
 def _aim(session: Session, data: messages.LaunchUniverse) -> None:
@@ -305,52 +318,78 @@ def _pause(session: Session, _: Struct) -> Step:
     application = session.child("application")
     application.forget("paused")
     session.tell("application", "pause")
-    session.tell("world", "pause")
+    world = session.order("world", "pause")
     try:
-        yield Wait(_message_of(application, "paused"), TICK_PATIENCE_S, "tick")
+        yield Wait(message_of(application, "paused"), TICK_PATIENCE_S, "tick")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
-        yield from _end_hanging_tick(session, application)
-        raise StepFailed(
-            "tick_hangs",
-            f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
-            "An action's update() must return soon; let it return RUNNING while work goes on.",
-        ) from None
+        raise (yield from _end_hanging_tick(session, application)) from None
+    try:
+        yield confirmed(world, "pause")
+    except StepFailed:
+        if session.state is State.APPLICATION_RUNNING:
+            session.tell("application", "resume")  # time passes in both processes, or in none
+        raise
     session.enter(State.PAUSED)
 
 
-def _end_hanging_tick(session: Session, application: Child) -> Step:
-    """Breaks the tick off, so that the application names its node; kills it if that does not help."""
+def _end_hanging_tick(session: Session, application: Child) -> Ended:
+    """Breaks the tick off, so that the application names its node; kills it if that does not help.
+
+    Returns why what waits for the tick has failed.
+    """
     session.interrupt(application)
     try:
         yield Wait(
-            lambda: application.said("finished") or _gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
+            lambda: application.said("finished") or gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
         )
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
+    reason = _tick_failure(application)
     if session.state in HAS_APPLICATION:
         if application.said("finished") is None:
-            node = application.hanging_node
-            message = f"The tick hung{f' in {node}' if node else ''}, and the application was killed."
-            session.emit(messages.Fault("timeout", message, node_path=node))
-            session.emit(messages.Finished("IDLE", "process_died", message))
+            _tell_killed(session, application, reason)
         stop_moving(session)
-        session.enter(State.VISUALIZATION_READY, "The tick did not return.")
+        session.enter(State.VISUALIZATION_READY, reason.message)
     if session.children.get("application") is application:
         session.drop("application")
     session.replenish()
+    return reason
+
+
+def _tick_failure(application: Child) -> StepFailed:
+    if application.vitals.is_frozen and application.said("finished") is None:
+        why = application.hang or "The application does not answer: its process is frozen."
+        return StepFailed(NOT_ANSWERING, why, "It was ended; press Run to start it again.")
+    return StepFailed(
+        "tick_hangs",
+        f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
+        "An action's update() must return soon; let it return RUNNING while work goes on.",
+    )
+
+
+def _tell_killed(session: Session, application: Child, failure: StepFailed) -> None:
+    node = application.hanging_node
+    message = f"The tick hung{f' in {node}' if node else ''}, and the application was killed."
+    if failure.code == NOT_ANSWERING:
+        message = failure.message
+    if not application.hang:
+        place = {k: str(v) for k, v in application.vitals.place.items() if k in _PLACE}
+        line = int(application.vitals.place.get("line", 0))
+        session.emit(messages.Fault("timeout", message, line=line, **place))
+    session.emit(messages.Finished("IDLE", "process_died", message))
 
 
 def _resume(session: Session, _: Struct) -> Step:
-    application = session.child("application")
-    application.forget("resumed")
-    session.tell("world", "resume")
-    session.tell("application", "resume")
-    yield Wait(
-        _message_of(application, "resumed"), REPLY_TIMEOUT_S, "The application did not resume in time."
-    )
+    try:
+        yield from _go(session, session.child("application"))
+    except StepFailed:
+        if session.state is State.PAUSED:  # time passes in both processes, or in none
+            session.tell("application", "pause")
+            session.tell("world", "pause")
+        raise
     session.enter(State.APPLICATION_RUNNING)
 
 
@@ -359,14 +398,13 @@ def _step(session: Session, _: Struct) -> Step:
     application.forget("stepped")
     session.tell("application", "step")
     try:
-        yield Wait(_message_of(application, "stepped", "finished"), REPLY_TIMEOUT_S, "tick")
+        yield Wait(message_of(application, "stepped", "finished"), REPLY_TIMEOUT_S, "tick")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
-        yield from _end_hanging_tick(session, application)
-        raise StepFailed("tick_hangs", "The tick did not return and was ended.") from None
+        raise (yield from _end_hanging_tick(session, application)) from None
     if session.state is State.PAUSED:
-        session.tell("world", "step", dt_s=1.0 / session.mirror.tick_hz)
+        yield confirmed(session.order("world", "step", dt_s=1.0 / session.mirror.tick_hz), "step")
 
 
 def _set_blackboard(session: Session, data: Struct) -> Step:
@@ -375,7 +413,7 @@ def _set_blackboard(session: Session, data: Struct) -> Step:
     application.forget("blackboard_set")
     session.tell("application", "set_blackboard", scope=data.scope, key=data.key, value=data.value)
     late = "The application did not answer in time."
-    reply = yield Wait(_message_of(application, "blackboard_set"), REPLY_TIMEOUT_S, late)
+    reply = yield Wait(message_of(application, "blackboard_set"), REPLY_TIMEOUT_S, late)
     if reply.get("error"):
         raise StepFailed("bad_data", str(reply["error"]))
 
@@ -391,7 +429,7 @@ def _terminate_application(session: Session, _: Struct) -> Step:
     session.tell("application", "stop")
     stop_moving(session)
     try:
-        yield Wait(_gone(application), TICK_PATIENCE_S, "stop")
+        yield Wait(gone(application), TICK_PATIENCE_S, "stop")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
@@ -443,7 +481,7 @@ STEPS: Final[dict[str, Callable[[Session, Struct], Step]]] = {
     "prepare_visualization": _prepare_visualization,
     "run_application": _run_application,
     "run": _run,
-    "restart_application": _restart_application,
+    "restart_application": restart_application,
     "pause": _pause,
     "resume": _resume,
     "step": _step,

@@ -7,9 +7,10 @@ import os
 import signal
 from typing import Final
 
-__all__ = ["INTERRUPT_SIGNAL", "PARENT_VARIABLE", "adopt_orphans", "die_with_parent"]
+__all__ = ["INTERRUPT_SIGNAL", "PARENT_VARIABLE", "TRACE_SIGNAL", "adopt_orphans", "die_with_parent"]
 
 INTERRUPT_SIGNAL: Final = signal.SIGUSR1
+TRACE_SIGNAL: Final = signal.SIGUSR2
 PARENT_VARIABLE: Final = "BT_STUDIO_PARENT_PID"
 _PR_SET_PDEATHSIG: Final = 1
 _PR_SET_CHILD_SUBREAPER: Final = 36

@@ -16,6 +16,8 @@ import psutil
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
 from executor.supervision.output import LineReader
+from executor.supervision.pulse import NOTES_VARIABLE
+from executor.supervision.signs import Notes, Signs, look_at
 
 if TYPE_CHECKING:
     import socket
@@ -28,6 +30,7 @@ DRAIN_TIMEOUT_S: Final = 0.5
 KILL_ROUNDS: Final = 200
 CPU_GRACE_S: Final = 5
 CLOSED_CHANNEL_GRACE_S: Final = 1.0
+LOOKS_UNTIL_SILENT: Final = 2
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,9 @@ class ChildProcess:
         self._popen = popen
         self._on_message = on_message
         self._channel: AsyncChannel | None = None
+        self._notes: Notes | None = None
+        self._signs: Signs | None = None
+        self._silent_looks = 0
         self.exited = asyncio.get_running_loop().create_future()
         clock = asyncio.get_running_loop().time
         self._out = LineReader("info", on_message, clock)
@@ -88,31 +94,38 @@ class ChildProcess:
             OSError: the program cannot be started.
         """
         mark = os.urandom(8).hex()
-        ours = None
+        ours, notes = None, None
         if program.has_channel:
             ours, theirs = socket_pair()
+            notes = Notes()
             with theirs:
                 try:
-                    popen = cls._start(program, theirs.fileno(), mark)
+                    popen = cls._start(program, mark, theirs.fileno(), notes.fd)
                 except OSError:
                     ours.close()
+                    notes.close()
                     raise
         else:
-            popen = cls._start(program, None, mark)
+            popen = cls._start(program, mark)
         child = cls(program, popen, mark, on_message)
+        child._notes = notes
         child._limit()
         await child._listen(ours)
         return child
 
     @staticmethod
-    def _start(program: Program, channel_fd: int | None, mark: str) -> subprocess.Popen[bytes]:
+    def _start(
+        program: Program, mark: str, channel_fd: int | None = None, notes_fd: int | None = None
+    ) -> subprocess.Popen[bytes]:
         own = {PARENT_VARIABLE: str(os.getpid()), MARK: mark, "PYTHONUNBUFFERED": "1"}
+        if notes_fd is not None:
+            own[NOTES_VARIABLE] = str(notes_fd)
         return subprocess.Popen(
             [*program.arguments, *([] if channel_fd is None else ["--channel-fd", str(channel_fd)])],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            pass_fds=[] if channel_fd is None else [channel_fd],
+            pass_fds=[fd for fd in (channel_fd, notes_fd) if fd is not None],
             start_new_session=True,
             env={**os.environ, **program.environment, **own},
         )
@@ -130,6 +143,29 @@ class ChildProcess:
             self._channel.send(message)
         except ChannelClosed as error:
             self.kill(f"was ended: {error}")
+
+    def look(self) -> tuple[str, float, float] | None:
+        """Looks at the child from outside: its state, and what it ran and waited since the last look.
+
+        None at the first look, at a child that is gone, and at one without a channel.
+        """
+        if self._channel is None or self.exited.done():
+            return None
+        # Only of a child that is silent one asks whether its other threads get a processor.
+        signs = look_at(self.pid, closely=self._silent_looks > LOOKS_UNTIL_SILENT)
+        self._silent_looks += 1
+        before, self._signs = self._signs, signs
+        if signs is None or before is None:
+            return None
+        waited = [s - before.waited_s[t] for t, s in signs.waited_s.items() if t in before.waited_s]
+        return signs.state, signs.ran_s - before.ran_s, max(waited, default=0.0)
+
+    async def trace(self) -> tuple[str, int]:
+        """Asks where the child's threads are; returns that, and the node that is being ticked."""
+        if self._notes is None or self.exited.done():
+            return "", 0
+        text = await self._notes.trace(self.pid)
+        return text, self._notes.current_uid() if not self.exited.done() else 0
 
     def interrupt(self) -> None:
         """Asks the child to break off its tick."""
@@ -162,6 +198,8 @@ class ChildProcess:
         await asyncio.gather(*self._readers, return_exceptions=True)
         if self._channel is not None:
             self._channel.close()
+        if self._notes is not None:
+            self._notes.close()
 
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
         """Ends a child whose tree, among all that descends from this process, uses more than it may."""
@@ -225,7 +263,9 @@ class ChildProcess:
     async def _read_channel(self, channel: AsyncChannel) -> None:
         try:
             while True:
-                self._on_message(await channel.receive())
+                message = await channel.receive()
+                self._silent_looks = 0
+                self._on_message(message)
         except ChannelClosed:
             # Usually it is just ending. Without its channel nobody could tell it to stop.
             await asyncio.wait([self.exited], timeout=CLOSED_CHANNEL_GRACE_S)

@@ -13,9 +13,12 @@ import psutil
 
 from executor.session.events import (
     ChildExited,
+    ChildLooked,
     ChildSaid,
+    ChildTraced,
     Effect,
     Event,
+    Inspect,
     Interrupt,
     Kill,
     Kind,
@@ -43,7 +46,7 @@ class Supervisor:
 
     Args:
         programs: what to start for each kind of child.
-        report: takes `ChildSaid` and `ChildExited`, on the event loop.
+        report: takes `ChildSaid`, `ChildLooked`, `ChildTraced` and `ChildExited`, on the event loop.
         on_frame: takes the `frame` messages, which do not concern the state machine.
         reaps_all: whether every other child of this process is an orphan that a child left behind.
     """
@@ -67,7 +70,7 @@ class Supervisor:
         self._descendants = Descendants()
         adopt_orphans()
 
-    def apply(self, effect: Spawn | Tell | Interrupt | Retire | Kill) -> None:
+    def apply(self, effect: Spawn | Tell | Interrupt | Inspect | Retire | Kill) -> None:
         """Does what an effect asks; results come as events."""
         key = (effect.kind, effect.number)
         if isinstance(effect, Spawn):
@@ -77,6 +80,8 @@ class Supervisor:
             self._waiting[key].append(effect)  # it is just being started
         elif (child := self._children.get(key)) is not None:
             self._apply_to(child, effect)
+        elif isinstance(effect, Inspect):
+            self._report(ChildTraced(effect.kind, effect.number))
 
     async def close(self) -> None:
         """Kills all children and returns when nothing is left of them."""
@@ -98,6 +103,8 @@ class Supervisor:
                 child.tell(effect.message)
             case Interrupt():
                 child.interrupt()
+            case Inspect():
+                self._do(self._trace(child, effect))
             case Retire():
                 self._do(self._retire(child, effect.grace_s))
             case Kill():
@@ -146,6 +153,10 @@ class Supervisor:
         environment = {**application.environment, **dict(spawn.node.environment)}
         return Program(command, environment, application.limits, has_channel=False)
 
+    async def _trace(self, child: ChildProcess, effect: Inspect) -> None:
+        text, uid = await child.trace()
+        self._report(ChildTraced(effect.kind, effect.number, text, uid))
+
     async def _retire(self, child: ChildProcess, grace_s: float) -> None:
         child.ask_to_end()
         with contextlib.suppress(TimeoutError):
@@ -155,6 +166,9 @@ class Supervisor:
     async def _check_limits(self) -> None:
         while True:
             await asyncio.sleep(CHECK_INTERVAL_S)
+            for (kind, number), child in list(self._children.items()):
+                if (signs := child.look()) is not None:
+                    self._report(ChildLooked(kind, number, *signs))
             there = self._descendants.look()
             for (kind, _), child in list(self._children.items()):
                 if kind != "world":

@@ -53,6 +53,9 @@ class Clockwork:
         self._is_driven = False
         self._driven_until_s = -1.0
         self.is_paused = True
+        self._clocks = 0
+        self.moved: Callable[[int], None] = lambda clocks: None
+        """Called after each piece of work with how often the time was published."""
         self.watchers: list[Callable[[float], None]] = []
         self.streams = Streams(world, sensors, send)
 
@@ -132,6 +135,7 @@ class Clockwork:
             self._clock_s = now_s
             self._node.poll()
             self._node.publish_clock()
+            self._told_time()
 
     def _advance(self, steps: int) -> None:
         while steps > 0:
@@ -143,9 +147,14 @@ class Clockwork:
             if self._steps % PERIOD_STEPS == 0:
                 self._node.poll()
                 self._node.publish(self._sensors)
+                self._told_time()
         self._tell_collisions()
         for note in self._node.take_notes():
             self._log("warning", note)
+
+    def _told_time(self) -> None:
+        self._clocks += 1
+        self.moved(self._clocks)
 
     def _tell_collisions(self) -> None:
         for robot, collision in self._world.take_collisions():

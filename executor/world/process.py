@@ -20,6 +20,7 @@ from executor.messages import CameraPose
 from executor.ros.environment import has_tf, ros_environment
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
+from executor.supervision.pulse import Pulse
 from executor.universes.document import DocumentError, Problem
 from executor.world.interface import WorldError
 
@@ -44,8 +45,9 @@ class _Stop(Exception):  # noqa: N818 - the way out, not an error
 class WorldProcess:
     """Receives messages and keeps the clockwork going, in one thread."""
 
-    def __init__(self, channel: Channel) -> None:
+    def __init__(self, channel: Channel, pulse: Pulse) -> None:
         self._channel = channel
+        self._pulse = pulse
         self._clockwork: Clockwork | Outside | None = None
         self._renderer: Renderer | None = None
         self._context: Context | None = None
@@ -57,6 +59,7 @@ class WorldProcess:
         """Works until it is told to stop, or the manager is gone."""
         try:
             self._warm_up()
+            self._pulse.rests()
             while True:
                 self._turn()
         except (_Stop, ChannelClosed):
@@ -66,6 +69,7 @@ class WorldProcess:
                 close()
 
     def _turn(self) -> None:
+        self._pulse.moved()
         clockwork = self._clockwork
         wait_s = LONGEST_WAIT_S if clockwork is None else clockwork.next_due_s(time.monotonic())
         message = self._channel.receive(min(wait_s, LONGEST_WAIT_S))
@@ -115,7 +119,9 @@ class WorldProcess:
         if kind == "stop":
             raise _Stop
         if kind == "start":
-            self._start(message)
+            self._channel.send({"type": "starting"})
+            with self._pulse.busy("building the world"):
+                self._start(message)
             return
         if self._clockwork is None:
             self._say_error("not_started", f"The world must be started before {kind!r}.")
@@ -131,7 +137,8 @@ class WorldProcess:
             case "step":
                 clockwork.step(float(message["dt_s"]))
             case "reset":
-                clockwork.reset()
+                with self._pulse.busy("resetting the world"):
+                    clockwork.reset()
             case "set_speed":
                 clockwork.set_speed(float(message["speed"]))
             case "stop_robot":
@@ -209,6 +216,7 @@ class WorldProcess:
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )
         clockwork.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
+        clockwork.moved = self._moved
         self._clockwork = clockwork
         self._channel.send(
             {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
@@ -226,6 +234,10 @@ class WorldProcess:
         outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
         self._clockwork = outside
         self._channel.send({"type": "ready", "renderer": "", "tf": has_tf(), "universe": "none"})
+
+    def _moved(self, clocks: int) -> None:
+        self._pulse.clocks = clocks
+        self._pulse.moved()
 
     def _progress(self, fraction: float, text: str) -> None:
         self._channel.send({"type": "progress", "fraction": fraction, "message": text})
@@ -256,7 +268,8 @@ def main(arguments: list[str] | None = None) -> None:
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
-    WorldProcess(Channel(options.channel_fd)).run()
+    channel = Channel(options.channel_fd)
+    WorldProcess(channel, Pulse(channel.send)).run()
 
 
 if __name__ == "__main__":

@@ -14,20 +14,27 @@ import msgspec
 from executor.messages import View
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
+from executor.supervision.pulse import Pulse
 
 FRAME = msgspec.msgpack.encode(View(t=0.0, width=1, height=1, jpeg=b""))
 READY = {"type": "ready", "renderer": "fake", "tf": False, "universe": "Fake"}
 ANSWERS = {"pause": "paused", "resume": "resumed", "step": "stepped", "set_blackboard": "blackboard_set"}
 
 
-def obey(channel, *, on_start=lambda: None):
+def obey(channel, pulse, *, on_start=lambda: None):
     """Does what it is told until it is told to stop."""
+    pulse.rests()
     while True:
-        message = channel.receive()
-        assert message is not None
+        pulse.moved()
+        pulse.clocks += 1
+        message = channel.receive(0.1)
+        if message is None:
+            continue
         match message["type"]:
             case "start":
-                on_start()
+                channel.send({"type": "starting"})
+                with pulse.busy("starting"):
+                    on_start()
                 channel.send(READY)
             case "subscribe":
                 channel.send(
@@ -104,17 +111,18 @@ def main():
     arguments = parser.parse_args()
     die_with_parent()
     channel = Channel(arguments.channel_fd)
+    pulse = Pulse(channel.send)
     habits = {
-        "good": lambda: obey(channel),
+        "good": lambda: obey(channel, pulse),
         "dies_at_start": lambda: die(3),
-        "dies_when_started": lambda: obey(channel, on_start=lambda: die(4)),
+        "dies_when_started": lambda: obey(channel, pulse, on_start=lambda: die(4)),
         "never_ready": lambda: time.sleep(3600),
-        "floods": lambda: obey(channel, on_start=flood),
-        "daemon": lambda: obey(channel, on_start=leave_daemon),
-        "forks": lambda: obey(channel, on_start=fork_many),
-        "leaks": lambda: obey(channel, on_start=leak),
-        "burns": lambda: obey(channel, on_start=burn),
-        "writes": lambda: obey(channel, on_start=write_much),
+        "floods": lambda: obey(channel, pulse, on_start=flood),
+        "daemon": lambda: obey(channel, pulse, on_start=leave_daemon),
+        "forks": lambda: obey(channel, pulse, on_start=fork_many),
+        "leaks": lambda: obey(channel, pulse, on_start=leak),
+        "burns": lambda: obey(channel, pulse, on_start=burn),
+        "writes": lambda: obey(channel, pulse, on_start=write_much),
         "closes_pipe": lambda: (channel.close(), time.sleep(3600)),
         "talks_rubbish": lambda: (os.write(arguments.channel_fd, b"\xff" * 100), time.sleep(3600)),
     }

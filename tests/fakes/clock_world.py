@@ -8,12 +8,13 @@ import time
 
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
+from executor.supervision.pulse import Pulse
 
 PERIOD_S = 0.02
 
 
 class ClockWorld:
-    def __init__(self, channel):
+    def __init__(self, channel, pulse, mute_after_s):
         import rclpy
         from geometry_msgs.msg import Twist
         from rclpy.context import Context
@@ -22,6 +23,8 @@ class ClockWorld:
         from rosgraph_msgs.msg import Clock
 
         self.channel = channel
+        self.pulse = pulse
+        self.mute_after_s = mute_after_s
         self.context = Context()
         rclpy.init(context=self.context, domain_id=int(os.environ["ROS_DOMAIN_ID"]))
         self.node = Node("fake_world", context=self.context)
@@ -37,7 +40,9 @@ class ClockWorld:
 
     def run(self):
         due = time.monotonic()
+        self.pulse.rests()
         while True:
+            self.pulse.moved()
             message = self.channel.receive(max(0.0, due - time.monotonic()))
             if message is not None:
                 if message["type"] == "stop":
@@ -53,11 +58,19 @@ class ClockWorld:
         self.time_s += dt_s
         self.message.clock.sec = int(self.time_s)
         self.message.clock.nanosec = int(self.time_s % 1 * 1e9)
-        self.publisher.publish(self.message)
+        if self.time_s < self.mute_after_s:
+            self.pulse.clocks += 1
+            self.publisher.publish(self.message)
 
     def obey(self, message):
+        self.do(message)
+        if "request" in message:
+            self.channel.send({"type": "answer", "request": message["request"]})
+
+    def do(self, message):
         match message["type"]:
             case "start":
+                self.channel.send({"type": "starting"})
                 self.channel.send({"type": "ready", "renderer": "none", "tf": False, "universe": "Clock"})
             case "pause" | "resume":
                 self.is_running = message["type"] == "resume"
@@ -69,9 +82,12 @@ class ClockWorld:
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--channel-fd", type=int, required=True)
+    parser.add_argument("--mute-after", type=float, default=float("inf"))
+    arguments = parser.parse_args()
     die_with_parent()
+    channel = Channel(arguments.channel_fd)
     try:
-        ClockWorld(Channel(parser.parse_args().channel_fd)).run()
+        ClockWorld(channel, Pulse(channel.send), arguments.mute_after).run()
     except ChannelClosed:
         return
 

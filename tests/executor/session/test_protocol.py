@@ -126,6 +126,7 @@ def test_the_application_loads_while_the_world_starts():
     assert play.told("world") == ["start"]
     play.child_says("application", "ready")
     assert play.state is State.CONNECTED
+    play.obedient = True
     play.child_says("world", "ready", renderer="egl", tf=False, universe="Room")
     assert play.state is State.APPLICATION_RUNNING
 
@@ -273,7 +274,13 @@ def test_a_hanging_tick_is_interrupted_and_named(command):
 def test_a_tick_that_cannot_be_interrupted_is_killed(command):
     play, request = hang(command)
     number = play.session.children["application"].number
-    play.happens(ChildSaid("application", number, {"type": "heartbeat", "in_tick_node": "main/Stuck"}))
+    play.happens(
+        ChildSaid(
+            "application",
+            number,
+            {"type": "beat", "turns": 9, "place": {"node_path": "main/Stuck", "text": "Act 'main/Stuck'"}},
+        )
+    )
     play.later(1)
     assert play.did(Kill) == ["application"]
     assert play.state is State.VISUALIZATION_READY

@@ -1,0 +1,51 @@
+"""Reads what faulthandler writes of the threads of a process that cannot speak for itself."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Final
+
+__all__ = ["Frame", "action_frame", "own_frame"]
+
+_FRAME: Final = re.compile(r'^  File "(?P<file>[^"]*)", line (?P<line>\d+) in (?P<function>.*)$')
+_CURRENT: Final = "Current thread"
+_ACTIONS: Final = "actions/"
+_OWN: Final = re.compile(
+    r"(?:^|/)(?P<file>executor/(?:world|render|ros|application|supervision|universes)/.*)$"
+)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One line of Python on a stack."""
+
+    file: str
+    line: int
+    function: str
+
+
+def action_frame(text: str) -> Frame | None:
+    """Returns the innermost line of an action: of the thread that was asked, else of any other."""
+    return next((frame for frame in _frames(text) if frame.file.startswith(_ACTIONS)), None)
+
+
+def own_frame(text: str) -> Frame | None:
+    """Returns the innermost line of this repository, by its path within it."""
+    for frame in _frames(text):
+        if (match := _OWN.search(frame.file)) is not None:
+            return Frame(match["file"], frame.line, frame.function)
+    return None
+
+
+def _frames(text: str) -> list[Frame]:
+    """All frames, innermost first; those of the current thread before those of the others."""
+    threads: list[tuple[bool, list[Frame]]] = []
+    for line in text.splitlines():
+        if match := _FRAME.match(line):
+            if threads:
+                threads[-1][1].append(Frame(match["file"], int(match["line"]), match["function"]))
+        elif "most recent call first" in line:
+            threads.append((line.startswith(_CURRENT), []))
+    threads.sort(key=lambda thread: not thread[0])
+    return [frame for _, frames in threads for frame in frames]

@@ -1,0 +1,96 @@
+"""What one sees of a process from outside: whether it computes, waits for a processor, or is stopped."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from executor.supervision.confine import TRACE_SIGNAL
+from executor.supervision.pulse import NOTES_BYTES
+
+__all__ = ["Notes", "Signs", "look_at"]
+
+TRACE_S: Final = 0.4
+TRACE_STEP_S: Final = 0.02
+LARGEST_TRACE_BYTES: Final = 64 * 1024
+_TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
+
+
+@dataclass(frozen=True)
+class Signs:
+    """Seconds since the process began, of its main thread; `state` is the letter that Linux gives it.
+
+    `waited_s` is how long it could have run and got no processor; of the thread that waited most, if asked.
+    """
+
+    state: str
+    ran_s: float
+    waited_s: dict[str, float]
+
+
+def look_at(pid: int, *, closely: bool) -> Signs | None:
+    """Looks at a process; None if it is gone.
+
+    Args:
+        pid: of the process.
+        closely: at each of its threads, not at the main one alone.
+    """
+    try:
+        # The name of a program may hold anything, but the last parenthesis is its end.
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        threads = [entry.name for entry in os.scandir(f"/proc/{pid}/task")] if closely else [str(pid)]
+    except OSError:
+        return None
+    waited = {thread: times[1] for thread in threads if (times := _schedule(pid, thread)) is not None}
+    main = _schedule(pid, str(pid))
+    ran_s = main[0] if main is not None else (int(fields[11]) + int(fields[12])) * _TICK_S
+    return Signs(fields[0], ran_s, waited)
+
+
+def _schedule(pid: int, thread: str) -> tuple[float, float] | None:
+    """Seconds on a processor and seconds waited for one; None where Linux does not count them."""
+    try:
+        ran_ns, waited_ns, _ = Path(f"/proc/{pid}/task/{thread}/schedstat").read_text().split()
+    except (OSError, ValueError):
+        return None
+    return int(ran_ns) * 1e-9, int(waited_ns) * 1e-9
+
+
+class Notes:
+    """The manager's end of the file in which a child that cannot speak any more says where it is."""
+
+    def __init__(self) -> None:
+        self.fd = os.memfd_create("bt-studio-notes", os.MFD_CLOEXEC)
+        os.ftruncate(self.fd, NOTES_BYTES)
+
+    def current_uid(self) -> int:
+        """The number of the node that is being ticked; 0 if none is."""
+        return int.from_bytes(os.pread(self.fd, 4, 0), "little")
+
+    async def trace(self, pid: int) -> str:
+        """Asks a process where its threads are; "" if it does not say."""
+        before = self._size()
+        try:
+            os.kill(pid, TRACE_SIGNAL)
+        except ProcessLookupError:
+            return ""
+        size = before
+        for _ in range(round(TRACE_S / TRACE_STEP_S)):
+            await asyncio.sleep(TRACE_STEP_S)
+            if size > before and self._size() == size:
+                break  # nothing more has come
+            size = self._size()
+        data = os.pread(self.fd, min(size - before, LARGEST_TRACE_BYTES), before)
+        return data.decode("utf-8", "replace")
+
+    def close(self) -> None:
+        """Lets the file go. May be called twice."""
+        if self.fd >= 0:
+            os.close(self.fd)
+            self.fd = -1
+
+    def _size(self) -> int:
+        return max(os.fstat(self.fd).st_size, NOTES_BYTES) if self.fd >= 0 else NOTES_BYTES

@@ -106,6 +106,7 @@ def _fix_hashes() -> None:
 def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
     from backend.cli.errors import CliError
     from executor.headless.errors import HeadlessError
+    from executor.headless.guard import Guard, Hung
     from executor.headless.lockstep import run_lockstep
     from executor.universes.document import DocumentError
     from tree_gardener import LoadError, TickError
@@ -114,7 +115,10 @@ def _in_lockstep(project: Project, options: LockstepOptions) -> Report:
         _progress(f"{time_s:6.1f} s of {options.duration_s:g} s")
 
     try:
-        return run_lockstep(project, options, progress=progress)
+        with Guard() as guard:
+            return run_lockstep(project, options, progress=progress, moved=guard.moved)
+    except Hung as hung:
+        raise CliError(str(hung)) from None
     except (DocumentError, HeadlessError) as error:
         raise CliError(str(error)) from error
     except LoadError as error:

@@ -37,6 +37,9 @@ __all__ = ["HeadlessError", "HeadlessOptions", "run_headless"]
 TRAJECTORY_HZ: Final = 10.0
 VIEW_HZ: Final = 15.0
 FIGURES_EVERY_S: Final = 0.2
+LOOK_EVERY_S: Final = 1.0
+HANGS_AFTER_S: Final = 6.0
+"""After the fault that says so: a tick that is merely slow has come back by then."""
 
 
 @dataclass(frozen=True)
@@ -131,6 +134,8 @@ class _Runner:
         self._looks: set[asyncio.Task[None]] = set()
         self._replies: dict[str, asyncio.Future[dict[str, Any]]] = {}
         self._changed = asyncio.Event()
+        self._hangs_s: float | None = None
+        """Since when nothing is ticked any more."""
 
     async def serve_viewer(self) -> None:
         """Has the run looked at in a browser, too."""
@@ -161,7 +166,10 @@ class _Runner:
         measured, told_s, shown_s = self._measured, 0.0, 0.0
         while not measured.finished and (duration_s is None or measured.report.sim_time_s < duration_s):
             self._changed.clear()
-            await self._changed.wait()
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(self._changed.wait(), LOOK_EVERY_S)
+            if self._hangs_s is not None and time.monotonic() - self._hangs_s >= HANGS_AFTER_S:
+                return  # the fault is in the report, and says where
             if time.monotonic() - told_s >= 1.0:
                 told_s = time.monotonic()
                 progress(measured.report)
@@ -241,6 +249,10 @@ class _Runner:
         elif name == "topic_mismatch":
             self._say(mismatch_line(data))
         else:
+            if name == "fault" and data["kind"] == "timeout":
+                self._hangs_s = time.monotonic()
+            elif name == "tick":
+                self._hangs_s = None
             self._measured.take_event(name, data, message["t"])
 
     async def _read_stream(self) -> None:

@@ -65,6 +65,7 @@ def run_lockstep(
     progress: Progress | None = None,
     watch: Callable[[BulletWorld], None] | None = None,
     say: Callable[[str], None] | None = None,
+    moved: Callable[[], None] | None = None,
 ) -> Report:
     """Runs a project until its tree ends or the time is over.
 
@@ -74,6 +75,7 @@ def run_lockstep(
         progress: called about once a simulated second with the simulated time.
         watch: called before each tick with the world, for measurements.
         say: called with each warning; on standard error if None.
+        moved: called each time that the world has come a step further.
 
     Raises:
         TranslatorError: the project has errors.
@@ -84,6 +86,7 @@ def run_lockstep(
     """
     _use_environment()
     run = _Run(_open(project), options or LockstepOptions(), say or _say)
+    run.moved = moved or run.moved
     try:
         run.set_up()
         return run.play(progress, watch)
@@ -104,6 +107,7 @@ class _Run:
         self._on_error = options.on_error or settings.on_error
         self._report = Report()
         self._durations: list[float] = []
+        self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
         self._scribe: Scribe | None = None  # until the tree is there
 
@@ -267,6 +271,7 @@ class _Run:
         while done < until_step:
             count = min(until_step - done, PERIOD_STEPS - done % PERIOD_STEPS)
             self._world.step(count)
+            self.moved()
             done += count
             self._sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:

@@ -89,8 +89,8 @@ class Vitals:
     @property
     def hangs(self) -> bool:
         """Whether it has done nothing for so long that people should know."""
-        if self.silent_s >= FAULT_AFTER_S:
-            return True
+        if self.silent_s >= FROZEN_S:
+            return self.silent_s >= FAULT_AFTER_S  # it is more than its main thread
         return self.stuck_s >= FAULT_AFTER_S and (not self.task or self.is_in_action)
 
     @property

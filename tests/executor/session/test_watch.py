@@ -1,0 +1,386 @@
+"""Children that hang, as plays: what is said after 2 s, what is done after 8 s, and what is no hang."""
+
+from __future__ import annotations
+
+import pytest
+
+from executor.session.events import ChildLooked, ChildTraced, Inspect, Kill, Spawn, Tell
+from executor.session.ladder import State
+from tests.executor.session.play import Play
+
+LOOK_S = 0.25
+ACTION = {"file": "actions/A.py", "line": 7, "node_path": "main/A", "node_id": "n1", "text": "A 'main/A'"}
+REGEX = """Thread 0x00007f (most recent call first):
+  File "/usr/lib/python3.11/threading.py", line 320 in wait
+
+Current thread 0x00007e (most recent call first):
+  File "/usr/lib/python3.11/re/__init__.py", line 166 in match
+  File "actions/A.py", line 9 in look
+  File "actions/A.py", line 5 in update
+"""
+NODE = {"parent": 0, "type": "A", "kind": "ACTION", "name": "A", "path": "main/A", "node_id": "n1"}
+
+
+class Watched(Play):
+    """A play whose children beat, unless they are named in `quiet` or `stuck`."""
+
+    def __init__(self):
+        super().__init__()
+        self.quiet, self.stuck = set(), set()
+        self.state_of, self.ran, self.waited, self.task, self.place = {}, {}, {}, {}, {}
+        self.deaf = set()
+        self.turns = 0
+
+    def goes_on(self, seconds, step_s=LOOK_S):
+        """Lets time pass with all that children do in it."""
+        for _ in range(round(seconds / step_s)):
+            self.now += step_s
+            self.turns += 1
+            for kind in list(self.session.children):
+                self._beats(kind)
+                self._is_looked_at(kind)
+
+    def _beats(self, kind):
+        if kind in self.quiet:
+            return
+        turns = 0 if kind in self.stuck else self.turns
+        clocks = 0 if kind in self.deaf else self.turns
+        more = {"place": self.place[kind]} if kind in self.place else {}
+        self.child_says(kind, "beat", turns=turns, task=self.task.get(kind, ""), clocks=clocks, **more)
+
+    def _is_looked_at(self, kind):
+        child = self.session.children.get(kind)
+        if child is not None:
+            seen = self.state_of.get(kind, "S"), self.ran.get(kind, 0.0), self.waited.get(kind, 0.0)
+            self.happens(ChildLooked(kind, child.number, *seen))
+
+    @property
+    def faults(self):
+        return self.sent("fault")
+
+
+def play_in(state):
+    play = Watched()
+    play.climb(state)
+    play.goes_on(3)
+    assert play.faults == []
+    play.effects.clear()
+    return play
+
+
+CASES = [(s, k) for s in State if s is not State.IDLE for k in ("world", "application")]
+
+
+@pytest.mark.parametrize(("state", "kind"), CASES)
+def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
+    play = play_in(state)
+    number = play.session.children[kind].number
+    is_used = play.session.children[kind].is_in_use
+    play.quiet.add(kind)
+    play.state_of[kind] = "T"
+    play.goes_on(1.5)
+    assert play.faults == []
+    play.goes_on(1)
+    (fault,) = play.faults
+    assert fault.kind == "timeout"
+    assert "SIGSTOP" in fault.message
+    assert ("simulated world" if kind == "world" else "application") in fault.message
+    assert play.state is state
+    play.goes_on(4)
+    assert play.did(Kill) == []
+    play.goes_on(2)
+    assert play.session.children[kind].number > number, "another one waits"
+    expected = state
+    if is_used:
+        expected = State.CONNECTED if kind == "world" else State.VISUALIZATION_READY
+        assert "8 s" in play.sent("state-changed")[-1].reason
+    assert play.state is expected
+    assert len(play.faults) == 1
+    play.quiet.clear()
+    play.state_of.clear()
+    assert play.reply(play.command("run")) == "ack"
+
+
+def test_who_answers_again_in_time_is_left_alone():
+    play = play_in(State.PAUSED)
+    play.quiet.add("world")
+    play.goes_on(5)
+    assert len(play.faults) == 1
+    play.quiet.clear()
+    play.goes_on(10)
+    assert play.sent("log")[-1].text == "The simulated world answers again."
+    assert play.did(Kill) == []
+    assert play.state is State.PAUSED
+    assert play.reply(play.command("resume")) == "ack"
+
+
+def test_a_pause_may_last():
+    play = play_in(State.PAUSED)
+    play.goes_on(60)
+    assert (play.faults, play.did(Kill), play.state) == ([], [], State.PAUSED)
+
+
+def test_a_manager_that_was_late_itself_blames_nobody():
+    play = play_in(State.APPLICATION_RUNNING)
+    for _ in range(20):
+        play.goes_on(30, step_s=30)  # it was stopped for half a minute; all was queued meanwhile
+    play.quiet.add("world")
+    play.goes_on(60, step_s=30)
+    assert play.faults == []
+
+
+def test_who_gets_no_processor_does_not_hang():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.quiet |= {"world", "application"}
+    play.waited |= {"world": 0.24, "application": 0.25}
+    play.goes_on(30)
+    assert play.faults == []
+
+
+def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.stuck.add("world")
+    play.ran["world"] = LOOK_S
+    play.place["world"] = {"text": "executor/world/bullet.py:120"}
+    play.goes_on(2.5)
+    (fault,) = play.faults
+    assert "executor/world/bullet.py:120" in fault.message
+    play.goes_on(6)
+    assert play.state is State.CONNECTED
+    assert play.sent("finished")[0].reason == "process_died"
+
+
+def test_a_tick_that_takes_long_is_told_with_its_node_and_goes_on():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.stuck.add("application")
+    play.place["application"] = ACTION
+    play.goes_on(20)
+    (fault,) = play.faults
+    assert (fault.node_id, fault.file, fault.line) == ("n1", "actions/A.py", 7)
+    assert play.told("world") == ["stop_robot"]
+    assert play.state is State.APPLICATION_RUNNING
+    play.stuck.clear()
+    play.goes_on(1)
+    assert play.sent("log")[-1].text == "The application answers again."
+
+
+@pytest.mark.parametrize("uid", [2, 0])
+def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
+    play = play_in(State.APPLICATION_RUNNING)
+    nodes = [NODE | {"uid": 1, "type": "B", "tree_id": "t"}, NODE | {"uid": 2, "tree_id": "t"}]
+    play.child_says("application", "tree", nodes=nodes)
+    play.quiet.add("application")
+    play.ran["application"] = LOOK_S
+    play.goes_on(2.25)
+    assert play.faults == []
+    assert play.did(Inspect) == ["application"]
+    play.happens(ChildTraced("application", play.session.children["application"].number, REGEX, uid))
+    (fault,) = play.faults
+    assert (fault.kind, fault.node_id, fault.file, fault.line) == ("timeout", "n1", "actions/A.py", 9)
+    assert "main/A" in fault.message
+    play.goes_on(7)
+    assert play.state is State.VISUALIZATION_READY
+    assert len(play.faults) == 1
+
+
+def test_who_does_not_answer_the_signal_either_is_told_all_the_same():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.quiet.add("application")
+    play.goes_on(4)
+    assert play.did(Inspect) == ["application"]
+    assert "frozen" in play.faults[0].message
+
+
+def loading(**how):
+    """An application that took its start and does not become ready."""
+    play = Watched()
+    play.climb(State.VISUALIZATION_READY)
+    play.goes_on(3)
+    play.obedient = False
+    request = play.command("run_application")
+    (unpacked,) = Play.answers(play, play.effects[-1])
+    play.effects.clear()
+    play.happens(unpacked)
+    play.child_says("application", "starting")
+    play.task["application"] = "loading"
+    play.stuck.add("application")
+    for name, value in how.items():
+        getattr(play, name)["application"] = value
+    return play, request
+
+
+def test_a_setup_that_sleeps_is_named_after_2_s_and_ended_after_8():
+    play, request = loading(place=ACTION)
+    play.goes_on(2.5)
+    assert (play.faults[0].file, play.faults[0].line) == ("actions/A.py", 7)
+    assert play.reply(request) is None
+    play.goes_on(6)
+    assert play.reply(request) == "process_died"
+    assert play.state is State.VISUALIZATION_READY
+    assert len(play.faults) == 1
+
+
+def test_a_setup_that_computes_is_named_and_has_its_minute():
+    play, request = loading(place=ACTION, ran=0.2)
+    play.goes_on(50)
+    assert len(play.faults) == 1
+    assert play.reply(request) is None
+    play.goes_on(11)
+    assert play.reply(request) in {"timeout", "process_died"}
+
+
+def test_what_computes_without_the_users_code_is_no_fault_while_it_loads():
+    play, request = loading(ran=0.2)
+    play.goes_on(30)
+    assert play.faults == []
+    assert play.reply(request) is None
+
+
+@pytest.mark.parametrize("way", ["frozen", "dead"])
+@pytest.mark.parametrize("kind", ["world", "application"])
+def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
+    play = Watched()
+    play.climb(State.CONNECTED)
+    play.session.replenish()
+    play.obedient = False
+    request = play.command("run")
+    (unpacked,) = (
+        a for e in play.effects for a in (Play.answers(play, e) if e.__class__.__name__ == "Unpack" else [])
+    )
+    play.happens(unpacked)
+    other = "application" if kind == "world" else "world"
+    play.child_says(other, "starting")
+    play.child_says(other, "ready")
+    lost = play.session.children[kind].number
+    if way == "dead":
+        play.child_dies(kind)
+    else:
+        play.quiet.add(kind)
+        play.state_of[kind] = "T"
+        play.goes_on(2.5)
+        play.quiet.clear()
+        play.state_of.clear()
+    assert play.session.children[kind].number > lost
+    play.obedient = True
+    number = play.session.children[kind].number
+    starts = [e for e in play.effects if isinstance(e, Tell) and e.number == number and e.kind == kind]
+    assert [e.message["type"] for e in starts] == ["start"]
+    play.child_says(kind, "ready")
+    assert play.reply(request) == "ack"
+    assert play.state is State.APPLICATION_RUNNING
+    assert [f.kind for f in play.faults] == ([] if way == "dead" else ["timeout"])
+
+
+def test_a_second_spare_that_dies_fails_the_run():
+    play = Play(obedient=False)
+    run = play.command("run")
+    play.child_dies("world")
+    assert play.reply(run) is None
+    for _ in range(3):
+        if "world" in play.session.children:
+            play.child_dies("world")
+    assert play.state is State.CONNECTED
+
+
+def test_a_spare_that_always_freezes_is_not_started_for_ever():
+    play = Watched()
+    play.climb(State.CONNECTED)
+    play.quiet.add("application")
+    play.goes_on(120)
+    assert 1 < play.did(Spawn).count("application") <= 4
+
+
+@pytest.mark.parametrize(
+    ("state", "command"),
+    [
+        (State.APPLICATION_RUNNING, "pause"),
+        (State.PAUSED, "resume"),
+        (State.PAUSED, "step"),
+        (State.PAUSED, "reset_world"),
+        (State.UNIVERSE_READY, "reset_world"),
+        (State.APPLICATION_RUNNING, "set_speed"),
+        (State.APPLICATION_RUNNING, "run"),
+    ],
+)
+def test_a_command_is_confirmed_by_the_world_or_fails_saying_so(state, command):
+    play = play_in(state)
+    play.quiet.add("world")
+    play.state_of["world"] = "T"
+    answers = play.answers
+    play.answers = lambda effect: [] if getattr(effect, "kind", "") == "world" else answers(effect)
+    request = play.command(command)
+    assert play.reply(request) is None
+    play.goes_on(2.5)
+    assert play.reply(request) == "not_answering"
+    late = play.command(command)
+    assert play.reply(late) in {"not_answering", None, "wrong_state"}
+
+
+def test_a_pause_that_the_world_does_not_confirm_lets_the_application_go_on():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.quiet.add("world")
+    answers = play.answers
+    play.answers = lambda effect: [] if getattr(effect, "kind", "") == "world" else answers(effect)
+    play.command("pause")
+    play.goes_on(4)
+    assert play.told("application") == ["pause", "resume"]
+    assert play.state is State.APPLICATION_RUNNING
+
+
+def test_the_speed_is_the_one_that_the_world_took():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.obedient = False
+    play.command("set_speed", speed=3.0)
+    assert play.session.mirror.speed == 1.0
+    (order,) = (e for e in play.effects if isinstance(e, Tell))
+    play.child_says("world", "answer", request=order.message["request"])
+    assert play.session.mirror.speed == 3.0
+
+
+def test_without_simulated_time_the_application_is_started_again_once():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.deaf.add("application")
+    play.goes_on(1.5)
+    assert play.faults == []
+    play.goes_on(1)
+    (fault,) = play.faults
+    assert "without simulated time" in fault.message
+    assert "does not hear" in fault.message
+    assert play.told("application")[-3:] == ["stop", "start", "resume"]
+    assert play.state is State.APPLICATION_RUNNING
+    play.goes_on(4)
+    assert len(play.faults) == 2
+    assert play.state is State.CONNECTED
+    play.deaf.clear()
+    assert play.reply(play.command("run")) == "ack"
+    play.goes_on(10)
+    assert len(play.faults) == 2
+
+
+def test_a_world_that_tells_no_time_is_named():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.deaf |= {"application", "world"}
+    play.goes_on(3)
+    assert "the simulated world publishes none" in play.faults[0].message
+
+
+def test_a_slow_world_tells_the_time_seldom_and_a_paused_one_may_not_at_all():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.command("set_speed", speed=0.01)
+    play.deaf.add("application")
+    play.goes_on(5)
+    assert play.faults == []
+    play.goes_on(3)
+    assert len(play.faults) == 1
+    play = play_in(State.PAUSED)
+    play.deaf.add("application")
+    play.goes_on(60)
+    assert play.faults == []
+
+
+def test_a_process_in_a_debugger_is_left_alone():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.quiet.add("application")
+    play.state_of["application"] = "t"
+    play.goes_on(600)
+    assert play.faults == []

@@ -20,7 +20,15 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from executor.session.trace import action_frame
-from executor.session.vitals import BUSY_SHARE, END_AFTER_S, LOADING_S, LONGEST_GAP_S, STOPPED, TRACED
+from executor.session.vitals import (
+    BUSY_SHARE,
+    END_AFTER_S,
+    LOADING_S,
+    LONGEST_GAP_S,
+    MOST_FORGIVEN,
+    STOPPED,
+    TRACED,
+)
 from executor.supervision.confine import INTERRUPT_SIGNAL, TRACE_SIGNAL
 from executor.supervision.pulse import NOTES_BYTES
 from executor.supervision.signs import Notes, look_at
@@ -172,15 +180,16 @@ def _node_of(frame: FrameType | None) -> Any:
 
 def listen(pid: int, notes: Notes, beats: int) -> None:
     """Waits for beats until there are no more; ends the process that should send them if it does not."""
-    silent_s, before, before_s = 0.0, look_at(pid, closely=False), time.monotonic()
+    silent_s, before, before_s = 0.0, look_at(pid), time.monotonic()
     while silent_s < END_AFTER_S:
         ready, _, _ = select.select([beats], [], [], BEAT_S)
-        signs = look_at(pid, closely=False)
+        signs = look_at(pid)
         if signs is None or before is None or (ready and not os.read(beats, 4096)):
             return
         now_s = time.monotonic()
-        waited_s = sum(signs.waited_s.values()) - sum(before.waited_s.values())
-        counted_s = max(0.0, min(now_s - before_s, LONGEST_GAP_S) - waited_s)
+        waited_s = signs.waited_s - before.waited_s
+        gap_s = min(now_s - before_s, LONGEST_GAP_S)
+        counted_s = gap_s - min(waited_s, MOST_FORGIVEN * gap_s)
         before, before_s = signs, now_s
         silent_s = 0.0 if ready or signs.state in {STOPPED, TRACED} else silent_s + counted_s
     frame = action_frame(asyncio.run(notes.trace(pid)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from executor.session.vitals import Vitals
 
@@ -10,6 +10,9 @@ if TYPE_CHECKING:
     from executor.session.events import Kind
 
 __all__ = ["Child"]
+
+_TASKS: Final = {"starting": "loading", "ready": ""}
+"""What a child does from a message of it on."""
 
 
 class Child:
@@ -46,6 +49,11 @@ class Child:
         """Where its main thread was last seen in the user's code."""
         return str(self.vitals.place.get("text", "")) if self.vitals.is_in_action else ""
 
+    @property
+    def is_hanging(self) -> bool:
+        """Whether people were told that it hangs, and it has done nothing since."""
+        return bool(self.hang) and not self.vitals.is_well
+
     def expect(self, token: str) -> None:
         """Remembers that it was asked something by the session itself."""
         self._answers[token] = None
@@ -63,12 +71,14 @@ class Child:
 
     def note(self, message: dict[str, Any]) -> None:
         """Remembers the last message of each type."""
-        self.vitals.heard()
+        self.vitals.heard(from_main=message["type"] not in {"beat", "log"})
         if message["type"] == "beat":
             self.vitals.beat(message)
-        elif message["type"] == "fault" and message.get("kind") == "timeout":
+        elif message["type"] in _TASKS:
+            self.vitals.task = _TASKS[message["type"]]  # the next beat may never come
+        if message["type"] == "fault" and message.get("kind") == "timeout":
             pass  # a tick that takes long may still end well
-        elif message["type"] not in {"tick", "log", "blackboard", "tree", "sim", "answer"}:
+        elif message["type"] not in {"tick", "log", "blackboard", "tree", "sim", "answer", "beat"}:
             self._said[message["type"]] = message
 
     def said(self, type_: str) -> dict[str, Any] | None:

@@ -120,7 +120,7 @@ class ChildLooked:
     """The supervisor looked at a child from outside, as it does several times a second.
 
     `state` is Linux's letter. `ran_s` is what its main thread computed since the last look, `waited_s` how
-    long it, or the thread that waited most, could have and got no processor.
+    long it could have and got no processor.
     """
 
     kind: Kind

@@ -210,7 +210,7 @@ class Session:
             self.refuse(event, "process_died", f"The {kind} is gone.")
             return
         topic = str(fields.get("topic", ""))
-        if child.hang:
+        if child.is_hanging:
             if topic:
                 self.clients.echo(event.client, topic, 0.0)
             self.refuse(event, NOT_ANSWERING, child.hang)

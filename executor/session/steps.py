@@ -257,7 +257,7 @@ def _run(session: Session, data: Struct) -> Step:
         yield from _connect(session, data)
     orders = []
     if session.state.reaches(State.UNIVERSE_READY):
-        if session.child("world").hang or not _is_same_world(session.run.universe, data.universe):
+        if session.child("world").is_hanging or not _is_same_world(session.run.universe, data.universe):
             yield from _end_world(session)
         else:
             orders = _reuse_world(session, data.universe.speed)

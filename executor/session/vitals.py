@@ -1,7 +1,7 @@
 """How a child process does, from its beats and from looks at it from outside. Time is an argument.
 
 What counts is time in which the child could have done something: not what passed while the manager itself was
-late, nor what the child waited for a processor. So a machine on which all is slow has no hanging children.
+late, and little of what the child waited for a processor. So on a machine where all is slow nothing hangs.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ LOADING_S: Final = 60.0
 LONGEST_GAP_S: Final = 0.5
 BUSY_SHARE: Final = 0.1
 """Of the time that counts: who computes at least so much of it is at work."""
+MOST_FORGIVEN: Final = 0.75
+"""Of the time in which it waits for a processor: what hangs must be found on a busy machine, too."""
 FROZEN_S: Final = 1.0
 STOPPED: Final = "T"
 TRACED: Final = "t"
@@ -48,9 +50,11 @@ class Vitals:
         self._turns = -1
         self._looked_s = now_s
 
-    def heard(self) -> None:
-        """A message came, of whatever kind."""
+    def heard(self, *, from_main: bool) -> None:
+        """A message came; some are sent by the main thread alone."""
         self.silent_s = 0.0
+        if from_main:
+            self.stuck_s = self.idle_s = 0.0
 
     def beat(self, message: dict[str, Any]) -> None:
         """A beat came."""
@@ -68,7 +72,8 @@ class Vitals:
         """Takes a look from outside; returns the seconds that count since the last one."""
         gap_s = min(max(0.0, now_s - self._looked_s), LONGEST_GAP_S)
         self._looked_s, self.state = now_s, seen.state
-        counted_s = 0.0 if seen.state == TRACED else max(0.0, gap_s - seen.waited_s)
+        forgiven_s = min(seen.waited_s, MOST_FORGIVEN * gap_s)
+        counted_s = 0.0 if seen.state == TRACED else gap_s - forgiven_s
         self.silent_s += counted_s
         self.stuck_s += counted_s
         is_at_work = seen.ran_s >= BUSY_SHARE * counted_s or (seen.state == ON_DISK and bool(self.task))

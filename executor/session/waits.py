@@ -72,7 +72,7 @@ def taken(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
 
     def taken() -> dict[str, Any] | None:
         reply = until()
-        if reply is None and child.hang and not child.is_in_use:
+        if reply is None and child.is_hanging and not child.is_in_use:
             raise StepFailed(NOT_ANSWERING, child.hang)
         return reply
 
@@ -85,7 +85,7 @@ def answered(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
 
     def answered() -> dict[str, Any] | None:
         reply = until()
-        if reply is None and child.hang:
+        if reply is None and child.is_hanging:
             raise StepFailed(NOT_ANSWERING, child.hang)
         return reply
 
@@ -105,7 +105,7 @@ def confirmed(ordered: tuple[Child, str], what: str, timeout_s: float = REPLY_TI
             raise StepFailed(str(error.get("code")), str(error.get("message")), str(error.get("hint", "")))
         if not child.is_alive:
             raise StepFailed("process_died", f"The {child.kind} {child.exit_reason}.", _last_words(child))
-        if child.hang:
+        if child.is_hanging:
             raise StepFailed(NOT_ANSWERING, child.hang)
         return None
 

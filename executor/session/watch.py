@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["looked", "traced"]
 
-LATEST_TRACE_S: Final = FAULT_AFTER_S + 1.0
+LATEST_TRACE_S: Final = FAULT_AFTER_S + 2.0
 SPARES_LOST: Final = 2
 """In a row: then the next one is started only when it is needed."""
 CLOCK_PERIOD_S: Final = 1 / 60

@@ -30,7 +30,6 @@ DRAIN_TIMEOUT_S: Final = 0.5
 KILL_ROUNDS: Final = 200
 CPU_GRACE_S: Final = 5
 CLOSED_CHANNEL_GRACE_S: Final = 1.0
-LOOKS_UNTIL_SILENT: Final = 2
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,6 @@ class ChildProcess:
         self._channel: AsyncChannel | None = None
         self._notes: Notes | None = None
         self._signs: Signs | None = None
-        self._silent_looks = 0
         self.exited = asyncio.get_running_loop().create_future()
         clock = asyncio.get_running_loop().time
         self._out = LineReader("info", on_message, clock)
@@ -151,14 +149,10 @@ class ChildProcess:
         """
         if self._channel is None or self.exited.done():
             return None
-        # Only of a child that is silent one asks whether its other threads get a processor.
-        signs = look_at(self.pid, closely=self._silent_looks > LOOKS_UNTIL_SILENT)
-        self._silent_looks += 1
-        before, self._signs = self._signs, signs
-        if signs is None or before is None:
+        before, self._signs = self._signs, look_at(self.pid)
+        if self._signs is None or before is None:
             return None
-        waited = [s - before.waited_s[t] for t, s in signs.waited_s.items() if t in before.waited_s]
-        return signs.state, signs.ran_s - before.ran_s, max(waited, default=0.0)
+        return self._signs.state, self._signs.ran_s - before.ran_s, self._signs.waited_s - before.waited_s
 
     async def trace(self) -> tuple[str, int]:
         """Asks where the child's threads are; returns that, and the node that is being ticked."""
@@ -263,9 +257,7 @@ class ChildProcess:
     async def _read_channel(self, channel: AsyncChannel) -> None:
         try:
             while True:
-                message = await channel.receive()
-                self._silent_looks = 0
-                self._on_message(message)
+                self._on_message(await channel.receive())
         except ChannelClosed:
             # Usually it is just ending. Without its channel nobody could tell it to stop.
             await asyncio.wait([self.exited], timeout=CLOSED_CHANNEL_GRACE_S)

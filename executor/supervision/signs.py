@@ -13,7 +13,7 @@ from executor.supervision.pulse import NOTES_BYTES
 
 __all__ = ["Notes", "Signs", "look_at"]
 
-TRACE_S: Final = 0.4
+TRACE_S: Final = 2.0
 TRACE_STEP_S: Final = 0.02
 LARGEST_TRACE_BYTES: Final = 64 * 1024
 _TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
@@ -21,42 +21,29 @@ _TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
 
 @dataclass(frozen=True)
 class Signs:
-    """Seconds since the process began, of its main thread; `state` is the letter that Linux gives it.
+    """Of the main thread, in seconds since it began; `state` is the letter that Linux gives it.
 
-    `waited_s` is how long it could have run and got no processor; of the thread that waited most, if asked.
+    `waited_s` is how long it could have run and got no processor. Other threads do not count: those that wait
+    for the interpreter lock wake up all the time, and on a busy machine seem to wait for a processor.
     """
 
     state: str
     ran_s: float
-    waited_s: dict[str, float]
+    waited_s: float
 
 
-def look_at(pid: int, *, closely: bool) -> Signs | None:
-    """Looks at a process; None if it is gone.
-
-    Args:
-        pid: of the process.
-        closely: at each of its threads, not at the main one alone.
-    """
+def look_at(pid: int) -> Signs | None:
+    """Looks at a process; None if it is gone."""
     try:
         # The name of a program may hold anything, but the last parenthesis is its end.
         fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-        threads = [entry.name for entry in os.scandir(f"/proc/{pid}/task")] if closely else [str(pid)]
     except OSError:
         return None
-    waited = {thread: times[1] for thread in threads if (times := _schedule(pid, thread)) is not None}
-    main = _schedule(pid, str(pid))
-    ran_s = main[0] if main is not None else (int(fields[11]) + int(fields[12])) * _TICK_S
-    return Signs(fields[0], ran_s, waited)
-
-
-def _schedule(pid: int, thread: str) -> tuple[float, float] | None:
-    """Seconds on a processor and seconds waited for one; None where Linux does not count them."""
     try:
-        ran_ns, waited_ns, _ = Path(f"/proc/{pid}/task/{thread}/schedstat").read_text().split()
-    except (OSError, ValueError):
-        return None
-    return int(ran_ns) * 1e-9, int(waited_ns) * 1e-9
+        ran_ns, waited_ns, _ = Path(f"/proc/{pid}/schedstat").read_text().split()
+    except (OSError, ValueError):  # this Linux does not count it
+        return Signs(fields[0], (int(fields[11]) + int(fields[12])) * _TICK_S, 0.0)
+    return Signs(fields[0], int(ran_ns) * 1e-9, int(waited_ns) * 1e-9)
 
 
 class Notes:

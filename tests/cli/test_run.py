@@ -6,6 +6,7 @@ import gzip
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -169,3 +170,28 @@ def test_what_lockstep_cannot_do_is_said_at_once(arguments, text):
     done = studio("run", EXAMPLE, *arguments)
     assert done.returncode == 2
     assert text in " ".join(done.stderr.replace("│", " ").split())
+
+
+HANGS = {
+    "sleeps": "time.sleep(600)",
+    "catches all": "exec('while True:\\n try:\\n  time.sleep(600)\\n except BaseException: pass')",
+    "holds the interpreter": "re.match(r'(a+)+$', 'a' * 60 + 'b')",
+}
+
+
+@pytest.mark.simulation
+@pytest.mark.parametrize(
+    ("how", "body"), [("--lockstep", b) for b in HANGS.values()] + [("", HANGS["sleeps"])]
+)
+def test_a_run_whose_action_hangs_ends_and_says_where(tmp_path, how, body):
+    project = tmp_path / "project"
+    shutil.copytree(EXAMPLE, project)
+    action = project / "actions" / "Forward.py"
+    action.write_text(action.read_text().replace("twist = Twist()", f"import re, time; {body}", 1))
+    line = 1 + next(i for i, text in enumerate(action.read_text().split("\n")) if "import re" in text)
+    done = studio("run", project, *filter(None, [how]), "--duration", "20")
+    assert done.returncode == 1
+    assert re.search(rf"^actions/Forward\.py:{line}:1: timeout .*Forward", done.stderr, re.MULTILINE), (
+        done.stderr
+    )
+    assert "Traceback" not in done.stderr

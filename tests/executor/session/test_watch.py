@@ -132,9 +132,11 @@ def test_a_manager_that_was_late_itself_blames_nobody():
 def test_who_gets_no_processor_does_not_hang():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet |= {"world", "application"}
-    play.waited |= {"world": 0.24, "application": 0.25}
-    play.goes_on(30)
+    play.waited |= {"world": 0.2, "application": 0.25}
+    play.goes_on(7)
     assert play.faults == []
+    play.goes_on(7)
+    assert len(play.faults) == 2, "but not even that is waited for without end"
 
 
 def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():

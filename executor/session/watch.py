@@ -60,8 +60,10 @@ def looked(session: Session, event: ChildLooked, now_s: float) -> None:
 def traced(session: Session, event: ChildTraced) -> None:
     """A child that is silent has been asked where it is."""
     child = session.children.get(event.kind)
-    if child is not None and child.number == event.number and not child.hang:
-        _tell(session, child, event)
+    if child is None or child.number != event.number or child.hang:
+        return
+    if event.text or not child.vitals.is_well:
+        _tell(session, child, event)  # the signal may have ended the very wait that it asks about
 
 
 def _suspect(session: Session, child: Child) -> None:
@@ -93,7 +95,7 @@ def _fault(session: Session, child: Child, trace: ChildTraced | None) -> message
     vitals = child.vitals
     frozen_hint = _FROZEN_HINT if child.is_in_use else _SPARE_HINT
     name, for_s = _name(child), f"for {FAULT_AFTER_S:g} s"
-    if vitals.silent_s < FAULT_AFTER_S:
+    if vitals.silent_s < FAULT_AFTER_S and trace is None:
         place = vitals.place
         if vitals.is_in_action:
             text = f"{place.get('text', 'an action')} has not returned {for_s}"

@@ -135,7 +135,7 @@ def test_who_gets_no_processor_does_not_hang():
     play.waited |= {"world": 0.2, "application": 0.25}
     play.goes_on(7)
     assert play.faults == []
-    play.goes_on(7)
+    play.goes_on(12)
     assert len(play.faults) == 2, "but not even that is waited for without end"
 
 

@@ -22,6 +22,7 @@ BUSY_SHARE: Final = 0.1
 MOST_FORGIVEN: Final = 0.75
 """Of the time in which it waits for a processor: what hangs must be found on a busy machine, too."""
 FROZEN_S: Final = 1.0
+STARTING: Final = "starting"
 STOPPED: Final = "T"
 TRACED: Final = "t"
 ON_DISK: Final = "D"
@@ -42,7 +43,7 @@ class Vitals:
 
     def __init__(self, now_s: float) -> None:
         self.silent_s = self.stuck_s = self.idle_s = self.deaf_s = 0.0
-        self.task = "starting"
+        self.task = STARTING
         self.place: dict[str, Any] = {}
         self.state = ""
         self.clocks = 0
@@ -73,10 +74,11 @@ class Vitals:
         gap_s = min(max(0.0, now_s - self._looked_s), LONGEST_GAP_S)
         self._looked_s, self.state = now_s, seen.state
         forgiven_s = min(seen.waited_s, MOST_FORGIVEN * gap_s)
-        counted_s = 0.0 if seen.state == TRACED else gap_s - forgiven_s
+        is_held = seen.state == TRACED or (seen.state == ON_DISK and bool(self.task))
+        counted_s = 0.0 if is_held else gap_s - forgiven_s
         self.silent_s += counted_s
         self.stuck_s += counted_s
-        is_at_work = seen.ran_s >= BUSY_SHARE * counted_s or (seen.state == ON_DISK and bool(self.task))
+        is_at_work = seen.ran_s >= BUSY_SHARE * counted_s
         if counted_s:
             self.idle_s = 0.0 if is_at_work else self.idle_s + counted_s
         return counted_s
@@ -94,6 +96,8 @@ class Vitals:
     @property
     def hangs(self) -> bool:
         """Whether it has done nothing for so long that people should know."""
+        if self.task == STARTING:  # no code of the user: large libraries may hold the interpreter lock
+            return self.silent_s >= FROZEN_S and self.idle_s >= FAULT_AFTER_S
         if self.silent_s >= FROZEN_S:
             return self.silent_s >= FAULT_AFTER_S  # it is more than its main thread
         return self.stuck_s >= FAULT_AFTER_S and (not self.task or self.is_in_action)

@@ -16,8 +16,6 @@ import numpy as np
 import pytest
 from websockets.sync.client import connect
 
-from tests.budget import count
-
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "laser_bump_and_go"
 MAIN = "from backend.cli.main import main; main()"

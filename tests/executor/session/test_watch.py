@@ -238,6 +238,26 @@ def test_what_computes_without_the_users_code_is_no_fault_while_it_loads():
     assert play.reply(request) is None
 
 
+def test_what_waits_for_the_disk_while_it_loads_is_no_fault():
+    play, request = loading(state_of="D")
+    play.quiet.add("application")
+    play.goes_on(30)
+    assert play.faults == []
+    assert play.reply(request) is None
+
+
+def test_a_process_that_has_not_come_to_its_first_beat_is_judged_by_whether_it_computes():
+    play = Watched()
+    play.quiet.add("world")
+    play.ran["world"] = 0.1
+    play.climb(State.CONNECTED)
+    play.goes_on(10)
+    assert play.faults == []
+    play.ran["world"] = 0.0
+    play.goes_on(2.5)
+    assert len(play.faults) == 1
+
+
 @pytest.mark.parametrize("way", ["frozen", "dead"])
 @pytest.mark.parametrize("kind", ["world", "application"])
 def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):

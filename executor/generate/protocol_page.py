@@ -42,6 +42,7 @@ REP-103, times are simulated seconds.
   drives from then on, and who did, get a new `introspection` with their roles. A client that lost its
   connection comes back with `?client=<client_id>`, also before the loss has been heard of: then the former
   connection is closed with code 4409. The stream socket is opened with the same query.
+* A command that changes a process is acknowledged once the process has confirmed it.
 * A frame that is no command is answered with an error, and the socket stays.
 * A client may send {RATE_HZ:g} commands a second, {BURST:g} at once; {_COSTLY}.
   One more is answered with `too_fast` and how long to wait, and is not done. The stream socket takes no
@@ -62,6 +63,7 @@ _ERRORS: Final = {
     "load_failed": "the application cannot be loaded; a `fault` says where",
     "process_died": "the process that the step waited for ended",
     "tick_hangs": "the tick did not return and was ended",
+    "not_answering": "the process that should confirm the command hangs; the text says how",
     "nothing_to_restart": "no application was run yet",
     "bad_launch_file": "a launch file cannot be read; the text and a `fault` say where",
     "unknown_node": "the launch files have no such node, or it cannot be started",

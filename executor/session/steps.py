@@ -13,19 +13,23 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from executor import messages
 from executor.launching.model import LaunchPlan
 from executor.session.ladder import HAS_APPLICATION, State
+from executor.session.running import (
+    await_tick,
+    go,
+    pause,
+    resume,
+    set_blackboard,
+    step,
+    stop_moving,
+)
 from executor.session.waits import (
-    NOT_ANSWERING,
-    REPLY_TIMEOUT_S,
     Answered,
-    Ended,
     Step,
     StepFailed,
     Wait,
-    answered,
     confirmed,
     gone,
     is_spare_lost,
-    message_of,
     taken,
 )
 
@@ -43,12 +47,9 @@ __all__ = ["RESET_TIMEOUT_S", "STEPS", "LastRun", "restart_application", "stop_m
 LAUNCH_TIMEOUT_S: Final = 60.0
 LOAD_TIMEOUT_S: Final = 60.0
 UNPACK_TIMEOUT_S: Final = 30.0
-TICK_PATIENCE_S: Final = 1.0
-INTERRUPT_PATIENCE_S: Final = 1.0
 WORLD_GRACE_S: Final = 2.0
 EXIT_TIMEOUT_S: Final = 10.0
 RESET_TIMEOUT_S: Final = 60.0
-_PLACE: Final = frozenset({"node_id", "tree_id", "node_path", "file", "traceback"})
 
 
 @dataclass
@@ -69,12 +70,6 @@ class LastRun:
 
 
 # --- helpers --------------------------------------------------------------------------------------
-
-
-def stop_moving(session: Session) -> None:
-    """Freezes the world, with the robot at rest."""
-    session.tell("world", "stop_robot")
-    session.tell("world", "pause")
 
 
 def _progress(session: Session, rung: messages.Rung, fraction: float, message: str) -> None:
@@ -225,7 +220,7 @@ def _await_application(session: Session, application: Child, tries: int = 2) -> 
         if reply["type"] == "fault":
             raise StepFailed("load_failed", str(reply.get("message")), str(reply.get("hint", "")))
         _progress(session, "run_application", 1.0, "The application runs")
-        yield from _go(session, application)
+        yield from go(session, application)
     except StepFailed as failure:
         if session.children.get("application") is application:
             session.drop("application")
@@ -236,16 +231,6 @@ def _await_application(session: Session, application: Child, tries: int = 2) -> 
         session.replenish()
         raise
     session.enter(State.APPLICATION_RUNNING)
-
-
-def _go(session: Session, application: Child) -> Step:
-    """Lets time pass in both processes."""
-    application.forget("resumed")
-    world = session.order("world", "resume")
-    session.tell("application", "resume")
-    yield confirmed(world, "resume")
-    late = "The application did not resume in time."
-    yield Wait(answered(application, "resumed"), REPLY_TIMEOUT_S, late)
 
 
 def _run(session: Session, data: Struct) -> Step:
@@ -311,113 +296,6 @@ def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniv
     return old is not None and key(old) == key(new)
 
 
-# --- running --------------------------------------------------------------------------------------
-
-
-def _pause(session: Session, _: Struct) -> Step:
-    application = session.child("application")
-    application.forget("paused")
-    session.tell("application", "pause")
-    world = session.order("world", "pause")
-    try:
-        yield Wait(message_of(application, "paused"), TICK_PATIENCE_S, "tick")
-    except StepFailed as failure:
-        if failure.code != "timeout":
-            raise
-        raise (yield from _end_hanging_tick(session, application)) from None
-    try:
-        yield confirmed(world, "pause")
-    except StepFailed:
-        if session.state is State.APPLICATION_RUNNING:
-            session.tell("application", "resume")  # time passes in both processes, or in none
-        raise
-    session.enter(State.PAUSED)
-
-
-def _end_hanging_tick(session: Session, application: Child) -> Ended:
-    """Breaks the tick off, so that the application names its node; kills it if that does not help.
-
-    Returns why what waits for the tick has failed.
-    """
-    session.interrupt(application)
-    try:
-        yield Wait(
-            lambda: application.said("finished") or gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
-        )
-    except StepFailed as failure:
-        if failure.code != "timeout":
-            raise
-    reason = _tick_failure(application)
-    if session.state in HAS_APPLICATION:
-        if application.said("finished") is None:
-            _tell_killed(session, application, reason)
-        stop_moving(session)
-        session.enter(State.VISUALIZATION_READY, reason.message)
-    if session.children.get("application") is application:
-        session.drop("application")
-    session.replenish()
-    return reason
-
-
-def _tick_failure(application: Child) -> StepFailed:
-    if application.vitals.is_frozen and application.said("finished") is None:
-        why = application.hang or "The application does not answer: its process is frozen."
-        return StepFailed(NOT_ANSWERING, why, "It was ended; press Run to start it again.")
-    return StepFailed(
-        "tick_hangs",
-        f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
-        "An action's update() must return soon; let it return RUNNING while work goes on.",
-    )
-
-
-def _tell_killed(session: Session, application: Child, failure: StepFailed) -> None:
-    node = application.hanging_node
-    message = f"The tick hung{f' in {node}' if node else ''}, and the application was killed."
-    if failure.code == NOT_ANSWERING:
-        message = failure.message
-    if not application.hang:
-        place = {k: str(v) for k, v in application.vitals.place.items() if k in _PLACE}
-        line = int(application.vitals.place.get("line", 0))
-        session.emit(messages.Fault("timeout", message, line=line, **place))
-    session.emit(messages.Finished("IDLE", "process_died", message))
-
-
-def _resume(session: Session, _: Struct) -> Step:
-    try:
-        yield from _go(session, session.child("application"))
-    except StepFailed:
-        if session.state is State.PAUSED:  # time passes in both processes, or in none
-            session.tell("application", "pause")
-            session.tell("world", "pause")
-        raise
-    session.enter(State.APPLICATION_RUNNING)
-
-
-def _step(session: Session, _: Struct) -> Step:
-    application = session.child("application")
-    application.forget("stepped")
-    session.tell("application", "step")
-    try:
-        yield Wait(message_of(application, "stepped", "finished"), REPLY_TIMEOUT_S, "tick")
-    except StepFailed as failure:
-        if failure.code != "timeout":
-            raise
-        raise (yield from _end_hanging_tick(session, application)) from None
-    if session.state is State.PAUSED:
-        yield confirmed(session.order("world", "step", dt_s=1.0 / session.mirror.tick_hz), "step")
-
-
-def _set_blackboard(session: Session, data: Struct) -> Step:
-    data = cast("messages.SetBlackboard", data)
-    application = session.child("application")
-    application.forget("blackboard_set")
-    session.tell("application", "set_blackboard", scope=data.scope, key=data.key, value=data.value)
-    late = "The application did not answer in time."
-    reply = yield Wait(message_of(application, "blackboard_set"), REPLY_TIMEOUT_S, late)
-    if reply.get("error"):
-        raise StepFailed("bad_data", str(reply["error"]))
-
-
 # --- down the ladder ------------------------------------------------------------------------------
 
 
@@ -428,12 +306,7 @@ def _terminate_application(session: Session, _: Struct) -> Step:
     application.is_stopping = True
     session.tell("application", "stop")
     stop_moving(session)
-    try:
-        yield Wait(gone(application), TICK_PATIENCE_S, "stop")
-    except StepFailed as failure:
-        if failure.code != "timeout":
-            raise
-        yield from _end_hanging_tick(session, application)
+    yield from await_tick(session, application, gone(application))
 
 
 def _terminate_visualization(session: Session, _: Struct) -> Step:
@@ -482,10 +355,10 @@ STEPS: Final[dict[str, Callable[[Session, Struct], Step]]] = {
     "run_application": _run_application,
     "run": _run,
     "restart_application": restart_application,
-    "pause": _pause,
-    "resume": _resume,
-    "step": _step,
-    "set_blackboard": _set_blackboard,
+    "pause": pause,
+    "resume": resume,
+    "step": step,
+    "set_blackboard": set_blackboard,
     "terminate_application": _terminate_application,
     "terminate_visualization": _terminate_visualization,
     "terminate_universe": _terminate_universe,

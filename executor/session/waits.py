@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 __all__ = [
     "NOT_ANSWERING",
     "Answered",
+    "Broken",
     "Ended",
     "Step",
     "StepFailed",
@@ -48,7 +49,8 @@ class Wait:
 
 
 Step = Generator[Wait, Any, None]
-Ended = Generator[Wait, Any, StepFailed]
+Broken = Generator[Wait, Any, StepFailed]
+Ended = Generator[Wait, Any, StepFailed | None]
 Answered = Generator[Wait, Any, dict[str, Any]]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from executor.session.events import ChildLooked, ChildTraced, Inspect, Kill, Spawn, Tell
+from executor.session.events import ChildLooked, ChildTraced, Inspect, Interrupt, Kill, Spawn, Tell
 from executor.session.ladder import State
 from tests.executor.session.play import Play
 
@@ -406,3 +406,15 @@ def test_a_process_in_a_debugger_is_left_alone():
     play.state_of["application"] = "t"
     play.goes_on(600)
     assert play.faults == []
+
+
+def test_a_pause_waits_for_a_process_that_is_merely_slow():
+    play = play_in(State.APPLICATION_RUNNING)
+    answers = play.answers
+    play.answers = lambda effect: [] if getattr(effect, "kind", "") == "application" else answers(effect)
+    request = play.command("pause")
+    play.goes_on(3)
+    assert (play.did(Interrupt), play.reply(request)) == ([], None)
+    play.child_says("application", "paused")
+    assert play.reply(request) == "ack"
+    assert play.state is State.PAUSED

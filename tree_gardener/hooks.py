@@ -76,14 +76,14 @@ class Hooks:
         if times is None and not is_leaf:
             return inner()
         if is_leaf:
-            tree.current.value = node.uid
+            tree.current[0] = node.uid
         start_s = time.perf_counter()
         status = inner()
         duration_s = time.perf_counter() - start_s
         if times is not None:
             times[node.uid] = times.get(node.uid, 0.0) + duration_s
         if is_leaf:
-            tree.current.value = 0
+            tree.current[0] = 0
             if duration_s > tree.slowest[0]:
                 tree.slowest = (duration_s, node.uid)
         return status

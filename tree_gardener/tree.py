@@ -1,6 +1,5 @@
 """A behaviour tree that runs."""
 
-import ctypes
 import logging
 import pathlib
 import threading
@@ -43,7 +42,7 @@ class Tree:
         on_warning: called with a node and a sentence where something is tolerated, once a node and sentence;
             if None, the sentence goes to the logger ``tree_gardener``.
         tick_number: how many ticks there were.
-        current: holds `current_uid`; it may be given memory that another process sees.
+        current: holds `current_uid` at its start; it may be memory that another process sees.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
         node_times_s: time of each node in the tick, while an observer asked for it; else None.
     """
@@ -62,7 +61,7 @@ class Tree:
         self.on_warning: Callable[[Node, str], None] | None = None
         self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
-        self.current = ctypes.c_uint32(0)
+        self.current: list[int] | "memoryview[int]" = [0]
         self.slowest: tuple[float, int] = (0.0, 0)
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)
@@ -168,7 +167,7 @@ class Tree:
     @property
     def current_uid(self) -> int:
         """The action that is being ticked, while leaves are timed; else 0."""
-        return self.current.value
+        return self.current[0]
 
     def use_clock(self, clock: Clock) -> None:
         """Takes another clock, before the first tick: one that needs an rclpy node, say."""

@@ -221,7 +221,7 @@ class Application:
             fault=self._reporter.raised,
         )
         tree.observe(self._reporter.ticked)
-        tree.current = self._pulse.current_uid
+        tree.current = self._pulse.current
         self._runner.pause()
 
     # --- running ----------------------------------------------------------------------------------

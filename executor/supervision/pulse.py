@@ -9,7 +9,6 @@ first bytes are the number of the node that is being ticked.
 
 from __future__ import annotations
 
-import ctypes
 import faulthandler
 import mmap
 import os
@@ -53,7 +52,7 @@ class Pulse:
     Attributes:
         clocks: how many times the process heard, or told, what simulated time it is.
         locate: says where a frame of the main thread is, for people and for the manager.
-        current_uid: the node that is being ticked; visible from outside.
+        current: the number of the node that is being ticked; visible from outside.
     """
 
     def __init__(self, send: Callable[[dict[str, Any]], None]) -> None:
@@ -63,7 +62,7 @@ class Pulse:
         self._task = "starting"
         self.clocks = 0
         self.locate: Callable[[FrameType | None], dict[str, Any]] = place_in_our_code
-        self.current_uid = _take_notes()
+        self.current = _take_notes()
         threading.Thread(target=self._beat, name="pulse", daemon=True).start()
 
     def moved(self) -> None:
@@ -106,13 +105,13 @@ class Pulse:
             return {"text": f"unknown: {error}"}
 
 
-def _take_notes() -> ctypes.c_uint32:
+def _take_notes() -> list[int] | memoryview[int]:
     """Has the manager's signal answered into its file; returns where the node's number is to be written."""
     given = os.environ.pop(NOTES_VARIABLE, "")
     if not given:
-        return ctypes.c_uint32(0)
+        return [0]
     fd = int(given)
     os.set_inheritable(fd, False)  # noqa: FBT003 - positional only
     os.lseek(fd, NOTES_BYTES, os.SEEK_SET)
     faulthandler.register(TRACE_SIGNAL, file=fd, all_threads=True)
-    return ctypes.c_uint32.from_buffer(mmap.mmap(fd, NOTES_BYTES))
+    return memoryview(mmap.mmap(fd, NOTES_BYTES)).cast("I")

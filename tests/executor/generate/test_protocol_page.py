@@ -18,8 +18,10 @@ def test_the_page_in_the_docs_is_up_to_date():
 
 
 def test_every_error_code_is_explained():
-    modules = ("session/steps", "session/actions", "session/protocol", "manager/server")
+    modules = ("steps", "running", "waits", "watch", "actions", "protocol")
+    modules = [*(f"session/{name}" for name in modules), "manager/server"]
     sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in modules)
     codes = set(re.findall(r'(?:StepFailed\(|_?refuse\(\w+, (?:\w+, )?)\s*"(\w+)"', sources))
-    assert {"cancelled", "wrong_state", "unknown_command", "tick_hangs"} <= codes
+    codes |= set(re.findall(r'NOT_ANSWERING: Final = "(\w+)"', sources))
+    assert {"cancelled", "wrong_state", "unknown_command", "tick_hangs", "not_answering"} <= codes
     assert codes <= set(protocol_page._ERRORS)

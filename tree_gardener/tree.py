@@ -61,7 +61,7 @@ class Tree:
         self.on_warning: Callable[[Node, str], None] | None = None
         self._warned: set[tuple[int, str]] = set()
         self.tick_number = 0
-        self.current: list[int] | "memoryview[int]" = [0]
+        self.current: list[int] | memoryview[int] = [0]
         self.slowest: tuple[float, int] = (0.0, 0)
         self.node_times_s: dict[int, float] | None = None
         self._hooks = Hooks(self)

@@ -150,6 +150,7 @@ class _Runner:
             for stream in ("poses", "scan"):
                 await self._ask("subscribe", {"stream": stream, "max_hz": TRAJECTORY_HZ})
             await self._ask("run", data)
+            self._forget_slow_loading()
             began_s = time.monotonic()
             with contextlib.suppress(asyncio.CancelledError):  # Ctrl-C ends the run, not the report
                 await self._follow(duration_s, progress)
@@ -161,6 +162,11 @@ class _Runner:
             if self._viewer is not None:
                 await self._viewer.close()
             await asyncio.gather(*readers)
+
+    def _forget_slow_loading(self) -> None:
+        """What took long to load is there now: that was no error."""
+        errors, self._hangs_s = self._measured.report.errors, None
+        errors[:] = [error for error in errors if error["kind"] != "timeout"]
 
     async def _follow(self, duration_s: float | None, progress: Callable[[Report], None]) -> None:
         measured, told_s, shown_s = self._measured, 0.0, 0.0

@@ -64,6 +64,8 @@ def traced(session: Session, event: ChildTraced) -> None:
         return
     if event.text or not child.vitals.is_well:
         _tell(session, child, event)  # the signal may have ended the very wait that it asks about
+    else:
+        child.was_inspected = False
 
 
 def _suspect(session: Session, child: Child) -> None:

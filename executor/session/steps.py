@@ -63,8 +63,6 @@ class LastRun:
     domain_id: int = 0
     is_outside: bool = False
     seed: int = 0
-    clocks: int = 0
-    """How often the world had told the time when the application last heard it."""
     deaf_until_s: float = 0.0
     """Until then an application that hears no time is not started again once more."""
 

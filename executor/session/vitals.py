@@ -35,7 +35,7 @@ class Vitals:
         silent_s: since the last message.
         stuck_s: since its main thread came round.
         idle_s: in which it neither came round nor computed.
-        deaf_s: since it heard what simulated time it is; the session has it counted while time should pass.
+        deaf_s: since it heard, or told, what simulated time it is; counted by `watch`.
         task: what it loads, or does else that may take long; "" while its main thread should come round.
         place: where its main thread is, once it has been away for a moment.
         state: Linux's letter.

@@ -44,6 +44,8 @@ def looked(session: Session, event: ChildLooked, now_s: float) -> None:
         return
     vitals = child.vitals
     counted_s = vitals.look(event, now_s)
+    if child.kind == "world":
+        vitals.deaf_s += counted_s
     if vitals.is_lost:
         _end(session, child)
     elif vitals.hangs and not child.hang:
@@ -175,8 +177,6 @@ def _listen_for_time(session: Session, child: Child, counted_s: float, now_s: fl
     if world is None or not is_due or child.hang or world.hang:
         vitals.deaf_s = 0.0
         return
-    if not vitals.deaf_s:
-        run.clocks = world.vitals.clocks
     if vitals.is_well and world.vitals.is_well:
         vitals.deaf_s += counted_s
     speed = session.mirror.speed
@@ -185,7 +185,7 @@ def _listen_for_time(session: Session, child: Child, counted_s: float, now_s: fl
         return
     vitals.deaf_s = 0.0
     who = (
-        "the simulated world publishes none" if world.vitals.clocks == run.clocks else "it does not hear any"
+        "the simulated world publishes none" if world.vitals.deaf_s > limit_s / 2 else "it does not hear any"
     )
     text = f"The application runs without simulated time: no /clock for {limit_s:.0f} s, {who}."
     if now_s >= run.deaf_until_s:

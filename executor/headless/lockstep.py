@@ -58,7 +58,7 @@ class LockstepOptions:
     recording: Path | None = None
 
 
-def run_lockstep(
+def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     project: Project | Mapping[str, bytes] | Path,
     options: LockstepOptions | None = None,
     *,

@@ -12,8 +12,14 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(min=0, max=65535, help="Port; 0 takes a free one.")] = 7163,
     token_env: Annotated[
-        str, typer.Option(help="Environment variable with the token that clients must send.")
+        str,
+        typer.Option(
+            help="Environment variable with the token that clients must show; else one is made and printed."
+        ),
     ] = "",
+    no_token: Annotated[  # noqa: FBT002 - typer's way
+        bool, typer.Option("--no-token", help="Ask for no token, on loopback, of this machine's pages alone.")
+    ] = False,
     ready_fd: Annotated[
         int | None, typer.Option(help="File descriptor that is told the port, as a line of JSON.")
     ] = None,
@@ -27,13 +33,14 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
     ] = False,
     allow_origin: Annotated[
         list[str] | None,
-        typer.Option(help="Page that may drive a --ram manager, such as https://example.org; repeatable."),
+        typer.Option(help="Page that may drive it, such as https://example.org; repeatable."),
     ] = None,
 ) -> None:
     """Serves one session of world and application."""
     from executor.manager.manager import main
 
     arguments = ["--host", host, "--port", str(port), *(["--ram"] if ram else [])]
+    arguments += ["--no-token"] if no_token else []
     for origin in allow_origin or []:
         arguments += ["--allow-origin", origin]
     for name, value in (

@@ -11,6 +11,7 @@ import asyncio
 import logging
 import os
 import random
+import secrets
 import signal
 import socket
 import sys
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
+from executor.manager.admission import Admission, is_loopback
 from executor.manager.gate import fetch_listener
 from executor.ros.environment import ros_environment
 from executor.session.events import (
@@ -65,13 +67,13 @@ class ManagerSettings:
 
     Attributes:
         port: 0 takes a free one.
-        token: what clients must show; "" asks for none.
+        token: what clients must show; "" asks for none, and then it answers this machine alone.
         domain_id: of the session's ROS graph; None takes one that nobody uses.
         grace_s: how long a session without clients lives; 0 for ever.
         listener: a unix socket to listen at besides.
         is_closed_off: whether no other program can reach its ROS graph, since it runs in a container.
         is_ram: whether it speaks the RAM dialect, to one client of this machine and without a token.
-        origins: pages that may drive it then, besides those of this machine.
+        origins: pages that may drive it; without a token those of this machine may, too.
     """
 
     host: str = "127.0.0.1"
@@ -172,16 +174,17 @@ class Manager:
 
             self._server = ram = RamServer(self.session, self.take, origins=settings.origins)
             return await ram.start(settings.host, settings.port)
-        from executor.manager.server import SessionServer  # noqa: PLC0415 - dito
+        from executor.manager.server import SessionServer  # noqa: PLC0415 - as above
 
-        self._server = server = SessionServer(self.session, self.take, token=settings.token)
+        admission = Admission(settings.token, frozenset(settings.origins))
+        self._server = server = SessionServer(self.session, self.take, admission)
         port = await server.start(settings.host, settings.port)
         if settings.listener is not None:
             await server.start_at(settings.listener)
         return port
 
     def _make_folders(self) -> Folders:
-        from executor.manager.folders import Folders  # noqa: PLC0415 - dito
+        from executor.manager.folders import Folders  # noqa: PLC0415 - as above
 
         return Folders(is_alone=self._settings.is_closed_off)
 
@@ -252,11 +255,16 @@ class Manager:
             self._server.send_frame(message)
 
 
-async def serve(settings: ManagerSettings, ready_fd: int | None = None) -> str:
+async def serve(settings: ManagerSettings, ready_fd: int | None = None, *, shows_token: bool = False) -> str:
     """Serves one session; returns why it ended.
 
+    Args:
+        settings: how.
+        ready_fd: is told the port; without it the terminal is.
+        shows_token: whether the token was made here, so that it is told, too.
+
     Raises:
-        OSError: the port is in use.
+        OSError: the port is in use, or not to be had without a token.
     """
     manager = Manager(settings)
     loop = asyncio.get_running_loop()
@@ -264,41 +272,62 @@ async def serve(settings: ManagerSettings, ready_fd: int | None = None) -> str:
         loop.add_signal_handler(number, manager.end, f"got {number.name}")
     try:
         port = await manager.start()
-        ready = msgspec.json.encode({"port": port, "domain_id": manager.domain_id, "pid": os.getpid()})
         if ready_fd is not None:
-            os.write(ready_fd, ready + b"\n")
+            ready = {"port": port, "domain_id": manager.domain_id, "pid": os.getpid()}
+            own = {"token": settings.token} if shows_token else {}
+            os.write(ready_fd, msgspec.json.encode(ready | own) + b"\n")
             os.close(ready_fd)
         else:
-            sys.stderr.write(f"The manager listens on {settings.host}:{port}.\n")
+            sys.stderr.write(_welcome(settings, port, shows_token=shows_token))
         return await manager.wait()
     finally:
         await manager.close()
 
 
+def _welcome(settings: ManagerSettings, port: int, *, shows_token: bool) -> str:
+    host = f"[{settings.host}]" if ":" in settings.host else settings.host
+    lines = [f"The manager listens on {host}:{port}."]
+    if shows_token:
+        lines += [
+            f"Clients show its token, which is new at each start: Authorization: Bearer {settings.token}",
+            f"or, where they can send no headers: ws://{host}:{port}/control?token={settings.token}",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+class _UsageError(Exception):
+    """Options that cannot be used together; the text is for the user."""
+
+
+def _token(options: argparse.Namespace) -> str:
+    """What clients must show: what the environment says, or what chance makes."""
+    if options.ram or options.no_token:
+        if options.no_token and options.token_env:
+            raise _UsageError("--no-token and --token-env exclude each other")
+        if not is_loopback(options.host):
+            raise _UsageError(f"without a token it listens on loopback alone, not on {options.host}")
+        return ""
+    if not options.token_env:
+        return secrets.token_urlsafe(24)
+    token = os.environ.pop(options.token_env, "")
+    if not token:
+        raise _UsageError(f"the environment variable {options.token_env} of --token-env holds no token")
+    return token
+
+
 def main(arguments: list[str] | None = None) -> int:
     """The command line of the manager; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="python -m executor.manager", description=__doc__)
-    parser.add_argument("--host", default="127.0.0.1")
-    parser.add_argument("--port", type=int, default=7163)
-    parser.add_argument("--token-env", default="", help="environment variable that holds the token")
-    parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
-    parser.add_argument(
-        "--allow-origin", action="append", default=[], help="page that may drive a --ram manager"
-    )
-    parser.add_argument("--ready-fd", type=int, help="where to write the port, as a line of JSON")
-    parser.add_argument("--domain-id", type=int, help="ROS domain of the session")
-    parser.add_argument(
-        "--grace", type=float, help="seconds that a session lives without clients; 300, with --ram for ever"
-    )
-    parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
-    parser.add_argument("--session", default="", help="the session's id, for the gate")
-    options = parser.parse_args(arguments)
+    options = _parser().parse_args(arguments)
     grace_s = options.grace if options.grace is not None else 0.0 if options.ram else 300.0
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")
     logging.getLogger("websockets").setLevel(logging.WARNING)
     if options.ready_fd is not None:
         die_with_parent()
-    token = os.environ.pop(options.token_env, "") if options.token_env else ""
+    try:
+        token = _token(options)
+    except _UsageError as error:
+        sys.stderr.write(f"bt-studio manager: {error}\n")
+        return 2
     try:
         listener = fetch_listener(options.gate, options.session, token) if options.gate else None
     except OSError as error:
@@ -316,8 +345,38 @@ def main(arguments: list[str] | None = None) -> int:
         listener=listener,
     )
     try:
-        _log.info("ended: %s", asyncio.run(serve(settings, options.ready_fd)))
+        ended = asyncio.run(
+            serve(settings, options.ready_fd, shows_token=bool(token and not options.token_env))
+        )
     except OSError as error:
         sys.stderr.write(f"bt-studio manager: cannot listen on {options.host}:{options.port}: {error}\n")
         return 1
+    _log.info("ended: %s", ended)
     return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m executor.manager", description=__doc__)
+    parser.add_argument("--host", default="127.0.0.1")
+    parser.add_argument("--port", type=int, default=7163)
+    parser.add_argument(
+        "--token-env", default="", help="environment variable with the token; else one is made"
+    )
+    parser.add_argument(
+        "--no-token", action="store_true", help="ask for no token, of this machine and its pages alone"
+    )
+    parser.add_argument("--ram", action="store_true", help="speak the RAM dialect, on loopback alone")
+    parser.add_argument(
+        "--allow-origin",
+        action="append",
+        default=[],
+        help="page that may drive it, such as https://example.org",
+    )
+    parser.add_argument("--ready-fd", type=int, help="where to write the port, as a line of JSON")
+    parser.add_argument("--domain-id", type=int, help="ROS domain of the session")
+    parser.add_argument(
+        "--grace", type=float, help="seconds that a session lives without clients; 300, with --ram for ever"
+    )
+    parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
+    parser.add_argument("--session", default="", help="the session's id, for the gate")
+    return parser

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import hmac
 import logging
 import time
 from http import HTTPStatus
@@ -24,6 +23,7 @@ from msgspec import UNSET, Struct
 from websockets.asyncio.server import Server, ServerConnection, serve, unix_serve
 from websockets.exceptions import ConnectionClosed
 
+from executor.manager.admission import Admission, is_loopback
 from executor.manager.allowance import Allowance
 from executor.manager.metrics import CONTENT_TYPE, Traffic, metrics_text
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
@@ -69,13 +69,13 @@ class SessionServer:
     Args:
         session: asked for ids and snapshots.
         report: takes events.
-        token: clients must send it as `Authorization: Bearer`; "" asks for none.
+        admission: who may talk to it.
     """
 
-    def __init__(self, session: Session, report: Callable[[Event], None], *, token: str) -> None:
+    def __init__(self, session: Session, report: Callable[[Event], None], admission: Admission) -> None:
         self._session = session
         self._report = report
-        self._token = token
+        self._admission = admission
         self._controls: dict[str, ControlOutbox] = {}
         self._connections: dict[str, ServerConnection] = {}
         self._stream_connections: dict[str, ServerConnection] = {}
@@ -89,8 +89,10 @@ class SessionServer:
         """Listens; returns the port.
 
         Raises:
-            OSError: the port is in use.
+            OSError: the port is in use, or the address is not of loopback and no token is asked for.
         """
+        if not self._admission.token and not is_loopback(host):
+            raise OSError(f"without a token a manager listens on loopback alone, not on {host}")
         server = await serve(self._serve, host, port, **self._options)
         self._servers.append(server)
         return int(next(iter(server.sockets)).getsockname()[1])
@@ -149,12 +151,13 @@ class SessionServer:
 
     def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
         path = urlsplit(request.path).path
+        refusal = self._admission.judge(request, reads_health=path == "/health")
+        if refusal is not None:
+            return connection.respond(*refusal)
         if path == "/health":
             return self._health(connection)
         if path == "/metrics":
             return self._metrics(connection)
-        if not self._is_authorized(request):
-            return connection.respond(HTTPStatus.UNAUTHORIZED, "The token is missing or wrong.\n")
         if path not in {"/control", "/stream", "/watch"}:
             return connection.respond(
                 HTTPStatus.NOT_FOUND, "There are /control, /stream, /watch, /health and /metrics.\n"
@@ -162,10 +165,6 @@ class SessionServer:
         if path == "/control" and len(self._controls) >= MAX_CLIENTS:
             return connection.respond(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many clients.\n")
         return None
-
-    def _is_authorized(self, request: Request) -> bool:
-        given = request.headers.get("Authorization", "")
-        return not self._token or hmac.compare_digest(given.encode(), f"Bearer {self._token}".encode())
 
     def _health(self, connection: ServerConnection) -> Response:
         body = {

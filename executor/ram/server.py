@@ -2,20 +2,17 @@
 
 What is a defect in the original is not copied: a frame that is no command gets an error and the socket stays,
 there are no hidden `to_<state>` commands, a second client is told why it is refused, and a dead application
-is told with its new state. The Origin allow-list stands in for a token: a page of another site that opens a
-socket to this machine is refused.
+is told with its new state. The rules for hosts and origins (`executor.manager.admission`) stand in for a token:
+a page of another site that opens a socket to this machine is refused.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-import ipaddress
 import json
 import logging
-from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, Final
-from urllib.parse import urlsplit
 from uuid import uuid4
 
 import msgspec
@@ -23,6 +20,7 @@ from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.exceptions import ConnectionClosed
 
 from executor import messages
+from executor.manager.admission import Admission, is_loopback
 from executor.ram.monitor import update_text
 from executor.ram.translate import RamError, error_text, state_name, to_native
 from executor.session.events import ClientJoined, ClientLeft, CommandCame, Event, Send
@@ -36,7 +34,7 @@ if TYPE_CHECKING:
 
     from executor.session.protocol import Session
 
-__all__ = ["RamServer", "is_loopback"]
+__all__ = ["RamServer"]
 
 _log = logging.getLogger(__name__)
 
@@ -45,16 +43,6 @@ HEARTBEAT_S: Final = 15.0
 UPDATE_S: Final = 0.1
 END_S: Final = 20.0
 REFUSED: Final = 4409
-_LOCAL_NAMES: Final = frozenset({"localhost", "127.0.0.1", "::1"})
-
-
-def is_loopback(host: str) -> bool:
-    """Whether only programs of this machine can reach an address."""
-    if host == "localhost":
-        return True
-    with contextlib.suppress(ValueError):
-        return ipaddress.ip_address(host).is_loopback
-    return False
 
 
 class RamServer:
@@ -71,7 +59,7 @@ class RamServer:
     ) -> None:
         self._session = session
         self._report = report
-        self._origins = frozenset(origins)
+        self._admission = Admission(origins=frozenset(origins))
         self._server: Server | None = None
         self._client: str | None = None
         self._outbox: ControlOutbox | None = None
@@ -128,11 +116,11 @@ class RamServer:
     # --- connections ------------------------------------------------------------------------------
 
     def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
-        origin = request.headers.get("Origin")
-        if origin is None or origin in self._origins or urlsplit(origin).hostname in _LOCAL_NAMES:
+        refusal = self._admission.judge(request)
+        if refusal is None:
             return None
-        _log.warning("a page of %s is refused", origin)
-        return connection.respond(HTTPStatus.FORBIDDEN, f"Pages of {origin} may not drive this manager.\n")
+        _log.warning("refused: %s", refusal.text.strip())
+        return connection.respond(*refusal)
 
     async def _serve(self, connection: ServerConnection) -> None:
         if self._client is not None:

@@ -191,7 +191,9 @@ async def test_metrics_are_told_in_the_text_format():
         await client.event("error")
 
         def get():
-            with urllib.request.urlopen(f"http://127.0.0.1:{client.port}/metrics") as reply:
+            request = urllib.request.Request(f"http://127.0.0.1:{client.port}/metrics")
+            request.add_header("Authorization", f"Bearer {TOKEN}")
+            with urllib.request.urlopen(request) as reply:  # noqa: S310
                 return reply.headers["Content-Type"], reply.read().decode()
 
         kind, text = await asyncio.to_thread(get)

@@ -17,9 +17,10 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from executor import messages
+from executor.manager.admission import is_loopback
 from executor.manager.manager import Manager, ManagerSettings
 from executor.ram.monitor import update_text
-from executor.ram.server import REFUSED, is_loopback
+from executor.ram.server import REFUSED
 from executor.ram.translate import RamError, to_native
 from tests.budget import count
 from tests.executor.manager.test_server import empty_zip, manager
@@ -140,6 +141,16 @@ async def test_only_pages_of_this_machine_or_of_the_list_may_drive(origin, is_we
         with pytest.raises(InvalidStatus) as caught:
             await connect(url, proxy=None, origin=origin)
         assert caught.value.response.status_code == 403
+
+
+async def test_a_page_whose_name_was_made_to_point_here_is_refused():
+    async with manager(is_ram=True) as it:
+        reader, writer = await asyncio.open_connection("127.0.0.1", it.port)
+        handshake = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
+        writer.write(f"GET / HTTP/1.1\r\nHost: evil.example:{it.port}\r\n{handshake}{key}\r\n".encode())
+        assert (await reader.readline()).split()[1] == b"421"
+        writer.close()
 
 
 async def test_it_listens_on_loopback_alone():

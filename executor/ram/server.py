@@ -2,8 +2,8 @@
 
 What is a defect in the original is not copied: a frame that is no command gets an error and the socket stays,
 there are no hidden `to_<state>` commands, a second client is told why it is refused, and a dead application
-is told with its new state. The rules for hosts and origins (`executor.manager.admission`) stand in for a token:
-a page of another site that opens a socket to this machine is refused.
+is told with its new state. It has no token: hosts and origins are judged (`executor.manager.admission`), so
+that a page of another site that opens a socket to this machine is refused.
 """
 
 from __future__ import annotations

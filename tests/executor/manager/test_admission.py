@@ -131,8 +131,8 @@ async def test_a_manager_prints_the_token_that_it_asks_for():
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (("--no-token", "--host", "0.0.0.0"), "loopback"),
-        (("--ram", "--host", "0.0.0.0"), "loopback"),
+        (("--no-token", "--host", "192.0.2.1"), "loopback"),
+        (("--ram", "--host", "192.0.2.1"), "loopback"),
         (("--token-env", "NOBODY_SET_THIS"), "NOBODY_SET_THIS"),
         (("--no-token", "--token-env", "HOME"), "exclude"),
     ],

@@ -18,12 +18,14 @@ from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up fir
 from channels.routing import ProtocolTypeRouter  # noqa: E402
 
 from backend.config import telling  # noqa: E402
+from backend.config.bodies import Upload  # noqa: E402
 from backend.config.handler import ThreadedHandler  # noqa: E402
 from backend.config.probes import probed  # noqa: E402
 from backend.config.sockets import Route, serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
 from backend.projects import consumers as projects  # noqa: E402
 from backend.projects.notices import watch_revisions  # noqa: E402
+from backend.projects.usage import room_for_archive  # noqa: E402
 from backend.sessions import consumers as sessions  # noqa: E402
 from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
 from backend.sessions.care import care_for_ever  # noqa: E402
@@ -48,6 +50,8 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
             return
 
 
+IMPORT: Final = "/api/v1/projects/import"
+
 watch_revisions()
 routes: Final = {
     projects.ADDRESS: Route(projects.serve_notices, projects.may_read),
@@ -62,5 +66,11 @@ async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASG
 
 
 application: ASGI3Application = probed(
-    ProtocolTypeRouter({"http": ThreadedHandler(), "websocket": sockets, "lifespan": lifespan})
+    ProtocolTypeRouter(
+        {
+            "http": ThreadedHandler(Upload(IMPORT, room_for_archive)),
+            "websocket": sockets,
+            "lifespan": lifespan,
+        }
+    )
 )

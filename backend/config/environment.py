@@ -89,7 +89,12 @@ class Environment(TeamSettings):
         default=4096 * MEBIBYTE, gt=0, description="Sum of the current files of all projects of one user."
     )
     max_user_projects: int = Field(default=2000, gt=0, description="Number of projects of one user.")
-    max_request_bytes: int = Field(default=64 * MEBIBYTE, gt=0, description="Largest body of a request.")
+    max_request_bytes: int = Field(
+        default=64 * MEBIBYTE,
+        gt=0,
+        description="Largest body of a request of somebody who is signed in; of others a megabyte is read. "
+        "An archive that is imported may be as large as its user has room.",
+    )
     deleted_project_days: int = Field(
         default=30, ge=0, description="Days after which a deleted project can no longer be restored."
     )

@@ -8,23 +8,32 @@ from __future__ import annotations
 
 import asyncio
 import contextvars
+import os
+from contextlib import suppress
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.core import signals
-from django.core.exceptions import RequestAborted
 from django.core.handlers.asgi import ASGIHandler, get_script_prefix
 from django.core.handlers.base import BaseHandler
 from django.urls import set_script_prefix
 
+from backend.config.bodies import BODY, Bodies, BodyRefusedError, ClientLeftError
 from backend.config.environment import environment
+from backend.config.middleware import secured
+from backend.config.problems import problem_response
 from backend.config.threads import Threads
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
 
+    from backend.config.bodies import Refused, Upload
+
 THREADS: Final = {"local": 8, "team": 8}
 """By mode; each has a connection to the database."""
+LINGER_S: Final = 10.0
+LINGER_BYTES: Final = 64 * 1024 * 1024
+"""For how long, and how much of a body, is thrown away that was refused."""
 
 
 class Answer(NamedTuple):
@@ -38,41 +47,79 @@ class Answer(NamedTuple):
 class ThreadedHandler(ASGIHandler):
     """Django as an ASGI application for HTTP alone."""
 
-    def __init__(self) -> None:
+    def __init__(self, upload: Upload | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
         self._threads = Threads(THREADS[environment().mode], "http")
+        self._bodies = Bodies(self._threads, upload, environment().data_dir / "uploads")
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
         try:
-            body = await self.read_body(receive)
-        except RequestAborted:
+            async with self._bodies.read(scope, receive) as body:
+                # What a request sets for itself (language, address) must not stay with the thread.
+                context = contextvars.copy_context()
+                work = partial(context.run, self._answer, scope, body.file)
+                answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
+        except ClientLeftError:
             return
-        # What a request sets for itself (language, address) must not stay with the thread.
-        context = contextvars.copy_context()
-        work = partial(context.run, self._answer, scope, body)
-        answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
-        await send(
-            {
-                "type": "http.response.start",
-                "status": answer.status,
-                "headers": answer.headers,
-                "trailers": False,
-            }
-        )
-        await send({"type": "http.response.body", "body": answer.body, "more_body": False})
+        except BodyRefusedError as error:
+            await _send_and_close(_refusal(scope, error.refused), receive, send)
+            return
+        await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
 
     def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer:
         set_script_prefix(get_script_prefix(scope))
+        scope[BODY] = body  # type: ignore[typeddict-unknown-key]
+        _tell_length(scope, body)
         signals.request_started.send(sender=type(self), scope=scope)
-        with body:
-            request, refused = self.create_request(scope, body)
-            response: Any = refused if request is None else self.get_response(request)
-            try:
-                return Answer(response.status_code, _headers(response), response.getvalue())
-            finally:
-                response.close()
+        request, refused = self.create_request(scope, body)
+        response: Any = refused if request is None else self.get_response(request)
+        try:
+            return Answer(response.status_code, _headers(response), response.getvalue())
+        finally:
+            response.close()
+
+
+def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:
+    """A body that came in chunks has a length by now; without one nobody would look for it."""
+    if any(name == b"transfer-encoding" for name, _ in scope["headers"]):
+        kept = [row for row in scope["headers"] if row[0] not in {b"transfer-encoding", b"content-length"}]
+        size = body.seek(0, os.SEEK_END)
+        body.seek(0)
+        scope["headers"] = [*kept, (b"content-length", str(size).encode())]
+
+
+async def _send(answer: Answer, send: ASGISendCallable, *, last: bool = True) -> None:
+    start = {"status": answer.status, "headers": answer.headers, "trailers": False}
+    await send({"type": "http.response.start"} | start)  # type: ignore[arg-type]
+    await send({"type": "http.response.body", "body": answer.body, "more_body": not last})
+
+
+def _refusal(scope: HTTPScope, refused: Refused) -> Answer:
+    response = problem_response(refused.document, refused.headers)
+    secured(scope["path"], response)
+    return Answer(response.status_code, _headers(response), response.content)
+
+
+async def _send_and_close(answer: Answer, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
+    """Answers before the body has come, then closes the connection.
+
+    A connection that is closed while its client still sends takes the answer along: the client hears of the
+    end before it has read. So what comes is thrown away for a while.
+    """
+    kept = [header for header in answer.headers if header[0].lower() != b"content-length"]
+    length = (b"Content-Length", str(len(answer.body)).encode())
+    await _send(answer._replace(headers=[*kept, length, (b"Connection", b"close")]), send, last=False)
+    left = LINGER_BYTES
+    with suppress(TimeoutError):
+        async with asyncio.timeout(LINGER_S):
+            while left > 0:
+                message = await receive()
+                left -= len(message.get("body", b""))  # type: ignore[arg-type]
+                if not message.get("more_body", False):
+                    break
+    await send({"type": "http.response.body", "body": b"", "more_body": False})
 
 
 def _headers(response: Any) -> list[tuple[bytes, bytes]]:

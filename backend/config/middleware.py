@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from http.cookies import CookieError, SimpleCookie
 from ipaddress import ip_address
 from typing import TYPE_CHECKING, Final
 from urllib.parse import urlencode
@@ -78,15 +77,20 @@ class SecurityHeaders(Middleware):
 
     def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
         """Adds what the view did not set itself."""
-        if request.path_info.startswith(PAGES):
-            # Under `no-referrer`, browsers send forms with `Origin: null`.
-            response.headers["Referrer-Policy"] = "same-origin"
-            response.headers["Content-Security-Policy"] = page_policy()
-        for name, value in HEADERS.items():
-            response.headers.setdefault(name, value)
-        if request.path_info.startswith("/api/"):
-            response.headers.setdefault("Cache-Control", "private, no-cache")
-        return response
+        return secured(request.path_info, response)
+
+
+def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
+    """Puts the security headers on the answer to a request for this path."""
+    if path.startswith(PAGES):
+        # Under `no-referrer`, browsers send forms with `Origin: null`.
+        response.headers["Referrer-Policy"] = "same-origin"
+        response.headers["Content-Security-Policy"] = page_policy()
+    for name, value in HEADERS.items():
+        response.headers.setdefault(name, value)
+    if path.startswith("/api/"):
+        response.headers.setdefault("Cache-Control", "private, no-cache")
+    return response
 
 
 class Guard(Middleware):
@@ -153,11 +157,3 @@ def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
     response = render(request, "config/refused.html", {"problem": document}, status=refusal.status)
     response.headers["Cache-Control"] = "no-store"
     return response
-
-
-def cookies_of(header: str) -> dict[str, str]:
-    """Reads a `Cookie` header; a broken one holds no cookies."""
-    try:
-        return {name: morsel.value for name, morsel in SimpleCookie(header).items()}
-    except CookieError:
-        return {}

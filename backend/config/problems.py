@@ -11,6 +11,7 @@ reach or out of room into answers, and nothing else.
 
 from __future__ import annotations
 
+import errno
 import logging
 import math
 from http import HTTPStatus
@@ -110,7 +111,10 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
         document = problem(404, "not_found", detail="There is nothing at this address.")
     elif isinstance(error, OperationalError):
         log.error("the database failed", exc_info=error)
-        document, headers = _database_problem(error), {"Retry-After": str(RETRY_S)}
+        document, headers = database_problem(error), {"Retry-After": str(RETRY_S)}
+    elif isinstance(error, OSError) and error.errno == errno.ENOSPC:
+        log.error("the disk is full", exc_info=error)
+        document = disk_full()
     elif isinstance(error, PermissionDenied):
         document = problem(403, "forbidden", detail="This is not allowed.")
     elif isinstance(error, exceptions.ValidationError):
@@ -131,17 +135,22 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
     return Response(document, status=document["status"], content_type=MEDIA_TYPE, headers=headers)
 
 
-def _database_problem(error: OperationalError) -> dict[str, Any]:
+def disk_full() -> dict[str, Any]:
+    """There is no room to write."""
+    return problem(
+        507,
+        "disk_full",
+        detail="The server's disk is full: nothing was written, and what was saved before is safe.",
+        hint="Keep this page open, make room on the server's disk, then save again.",
+    )
+
+
+def database_problem(error: OperationalError) -> dict[str, Any]:
     """No transaction was committed: whoever asks may ask again as soon as the database can write."""
     cause = error.__cause__
     code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
     if code in DISK_FULL:
-        return problem(
-            507,
-            "disk_full",
-            detail="The server's disk is full: nothing was written, and what was saved before is safe.",
-            hint="Keep this page open, make room on the server's disk, then save again.",
-        )
+        return disk_full()
     return problem(
         503,
         "database_unavailable",

@@ -180,7 +180,8 @@ def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str
 def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
     import uvicorn  # noqa: PLC0415 - slow to load
 
-    from backend.config.websocket import PatientSocket  # noqa: PLC0415 - it loads uvicorn
+    from backend.config.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
+    from backend.config.websocket import PatientSocket  # noqa: PLC0415 - as above
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
@@ -192,6 +193,7 @@ def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
         "backend.config.asgi:application",
         log_config=None,
         access_log=False,
+        http=PatientProtocol,
         lifespan="on",
         ws=PatientSocket,
         ws_max_size=64 * 1024 * 1024,

@@ -21,8 +21,8 @@ from backend.accounts import rights
 from backend.accounts.identity import identify
 from backend.config import guard
 from backend.config.environment import environment
-from backend.config.middleware import cookies_of
 from backend.config.problems import StudioError
+from backend.config.scopes import cookies_of, facts_of, headers_of
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
@@ -68,24 +68,9 @@ class Route(NamedTuple):
     may: Callable[[UUID, User], object]
 
 
-def _headers(scope: WebSocketScope) -> dict[str, str]:
-    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
-
-
 def refusal(scope: WebSocketScope) -> guard.Refusal | None:
     """Why the socket goes no further, by the same rules as for pages."""
-    headers = _headers(scope)
-    scheme, _, bearer = headers.get("authorization", "").partition(" ")
-    host = headers.get("host", "")
-    facts = guard.Facts(
-        method="GET",
-        host=host,
-        origin=headers.get("origin"),
-        cookie=cookies_of(headers.get("cookie", "")).get(guard.cookie_name(host)),
-        bearer=bearer if scheme.lower() == "bearer" else None,
-        socket=True,
-    )
-    return guard.check(facts)
+    return guard.check(facts_of(scope))
 
 
 async def serve(
@@ -156,7 +141,7 @@ def _route(routes: Mapping[re.Pattern[str], Route], path: str) -> tuple[re.Match
 
 
 async def _user(scope: WebSocketScope) -> User | None:
-    return await sync_to_async(identify)(cookies_of(_headers(scope).get("cookie", "")))
+    return await sync_to_async(identify)(cookies_of(headers_of(scope).get("cookie", "")))
 
 
 def short(reason: str) -> str:

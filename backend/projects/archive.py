@@ -7,7 +7,7 @@ import stat
 import zipfile
 import zlib
 from pathlib import PurePosixPath
-from typing import TYPE_CHECKING, Final
+from typing import IO, TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.projects import names
@@ -36,7 +36,7 @@ def pack(files: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def unpack(data: bytes) -> dict[str, bytes]:
+def unpack(data: IO[bytes]) -> dict[str, bytes]:
     """The files of a zip from outside, by the paths that the project will have.
 
     What counts is what comes out, not what the headers say: reading stops at the quota. One folder
@@ -48,7 +48,7 @@ def unpack(data: bytes) -> dict[str, bytes]:
         QuotaExceededError: it holds more than a project may.
     """
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        with zipfile.ZipFile(data) as archive:
             files = dict(_entries(archive))
     except (
         zipfile.BadZipFile,
@@ -111,7 +111,7 @@ def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
     return {path.removeprefix(folder + "/"): content for path, content in files.items()}
 
 
-def read_upload(data: bytes, filename: str, *, repair: bool = False) -> dict[str, bytes]:
+def read_upload(data: IO[bytes], filename: str, *, repair: bool = False) -> dict[str, bytes]:
     """The files of a project from whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
 
     `repair` escapes bare `&` and `<` in attributes of XML, which is offered when it cannot be read as it is.
@@ -122,6 +122,9 @@ def read_upload(data: bytes, filename: str, *, repair: bool = False) -> dict[str
     """
     name = PurePosixPath(filename)
     if name.suffix.lower() in XML_SUFFIXES:
-        return opened({f"import{name.suffix.lower()}": data}, name.stem, repair=repair)
+        content = data.read(environment().max_file_bytes + 1)
+        if len(content) > environment().max_file_bytes:
+            raise QuotaExceededError(f"“{names.shown(filename)}” is larger than a file may be.", field="file")
+        return opened({f"import{name.suffix.lower()}": content}, name.stem, repair=repair)
     files = unpack(data)
     return files if MANIFEST in files else opened(files, name.stem, repair=repair)

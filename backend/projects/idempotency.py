@@ -10,6 +10,7 @@ from django.db import transaction
 from django.utils import timezone
 from rest_framework.response import Response
 
+from backend.config.bodies import body_of
 from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError
 from backend.projects.errors import IdempotencyError
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 HEADER = "Idempotency-Key"
 MAX_KEY = 100
+PART = 1024 * 1024
 
 
 def once(request: Request, user: User, effect: Callable[[], Response]) -> Response:
@@ -64,6 +66,11 @@ def _fingerprint(request: Request) -> str:
             for chunk in uploaded.chunks():
                 digest.update(chunk)
             uploaded.seek(0)
+    elif not request.content_type.endswith("json"):
+        body = body_of(request)
+        while part := body.read(PART):
+            digest.update(part)
+        body.seek(0)
     else:
         digest.update(json.dumps(request.data, sort_keys=True).encode())
     return digest.hexdigest()

@@ -8,6 +8,7 @@ from django.db.models import Count, Q, Sum
 
 from backend.accounts.models import User
 from backend.config.environment import environment
+from backend.projects.errors import QuotaExceededError
 from backend.projects.models import Project
 
 if TYPE_CHECKING:
@@ -21,6 +22,27 @@ def usage_of_all() -> Iterable[Any]:
         kept=Count("projects", filter=current), used=Sum("projects__size", filter=current)
     )
     return sorted(rows, key=lambda row: -(row.used or 0))
+
+
+def room_for_archive(user: User) -> int:
+    """How many bytes an archive may have that this user imports.
+
+    Raises:
+        QuotaExceededError: they may not have another project, or no more bytes.
+    """
+    used = usage(user)
+    if used["projects"] >= used["max_projects"]:
+        raise QuotaExceededError(
+            f"You have {used['projects']} projects, and more are not allowed.",
+            hint="Delete some that you no longer need.",
+        )
+    room = used["max_bytes"] - used["bytes"]
+    if room <= 0:
+        raise QuotaExceededError(
+            f"Your projects take all of the {used['max_bytes']:,} bytes that you may have.",
+            hint="Delete projects that you no longer need.",
+        )
+    return room
 
 
 def usage(user: User) -> dict[str, int]:

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 from urllib.parse import quote
 
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
 from rest_framework import serializers
-from rest_framework.parsers import MultiPartParser
+from rest_framework.parsers import BaseParser, MultiPartParser
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import user_of
-from backend.config.environment import environment
+from backend.config.bodies import body_of
 from backend.config.openapi import IDEMPOTENCY_KEY
 from backend.config.problems import InvalidInputError
 from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
-from backend.projects.errors import QuotaExceededError
 from backend.projects.idempotency import once
 from backend.projects.views import detail_response
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from uuid import UUID
 
     from rest_framework.request import Request
@@ -171,34 +171,66 @@ class UploadSerializer(serializers.Serializer[dict[str, object]]):
     repair = serializers.BooleanField(required=False, help_text="Escape bare & and < in attributes of XML.")
 
 
+class RawFile(BaseParser):
+    """A file as the body itself; it is read from the file in which it lies already."""
+
+    media_type = "application/octet-stream"
+
+    def parse(
+        self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
+    ) -> dict[str, str]:
+        """Leaves it where it is."""
+        return {}
+
+
 class Import(APIView):
     """The way back."""
 
-    parser_classes = (MultiPartParser,)
+    parser_classes = (MultiPartParser, RawFile)
     expensive = ("POST",)
 
     @extend_schema(
         operation_id="import_project",
-        parameters=[IDEMPOTENCY_KEY],
-        request={"multipart/form-data": UploadSerializer},
+        parameters=[
+            IDEMPOTENCY_KEY,
+            OpenApiParameter(
+                "filename", str, description="The file's name, where the body is the file itself."
+            ),
+        ],
+        request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
         responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
         tags=["files"],
     )
     def post(self, request: Request) -> Response:
-        """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML."""
+        """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
+
+        The file may be the body itself, and then as large as the user has room; a form has a request's bound.
+        """
         user = user_of(request)
-        uploaded = request.FILES.get("file")
-        if uploaded is None:
-            raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
-        if uploaded.size is None or uploaded.size > environment().max_request_bytes:
-            raise QuotaExceededError("The file is too large to import.", field="file")
-        data = uploaded.read()
-        uploaded.seek(0)
-        wants_repair = request.POST.get("repair") == "true"
+        data, name = _uploaded(request)
+        wants_repair = flag(request, "repair") or request.POST.get("repair") == "true"
 
         def effect() -> Response:
-            files = archive.read_upload(data, uploaded.name or "", repair=wants_repair)
+            files = archive.read_upload(data, name, repair=wants_repair)
             project = actions.create_project(files, acting_user=user, message="Import")
             return detail_response(project, 201)
 
         return once(request, user, effect)
+
+
+def _uploaded(request: Request) -> tuple[IO[bytes], str]:
+    """The file that came, and its name."""
+    forms = request.FILES
+    if not request.content_type.startswith("multipart/"):
+        body = body_of(request)
+        name = request.query_params.get("filename", "")
+        if not body.read(1):
+            raise InvalidInputError(
+                "No file came with the request.", hint="Send it as the body.", field="file"
+            )
+        body.seek(0)
+        return body, name
+    uploaded = forms.get("file")
+    if uploaded is None or uploaded.file is None:
+        raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
+    return uploaded.file, uploaded.name or ""

@@ -53,11 +53,10 @@ export const api = {
   unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
   duplicateProject: (id: string) =>
     requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
+  // The file is the body itself: it may then be larger than any other request.
   importProject: ({ file, repair }: { file: File; repair: boolean }) => {
-    const form = new FormData();
-    form.append('file', file, file.name);
-    if (repair) form.append('repair', 'true');
-    return requestJson<ProjectDetail>('/projects/import', { method: 'POST', body: form });
+    const asked = new URLSearchParams({ filename: file.name, ...(repair ? { repair: 'true' } : {}) });
+    return requestJson<ProjectDetail>(`/projects/import?${asked}`, { method: 'POST', body: file });
   },
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),
   xmlUrl: (id: string, isSelfContained: boolean) =>

@@ -822,7 +822,11 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML. */
+        /**
+         * @description Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
+         *
+         *     The file may be the body itself, and then as large as the user has room; a form has a request's bound.
+         */
         post: operations["import_project"];
         delete?: never;
         options?: never;
@@ -3470,7 +3474,10 @@ export interface operations {
     };
     import_project: {
         parameters: {
-            query?: never;
+            query?: {
+                /** @description The file's name, where the body is the file itself. */
+                filename?: string;
+            };
             header?: {
                 /**
                  * @description Makes the request safe to repeat: one effect, the first answer.
@@ -3481,8 +3488,9 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody: {
+        requestBody?: {
             content: {
+                "application/octet-stream": string;
                 "multipart/form-data": components["schemas"]["UploadRequest"];
             };
         };

@@ -1,0 +1,40 @@
+"""What an ASGI scope says about a request or a socket, before Django sees it."""
+
+from __future__ import annotations
+
+from http.cookies import CookieError, SimpleCookie
+from typing import TYPE_CHECKING
+
+from backend.config import guard
+
+if TYPE_CHECKING:
+    from asgiref.typing import HTTPScope, WebSocketScope
+
+
+def headers_of(scope: HTTPScope | WebSocketScope) -> dict[str, str]:
+    """The headers by their names in lower case."""
+    return {name.decode("latin-1").lower(): value.decode("latin-1") for name, value in scope["headers"]}
+
+
+def cookies_of(header: str) -> dict[str, str]:
+    """Reads a `Cookie` header; a broken one holds no cookies."""
+    try:
+        return {name: morsel.value for name, morsel in SimpleCookie(header).items()}
+    except CookieError:
+        return {}
+
+
+def facts_of(scope: HTTPScope | WebSocketScope) -> guard.Facts:
+    """What the guard needs to know."""
+    headers = headers_of(scope)
+    kind, _, bearer = headers.get("authorization", "").partition(" ")
+    host = headers.get("host", "")
+    return guard.Facts(
+        method=scope.get("method", "GET"),  # type: ignore[arg-type] # a socket has none
+        host=host,
+        origin=headers.get("origin"),
+        fetch_site=headers.get("sec-fetch-site"),
+        cookie=cookies_of(headers.get("cookie", "")).get(guard.cookie_name(host)),
+        bearer=bearer if kind.lower() == "bearer" else None,
+        socket=scope["type"] == "websocket",
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import warnings
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import PurePosixPath
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from translator.action_ports import Declarations, declared_ports, last_name, ports_used
 from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.python_source import parse
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -86,9 +86,7 @@ def _inspect(source: str, filename: str) -> ActionModel:
             diagnostic("BT0003", Place(filename, line=1), size=f"{len(source) / 1e6:.0f} MB", limit="2 MB"),
         )
     try:
-        with warnings.catch_warnings():  # an odd escape in the user's code is no matter of ours
-            warnings.simplefilter("ignore")
-            module = ast.parse(source, filename=filename)
+        module = parse(source, filename)
     except SyntaxError as error:
         place = Place(filename, line=error.lineno or 1, column=error.offset or 1)
         return _with(broken, diagnostic("BT0601", place, problem=error.msg))

@@ -38,7 +38,7 @@ def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> Non
 
 
 def _tell(user_id: int | None, project_id: UUID | None) -> None:
-    lessened.send(None, user_id=user_id, project_id=project_id)
+    lessened.send_robust(None, user_id=user_id, project_id=project_id)
     tell(GROUP, {"type": GROUP, "user_id": user_id})
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from django.db import transaction
 from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
@@ -66,6 +67,7 @@ class Groups(APIView):
         responses={201: s.GroupSerializer},
         tags=["accounts"],
     )
+    @transaction.atomic  # with what the answer reads
     def post(self, request: Request) -> Response:
         """Makes a group; for teachers."""
         asked = parsed(s.NamedSerializer, request.data)
@@ -89,6 +91,7 @@ class OneGroup(APIView):
         responses=s.GroupSerializer,
         tags=["accounts"],
     )
+    @transaction.atomic  # with what the answer reads
     def patch(self, request: Request, group_id: UUID) -> Response:
         """Gives the group another name."""
         asked = parsed(s.NamedSerializer, request.data)
@@ -122,6 +125,7 @@ class GroupInvitations(APIView):
         responses={201: s.InvitationSerializer},
         tags=["accounts"],
     )
+    @transaction.atomic  # with what the answer reads
     def post(self, request: Request, group_id: UUID) -> Response:
         """Makes a link by which people make accounts and join."""
         asked = parsed(s.InviteSerializer, request.data)

@@ -34,7 +34,9 @@ if TYPE_CHECKING:
     from backend.accounts.models import User
 
 UNKNOWN_BYTES: Final = 1024 * 1024
-"""What a client may send that is not signed in, or came by a read-only link."""
+"""What a client may send that is not signed in."""
+GUEST_BYTES: Final = 8 * 1024 * 1024
+"""What one may send that came by a read-only link: two texts of a tree, to look at it as XML."""
 IN_MEMORY: Final = 4 * 1024 * 1024
 """A body above this lies in a file."""
 PART: Final = 1024 * 1024
@@ -43,7 +45,7 @@ PATIENCE_S: Final = 30.0
 SLOWEST: Final = 8 * 1024
 """Bytes a second, after the first `PATIENCE_S`, below which a body is given up."""
 LARGE_AT_ONCE: Final = 4
-"""Bodies above `UNKNOWN_BYTES` that one user may send at a time."""
+"""Bodies above `UNKNOWN_BYTES` that one user, or all guests together, may send at a time."""
 UPLOADS_AT_ONCE: Final = 1
 RETRY_S: Final = 5
 BODY: Final = "bt_studio.body"
@@ -114,7 +116,7 @@ class Bodies:
     def __init__(self, asking: Threads, upload: Upload | None, folder: Path) -> None:
         self._asking, self.upload, self.folder = asking, upload, folder
         self._writing = Threads(2, "bodies")
-        self.large: Counter[tuple[int, bool]] = Counter()
+        self.large: Counter[tuple[int | None, bool]] = Counter()
         """How many large bodies users send, by user, and whether these are uploads."""
 
     @contextlib.asynccontextmanager
@@ -161,7 +163,7 @@ class _Reading:
     def __init__(self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable) -> None:
         self._bodies, self._scope, self._receive = bodies, scope, receive
         self._headers = headers_of(scope)
-        self._slot: tuple[int, bool] | None = None
+        self._slot: tuple[int | None, bool] | None = None
         self._in_memory, self._most = IN_MEMORY, UNKNOWN_BYTES
         self._pending = bytearray()
         self._file: IO[bytes] | None = None
@@ -194,7 +196,7 @@ class _Reading:
         user = None
         if upload is not None and upload.takes(self._scope, self._headers.get("content-type", "")):
             user = await self._sender()
-        if upload is not None and user is not None:
+        if upload is not None and user is not None and not user.is_guest:
             self._take_slot(user, is_upload=True)
             self._most, self._in_memory = await self._bodies.ask(partial(upload.room, user)), PART
         elif declared > environment().max_request_bytes:
@@ -209,16 +211,17 @@ class _Reading:
             if user is None:
                 raise _too_large(UNKNOWN_BYTES, hint="Sign in to send more.")
             self._take_slot(user, is_upload=False)
-            self._most = environment().max_request_bytes
+            most = environment().max_request_bytes
+            self._most = min(GUEST_BYTES, most) if user.is_guest else most
         if size > self._most:
             hint = "That is the room that you have left." if self._slot and self._slot[1] else ""
             raise _too_large(self._most, hint=hint)
 
     async def _sender(self) -> User | None:
-        """Who has an account and sends this."""
+        """Who sends this."""
         cookies = cookies_of(self._headers.get("cookie", ""))
         user: User | None = await self._bodies.ask(partial(identify, cookies))
-        return None if user is None or user.is_guest else user
+        return user
 
     def _take_slot(self, user: User, *, is_upload: bool) -> None:
         slot, most = (user.pk, is_upload), UPLOADS_AT_ONCE if is_upload else LARGE_AT_ONCE

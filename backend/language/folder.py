@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import os
 import shutil
+import subprocess
 import sys
 import sysconfig
 from dataclasses import dataclass
@@ -22,7 +23,7 @@ from uuid import uuid4
 
 from backend.config.environment import REPOSITORY, environment
 from backend.language import message_stubs
-from backend.language.library import configuration, make_library
+from backend.language.library import configuration
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -106,7 +107,9 @@ def _library_key(site_packages: Path) -> str:
 
 def _make_library(site_packages: Path, folder: Path) -> None:
     partial = folder.with_name(f"{folder.name}.{uuid4().hex}")
-    make_library(site_packages, REPOSITORY, partial)
+    # A process of its own: it reads hundreds of modules, and one thread at a time may read Python.
+    command = (sys.executable, "-m", "backend.language.library", site_packages, REPOSITORY, partial)
+    subprocess.run(command, cwd=REPOSITORY, check=True)
     try:
         partial.rename(folder)
     except OSError:  # another server was faster

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import logging
 import re
 from collections import OrderedDict
 from dataclasses import dataclass
@@ -15,9 +16,11 @@ from backend.config.problems import InvalidInputError
 from backend.projects.errors import CheckFailedError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from translator import Ros2Package, TranslatorError
+
+log = logging.getLogger(__name__)
 
 _KEPT: Final = 64
 _UNIVERSES: Final = REPOSITORY / "executor" / "universes"
@@ -30,6 +33,12 @@ class Report:
 
     diagnostics: list[dict[str, Any]]
     actions: list[dict[str, Any]]
+    is_whole: bool = True
+    """Whether the project was checked at all; else the actions are not known."""
+
+    def to_json(self) -> dict[str, Any]:
+        """As the API tells it."""
+        return {"actions": self.actions, "diagnostics": self.diagnostics, "checked": self.is_whole}
 
 
 class _Reports:
@@ -55,8 +64,25 @@ class _Reports:
 _reports: Final = _Reports()
 
 
-def report(files: Mapping[str, bytes]) -> Report:
-    """Checks a project."""
+def report(read: Callable[[], Mapping[str, bytes]]) -> Report:
+    """Checks the project whose files `read` fetches, and never fails.
+
+    What it tells of is stored already: that it cannot be checked must not look as if it had not been saved.
+    """
+    try:
+        return _checked(read())
+    except Exception as error:
+        log.exception("a project could not be checked")
+        return _unchecked(error)
+
+
+def _unchecked(error: Exception) -> Report:
+    from translator.diagnostic import Place, diagnostic  # noqa: PLC0415
+
+    return Report([diagnostic("BT0009", Place(), problem=type(error).__name__).to_json()], [], is_whole=False)
+
+
+def _checked(files: Mapping[str, bytes]) -> Report:
     key = _fingerprint(files)
     found = _reports.get(key)
     if found is None:

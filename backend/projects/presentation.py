@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from backend.projects import queries
 from backend.projects.checking import report
@@ -56,30 +56,37 @@ def file_info(existing: Existing) -> dict[str, Any]:
     }
 
 
-def detail(project: Project) -> dict[str, Any]:
-    """An opened project."""
+class Opened(NamedTuple):
+    """An opened project, before it is checked."""
+
+    rows: dict[str, Any]
+    contents: dict[str, bytes]
+
+
+def opened(project: Project) -> Opened:
+    """All that an opened project shows of the database."""
     files = queries.current_files(project)
-    found = report({path: stored.data for path, stored in files.items()})
     main = files.get(f"trees/{project.main_tree}.json")
     diagram = queries.root_diagram(main.data) if main is not None else None
-    return summary(project, diagram) | {
+    rows = summary(project, diagram) | {
         "settings": dict(read(files[MANIFEST].data).document),
         "files": [file(stored) for stored in files.values()],
-        "actions": found.actions,
-        "diagnostics": found.diagnostics,
     }
+    return Opened(rows, {path: stored.data for path, stored in files.items()})
+
+
+def detail(found: Opened) -> dict[str, Any]:
+    """An opened project."""
+    return found.rows | report(lambda: found.contents).to_json()
 
 
 def changed(project: Project) -> dict[str, Any]:
     """A project after a change set."""
     files = queries.existing_files(project)
-    found = report(queries.contents(project))
     return {
         "revision": project.revision,
         "files": [file_info(files[path]) for path in sorted(files)],
-        "actions": found.actions,
-        "diagnostics": found.diagnostics,
-    }
+    } | report(lambda: queries.contents(project)).to_json()
 
 
 def revision(change: ChangeSet) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import binascii
-from typing import Any
+from typing import Any, Final
 
 from drf_spectacular.utils import extend_schema_field
 from rest_framework import serializers
@@ -113,11 +113,15 @@ class ActionSerializer(serializers.Serializer[Any]):
     diagnostics = DiagnosticSerializer(many=True)
 
 
+CHECKED: Final = "false: the project could not be checked, so that its actions are not known."
+
+
 class ReportSerializer(serializers.Serializer[Any]):
     """What the translator says of a project."""
 
     diagnostics = DiagnosticSerializer(many=True)
     actions = ActionSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
 
 
 class FileSerializer(serializers.Serializer[Any]):
@@ -176,6 +180,7 @@ class ProjectDetailSerializer(ProjectSummarySerializer):
     files = FileSerializer(many=True)
     actions = ActionSerializer(many=True)
     diagnostics = DiagnosticSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
 
 
 class ProjectListQuerySerializer(serializers.Serializer[Any]):
@@ -269,6 +274,7 @@ class ChangesDoneSerializer(serializers.Serializer[Any]):
     files = FileInfoSerializer(many=True)
     actions = ActionSerializer(many=True)
     diagnostics = DiagnosticSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
 
 
 class TheirsSerializer(serializers.Serializer[Any]):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from django.db import transaction
 from drf_spectacular.utils import OpenApiParameter, extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
@@ -17,6 +18,7 @@ from backend.projects.idempotency import once
 from backend.projects.schema import ConflictProblemSerializer
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from uuid import UUID
 
     from rest_framework.request import Request
@@ -24,9 +26,16 @@ if TYPE_CHECKING:
     from backend.projects.models import Project
 
 
-def detail_response(project: Project, status: int = 200) -> Response:
-    """An opened project with its ETag."""
-    return Response(presentation.detail(project), status=status, headers={"ETag": queries.etag(project)})
+def written(action: Callable[[], Project], status: int = 200) -> Response:
+    """Carries out what writes a project, and answers with it, opened.
+
+    What the answer takes from the database is read in the same transaction: nothing that comes after the
+    commit can make what was written look as if it had failed.
+    """
+    with transaction.atomic():
+        project = action()
+        found = presentation.opened(project)
+    return Response(presentation.detail(found), status=status, headers={"ETag": queries.etag(project)})
 
 
 class Projects(APIView):
@@ -64,8 +73,7 @@ class Projects(APIView):
 
         def effect() -> Response:
             files = templates.files_of(asked["template"])
-            project = actions.create_project(files, acting_user=user, name=asked["name"])
-            return detail_response(project, 201)
+            return written(lambda: actions.create_project(files, acting_user=user, name=asked["name"]), 201)
 
         return once(request, user, effect)
 
@@ -84,7 +92,8 @@ class OneProject(APIView):
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         if queries.etag(project) in request.headers.get("If-None-Match", ""):
             return Response(status=304, headers={"ETag": queries.etag(project)})
-        return detail_response(project)
+        found = presentation.detail(presentation.opened(project))
+        return Response(found, headers={"ETag": queries.etag(project)})
 
     @extend_schema(
         operation_id="edit_project",
@@ -97,10 +106,8 @@ class OneProject(APIView):
     def patch(self, request: Request, project_id: UUID) -> Response:
         """Renames a project or changes its settings."""
         asked = parsed(s.EditProjectSerializer, request.data)
-        user = user_of(request)
-        return detail_response(
-            actions.edit_settings(project_id, acting_user=user, if_match=if_match(request), **asked)
-        )
+        user, tag = user_of(request), if_match(request)
+        return written(lambda: actions.edit_settings(project_id, acting_user=user, if_match=tag, **asked))
 
     @extend_schema(
         operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
@@ -123,10 +130,8 @@ class Restore(APIView):
     )
     def post(self, request: Request, project_id: UUID) -> Response:
         """Brings a deleted project back, under another name where its own was taken since."""
-        user = user_of(request)
-        return detail_response(
-            actions.restore_project(project_id, acting_user=user, if_match=if_match(request))
-        )
+        user, tag = user_of(request), if_match(request)
+        return written(lambda: actions.restore_project(project_id, acting_user=user, if_match=tag))
 
 
 class Archive(APIView):
@@ -142,8 +147,9 @@ class Archive(APIView):
     def post(self, request: Request, project_id: UUID) -> Response:
         """Moves a project to the archive."""
         user, tag = user_of(request), if_match(request)
-        project = actions.set_archived(project_id, acting_user=user, archived=True, if_match=tag)
-        return detail_response(project)
+        return written(
+            lambda: actions.set_archived(project_id, acting_user=user, archived=True, if_match=tag)
+        )
 
 
 class Unarchive(APIView):
@@ -159,8 +165,9 @@ class Unarchive(APIView):
     def post(self, request: Request, project_id: UUID) -> Response:
         """Moves a project out of the archive."""
         user, tag = user_of(request), if_match(request)
-        project = actions.set_archived(project_id, acting_user=user, archived=False, if_match=tag)
-        return detail_response(project)
+        return written(
+            lambda: actions.set_archived(project_id, acting_user=user, archived=False, if_match=tag)
+        )
 
 
 class Duplicate(APIView):
@@ -181,9 +188,8 @@ class Duplicate(APIView):
         user = user_of(request)
 
         def effect() -> Response:
-            return detail_response(
-                actions.duplicate_project(project_id, acting_user=user, name=asked["name"]), 201
-            )
+            name = asked["name"]
+            return written(lambda: actions.duplicate_project(project_id, acting_user=user, name=name), 201)
 
         return once(request, user, effect)
 
@@ -232,8 +238,7 @@ class Check(APIView):
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
-        found = checking.report(files)
-        return Response({"diagnostics": found.diagnostics, "actions": found.actions})
+        return Response(checking.report(lambda: files).to_json())
 
 
 class App(APIView):

@@ -21,7 +21,7 @@ from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
 from backend.projects.idempotency import once
-from backend.projects.views import detail_response
+from backend.projects.views import written
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -196,6 +196,7 @@ class Import(APIView):
             OpenApiParameter(
                 "filename", str, description="The file's name, where the body is the file itself."
             ),
+            OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
         ],
         request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
         responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
@@ -212,8 +213,7 @@ class Import(APIView):
 
         def effect() -> Response:
             files = archive.read_upload(data, name, repair=wants_repair)
-            project = actions.create_project(files, acting_user=user, message="Import")
-            return detail_response(project, 201)
+            return written(lambda: actions.create_project(files, acting_user=user, message="Import"), 201)
 
         return once(request, user, effect)
 

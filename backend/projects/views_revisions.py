@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from django.db import transaction
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
@@ -15,7 +16,7 @@ from backend.projects import actions, draft_actions, names, presentation, querie
 from backend.projects import serializers as s
 from backend.projects.access import Need
 from backend.projects.diffs import diff
-from backend.projects.views import detail_response
+from backend.projects.views import written
 from backend.projects.views_files import file_response
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ class Revision(APIView):
         responses=s.RevisionSerializer,
         tags=["revisions"],
     )
+    @transaction.atomic  # with what the answer reads
     def patch(self, request: Request, project_id: UUID, number: int) -> Response:
         """Gives a revision a name, or takes it away."""
         asked = parsed(s.LabelSerializer, request.data)
@@ -110,14 +112,11 @@ class RestoreRevision(APIView):
     def post(self, request: Request, project_id: UUID, number: int) -> Response:
         """Makes a new revision with files as they were."""
         asked = parsed(s.RestoreRevisionSerializer, request.data)
-        project = actions.restore_revision(
-            project_id,
-            number,
-            acting_user=user_of(request),
-            paths=[names.file_path(path, field="paths") for path in asked["paths"]],
-            if_match=if_match(request),
+        paths = [names.file_path(path, field="paths") for path in asked["paths"]]
+        user, tag = user_of(request), if_match(request)
+        return written(
+            lambda: actions.restore_revision(project_id, number, acting_user=user, paths=paths, if_match=tag)
         )
-        return detail_response(project)
 
 
 class Drafts(APIView):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from django.db import transaction
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
 from rest_framework.response import Response
@@ -102,6 +103,7 @@ class Shares(APIView):
         responses=SharesSerializer,
         tags=["sharing"],
     )
+    @transaction.atomic  # with what the answer reads
     def post(self, request: Request, project_id: UUID) -> Response:
         """Gives someone a role, or another one."""
         asked = parsed(SharePersonSerializer, request.data)
@@ -122,6 +124,7 @@ class Transfer(APIView):
         responses=SharesSerializer,
         tags=["sharing"],
     )
+    @transaction.atomic  # with what the answer reads
     def post(self, request: Request, project_id: UUID) -> Response:
         """Gives the project to one of its editors; who gave it stays an editor."""
         asked = parsed(TransferSerializer, request.data)
@@ -152,6 +155,7 @@ class SharedGroup(APIView):
         responses=SharesSerializer,
         tags=["sharing"],
     )
+    @transaction.atomic  # with what the answer reads
     def put(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
         """Gives everybody in the group a role."""
         role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
@@ -178,6 +182,7 @@ class Links(APIView):
         responses={201: SharesSerializer},
         tags=["sharing"],
     )
+    @transaction.atomic  # with what the answer reads
     def post(self, request: Request, project_id: UUID) -> Response:
         """Makes a link by which anybody may read the project."""
         asked = parsed(MakeLinkSerializer, request.data)

@@ -125,11 +125,9 @@ export interface SavedFile {
   deleted?: boolean;
 }
 
-export interface ChangesResult {
+export interface ChangesResult extends CheckResult {
   revision: number;
   files: SavedFile[];
-  actions: ActionModel[];
-  diagnostics: Diagnostic[];
 }
 
 /** Two versions of one file: what the server holds, and what was sent on an older base. */
@@ -144,6 +142,8 @@ export interface Conflict {
 export interface CheckResult {
   diagnostics: Diagnostic[];
   actions: ActionModel[];
+  /** `false`: the project could not be checked, and its actions are not known. */
+  checked?: boolean;
 }
 
 /** What the executor runs. */

@@ -987,6 +987,8 @@ export interface components {
             files: components["schemas"]["FileInfo"][];
             actions: components["schemas"]["Action"][];
             diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
         };
         /** @description One user action on several files, done as a whole or not at all. */
         ChangesRequest: {
@@ -1337,6 +1339,8 @@ export interface components {
             files: components["schemas"]["File"][];
             actions: components["schemas"]["Action"][];
             diagnostics: components["schemas"]["Diagnostic"][];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
         };
         /** @description A page of projects; `next_offset` is null on the last. */
         ProjectList: {
@@ -1389,6 +1393,8 @@ export interface components {
         Report: {
             diagnostics: components["schemas"]["Diagnostic"][];
             actions: components["schemas"]["Action"][];
+            /** @description false: the project could not be checked, so that its actions are not known. */
+            checked: boolean;
         };
         /** @description Which files to put back; all, when none are named. */
         RestoreRevisionRequest: {

@@ -89,7 +89,7 @@ def test_what_comes_is_counted_whatever_the_headers_say(settings_of):
         assert read <= 5
 
 
-def test_a_stranger_and_a_guest_may_send_a_megabyte_and_no_more(person):
+def test_a_stranger_and_a_guest_may_send_little(person):
     stranger = Person()
     assert refused(parts(4), head(stranger, content_length=str(UNKNOWN_BYTES + 1))) == (
         413,
@@ -104,7 +104,9 @@ def test_a_stranger_and_a_guest_may_send_a_megabyte_and_no_more(person):
     one = owner.post("projects", {"name": "Robot"}, expect=201)["id"]
     link = owner.post(f"projects/{one}/shares/links", {}, expect=201)["links"][0]
     guest.page(link["url"].partition(PUBLIC)[2])
-    assert refused(parts(4), head(guest, content_length=str(2 * MEBIBYTE)))[0] == 413
+    assert refused(parts(4), head(guest, content_length=str(9 * MEBIBYTE))) == (413, "request_too_large", 0)
+    looked = refused([*parts(4), body(b"")], head(guest, content_length=str(2 * MEBIBYTE)))
+    assert looked == (403, "account_required", 5)
     read_and_no_json = refused([*parts(4), body(b"")], head(owner, content_length=str(2 * MEBIBYTE)))
     assert read_and_no_json == (400, "parse_error", 5)
 

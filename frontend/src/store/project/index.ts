@@ -12,6 +12,7 @@ import {
   actionsAfter,
   changeDiagrams,
   confirmed,
+  findingsAfter,
   initialData,
   knowing,
   removeFile,
@@ -253,25 +254,27 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       get().setFileText('project.json', `${JSON.stringify(next, null, 2)}\n`);
     },
 
-    setChecked: ({ diagnostics, actions }) => {
-      set((state) =>
-        knowing({
+    setChecked: (result) => {
+      set((state) => {
+        const { diagnostics, actions } = findingsAfter(state, result);
+        return knowing({
           ...state,
           diagnostics: confirmed(state.diagnostics, diagnostics),
           actions: confirmed(state.actions, actions),
-        }),
-      );
+        });
+      });
     },
     pendingChanges: () => pendingChanges(get()),
     applySaved: (sent, result) => {
       set((state) => {
         const saved = applySaved(state, sent, result);
+        const { diagnostics, actions } = findingsAfter(state, result);
         return knowing({
           ...state,
           ...saved,
           revision: result.revision,
-          actions: actionsAfter(state.actions, result.actions, saved.files),
-          diagnostics: confirmed(state.diagnostics, result.diagnostics),
+          actions: actionsAfter(state.actions, actions, saved.files),
+          diagnostics: confirmed(state.diagnostics, diagnostics),
         });
       });
     },

@@ -96,6 +96,17 @@ describe('saving', () => {
     state().applySaved(later, { revision: 5, files: [], actions: project.actions, diagnostics: [] });
     expect(state().vocabulary.specs.has('Wave')).toBe(false);
   });
+  it('keeps what it knew of the actions when the server could not check what it saved', () => {
+    const before = state();
+    const notChecked = { code: 'BT0009', severity: 'warning', message: 'Not checked', hint: '' } as const;
+    for (const revision of [4, 5]) {
+      const diagnostics = [notChecked as unknown as (typeof before.diagnostics)[number]];
+      state().applySaved([], { revision, files: [], actions: [], diagnostics, checked: false });
+    }
+    expect(state().revision).toBe(5);
+    expect(state().actions).toEqual(before.actions);
+    expect(state().diagnostics.map(({ code }) => code)).toEqual(['BT0009']);
+  });
   it('creates and deletes files, and forgets what the server never saw', () => {
     state().addFile('actions/New.py', 'x');
     state().deleteFile('actions/New.py');

@@ -1,4 +1,5 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
+import type { CheckResult } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
 import { emptyHistory, record, type Renaming } from '@/model/history';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
@@ -10,6 +11,8 @@ import { actionPath, treePath, type ProjectData } from './state';
 enablePatches();
 
 export type Diagrams = Readonly<Record<string, Diagram>>;
+
+type Findings = Pick<ProjectData, 'diagnostics' | 'actions'>;
 
 export const initialData: ProjectData = {
   projectId: null,
@@ -53,6 +56,15 @@ function vocabularyOf(data: ProjectData): Vocabulary {
   const vocabulary = makeVocabulary(catalog, data.actions, trees, data.mainTree);
   lastActions.set(vocabulary, data.actions);
   return vocabulary;
+}
+
+const NOT_CHECKED = 'BT0009';
+
+/** What is known after an answer: one that could not check the project adds that to what was known before. */
+export function findingsAfter(before: Findings, { checked, diagnostics, actions }: CheckResult): Findings {
+  if (checked !== false) return { diagnostics, actions };
+  const earlier = before.diagnostics.filter(({ code }) => code !== NOT_CHECKED);
+  return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
 }
 
 /** What was known, where the server says the same again: nothing that shows it is drawn anew. */

@@ -1,0 +1,136 @@
+"""Python is read by one thread at a time, and in one place."""
+
+from __future__ import annotations
+
+import ast
+import gc
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import translator
+from translator import python_source
+from translator.python_source import parse
+
+ROOT = Path(__file__).parents[2]
+SOURCE = "x = [" + ", ".join(f"f({n}, a=[1, 2])" for n in range(200)) + "]\n"
+
+
+def parsed_by_threads(read, *, rounds):
+    """What goes wrong when eight threads, each on another level of its stack, read the same source."""
+    failures, went_wrong = [], threading.Event()
+
+    def at_depth(depth):
+        return read(SOURCE, "x.py") if depth == 0 else at_depth(depth - 1)
+
+    def work(depth):
+        for _ in range(rounds):
+            if went_wrong.is_set():
+                return
+            try:
+                at_depth(depth)
+            except (SystemError, RecursionError) as error:
+                failures.append(error)
+                went_wrong.set()
+
+    def let_others(*_):  # the collection of garbage comes in the middle of a tree
+        time.sleep(0)
+
+    threads = [threading.Thread(target=work, args=(7 * n,)) for n in range(8)]
+    gc.callbacks.append(let_others)
+    try:
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    finally:
+        gc.callbacks.remove(let_others)
+    return failures
+
+
+def parsed_while_another_does(read, *, patience_s):
+    """Reads, and in the middle of it waits until another thread, deeper in its stack, has read, too."""
+    begin, done = threading.Event(), threading.Event()
+    reader = threading.current_thread()
+
+    def deeper(depth):
+        return read(SOURCE, "y.py") if depth == 0 else deeper(depth - 1)
+
+    def other():
+        begin.wait(60)
+        deeper(20)
+        done.set()
+
+    def wait_for_other(phase, _):
+        if threading.current_thread() is reader and not begin.is_set():
+            begin.set()
+            done.wait(patience_s)
+
+    thread = threading.Thread(target=other)
+    thread.start()
+    gc.callbacks.append(wait_for_other)
+    try:
+        return read(SOURCE, "x.py")
+    finally:
+        gc.callbacks.remove(wait_for_other)
+        begin.set()
+        thread.join()
+
+
+def test_two_threads_that_read_at_once_disturb_each_other_without_us():
+    with pytest.raises(SystemError, match="recursion depth mismatch"):
+        parsed_while_another_does(ast.parse, patience_s=60)
+
+
+def test_one_thread_reads_at_a_time():
+    assert isinstance(parsed_while_another_does(parse, patience_s=0.3), ast.Module)
+
+
+def test_eight_threads_that_read_python_do_not_disturb_each_other():
+    assert parsed_by_threads(parse, rounds=10) == []
+
+
+def test_what_the_standard_library_disturbs_is_read_again(monkeypatch):
+    read, raised = ast.parse, [SystemError("depth mismatch"), RecursionError("too deep")]
+
+    def disturbed(*arguments, **options):
+        if raised:
+            raise raised.pop()
+        return read(*arguments, **options)
+
+    monkeypatch.setattr(python_source.ast, "parse", disturbed)
+    assert isinstance(parse("x = 1", "x.py"), ast.Module)
+    assert raised == []
+
+
+def test_what_is_nested_too_deeply_is_told_as_that():
+    found = translator.inspect_action(
+        "x = " + "[" * 150 + "]" * 150 + "\n" + "-" * 5000 + "1\n", "actions/Deep.py"
+    )
+    assert [each.code for each in found.diagnostics] == ["BT0601"]
+
+
+IN_PROCESSES_OF_THEIR_OWN = {"backend/language/message_stubs.py", "tree_gardener/actions.py"}
+"""Run by `python -m backend.language.library`, and by the application."""
+
+
+def test_nothing_else_in_the_web_server_makes_syntax_trees():
+    found = set()
+    for package in ("backend", "translator", "tree_gardener"):
+        for path in (ROOT / package).rglob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text())):
+                is_call = isinstance(node, ast.Call)
+                if is_call and ast.unparse(node.func) in {
+                    "ast.parse",
+                    "compile",
+                    "builtins.compile",
+                    "exec",
+                    "eval",
+                }:
+                    found.add(str(path.relative_to(ROOT)))
+                if isinstance(node, ast.ImportFrom) and node.module == "ast":
+                    assert not {alias.name for alias in node.names} & {"parse", "literal_eval"}, path
+    assert found == IN_PROCESSES_OF_THEIR_OWN | {"translator/python_source.py"}
+    assert not any("tree_gardener.actions" in path.read_text() for path in (ROOT / "backend").rglob("*.py"))

@@ -9,12 +9,15 @@ from allauth.socialaccount.adapter import DefaultSocialAccountAdapter
 from django.core.exceptions import ValidationError
 
 from backend.accounts import invitations
+from backend.accounts.attempts import Attempt, bounds, browser_of, forget, remember
 from backend.accounts.audit import client_address
 from backend.accounts.texts import text
 from backend.config.environment import environment
 
 if TYPE_CHECKING:
-    from django.http import HttpRequest
+    from django.http import HttpRequest, HttpResponse
+
+    from backend.accounts.attempts import Bound
 
 
 def domain_is_allowed(email: str) -> bool:
@@ -40,6 +43,35 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
     def get_client_ip(self, request: HttpRequest) -> str:
         """As the guard read it, with the proxies that are believed."""
         return client_address.get() or "0.0.0.0"  # noqa: S104 - no address to listen on
+
+    def pre_authenticate(self, request: HttpRequest, **credentials: Any) -> None:
+        """Refuses where a password was wrong too often; allauth's own counts would shut others out."""
+        self._attempt = Attempt(self._bounds(request, credentials))
+        if not self._attempt.is_allowed:
+            raise self.validation_error("too_many_login_attempts")
+
+    def _rollback_login_failed_rl_usage(self) -> None:
+        """Called when the password was right."""
+        self._attempt.take_back()
+
+    def _delete_login_attempts_cached_email(self, request: HttpRequest, **credentials: Any) -> None:
+        """Called when a new password was set."""
+        forget(self._bounds(request, credentials))
+        super()._delete_login_attempts_cached_email(request, **credentials)
+
+    def _bounds(self, request: HttpRequest, credentials: dict[str, Any]) -> tuple[Bound, ...]:
+        from backend.accounts.actions import user_named  # noqa: PLC0415 - models are not loaded yet above
+
+        typed = str(credentials.get("email") or credentials.get("username") or "").strip()
+        user = user_named(typed) if typed else None
+        account = user.pk if user is not None else f"“{typed.casefold()}”"
+        return bounds(account, client_address.get(), browser_of(request))
+
+    def post_login(self, request: HttpRequest, user: Any, **options: Any) -> HttpResponse:
+        """Whoever is in, their browser is known from now on."""
+        response: HttpResponse = super().post_login(request, user, **options)
+        remember(request, response, user.pk)
+        return response
 
     def authentication_failed(self, request: HttpRequest, **credentials: Any) -> None:
         """Notes failed sign-ins."""

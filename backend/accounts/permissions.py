@@ -5,11 +5,15 @@ What someone may do with a project is decided where projects are found (`backend
 
 from __future__ import annotations
 
+import hashlib
 from typing import TYPE_CHECKING, Any
 
+from django.conf import settings
 from rest_framework.permissions import SAFE_METHODS, BasePermission
 from rest_framework.throttling import SimpleRateThrottle
 
+from backend.accounts.attempts import network_of
+from backend.accounts.audit import client_address
 from backend.accounts.models import User
 from backend.config.environment import environment
 from backend.config.problems import StudioError
@@ -81,6 +85,19 @@ class ExpensiveCalls(SimpleRateThrottle):
             return True
         return super().allow_request(request, view)
 
-    def get_cache_key(self, request: Request, view: APIView) -> str:
-        """One count a user; guests share one an address."""
-        return f"expensive-{request.user.pk or self.get_ident(request)}"
+    def get_cache_key(self, request: Request, view: APIView) -> str | None:
+        """One count a user; of guests, one a session."""
+        session = request.COOKIES.get(settings.SESSION_COOKIE_NAME, "")
+        return f"expensive-{request.user.pk or hashlib.sha256(session.encode()).hexdigest()}"
+
+
+class ExpensiveCallsOfGuests(ExpensiveCalls):
+    """Bounds those of all guests behind one address, who get as many sessions as they ask for."""
+
+    def get_rate(self) -> str:
+        """For a class of them."""
+        return f"{10 * environment().expensive_calls_per_minute}/min"
+
+    def get_cache_key(self, request: Request, view: APIView) -> str | None:
+        """None for users, whom this does not bound."""
+        return None if request.user.pk else f"guests-{network_of(client_address.get())}"

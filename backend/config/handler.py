@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextvars
 import os
-from contextlib import suppress
+from contextlib import asynccontextmanager, suppress
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 
@@ -21,16 +21,22 @@ from django.urls import set_script_prefix
 from backend.config.bodies import BODY, Bodies, BodyRefusedError, ClientLeftError
 from backend.config.environment import environment
 from backend.config.middleware import secured
-from backend.config.problems import problem_response
+from backend.config.problems import problem, problem_response
 from backend.config.threads import Threads
 
 if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
 
     from backend.config.bodies import Refused, Upload
 
 THREADS: Final = {"local": 8, "team": 8}
 """By mode; each has a connection to the database."""
+HASHING: Final = ("/accounts/", "/admin/")
+"""Where passwords come, each of which takes a processor a third of a second."""
+MOST_WAITING: Final = 600
+RETRY_S: Final = 30
 LINGER_S: Final = 10.0
 LINGER_BYTES: Final = 64 * 1024 * 1024
 """For how long, and how much of a body, is thrown away that was refused."""
@@ -51,6 +57,8 @@ class ThreadedHandler(ASGIHandler):
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
         self._threads = Threads(THREADS[environment().mode], "http")
+        self._hashing = asyncio.Semaphore(max(2, (os.cpu_count() or 1) // 2))
+        self._waiting = 0
         self._bodies = Bodies(self._threads, upload, environment().data_dir / "uploads")
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
@@ -60,13 +68,31 @@ class ThreadedHandler(ASGIHandler):
                 # What a request sets for itself (language, address) must not stay with the thread.
                 context = contextvars.copy_context()
                 work = partial(context.run, self._answer, scope, body.file)
-                answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
+                async with self._turn(scope):
+                    answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
         except ClientLeftError:
             return
         except BodyRefusedError as error:
             await _send_and_close(_refusal(scope, error.refused), receive, send)
             return
         await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
+
+    @asynccontextmanager
+    async def _turn(self, scope: HTTPScope) -> AsyncIterator[None]:
+        """Waits, without a thread, while as many passwords are hashed as may be at a time."""
+        if scope["method"] != "POST" or not scope["path"].startswith(HASHING):
+            yield
+            return
+        if self._waiting >= MOST_WAITING:
+            sentence = "Too many people sign in at this moment."
+            document = problem(503, "busy", detail=sentence, hint="Try again in a minute.")
+            raise BodyRefusedError(document, retry_s=RETRY_S)
+        self._waiting += 1
+        try:
+            async with self._hashing:
+                yield
+        finally:
+            self._waiting -= 1
 
     def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer:
         set_script_prefix(get_script_prefix(scope))

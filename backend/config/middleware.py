@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ipaddress import ip_address
 from typing import TYPE_CHECKING, Final
 from urllib.parse import urlencode
 
@@ -12,6 +11,7 @@ from django.shortcuts import render
 from backend.accounts.audit import client_address
 from backend.accounts.middleware import PAGES
 from backend.config import guard
+from backend.config.clients import FORWARDED, address_of, proxies
 from backend.config.environment import environment
 from backend.config.problems import problem, problem_response
 
@@ -35,6 +35,7 @@ CONTENT_SECURITY_POLICY: Final = "; ".join(
         "frame-ancestors 'none'",
     )
 )
+FORWARDED_META: Final = {name: "HTTP_" + name.upper().replace("-", "_") for name in FORWARDED}
 HEADERS: Final = {
     "Content-Security-Policy": CONTENT_SECURITY_POLICY,
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -98,7 +99,9 @@ class Guard(Middleware):
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
         """Answers refused requests and the link with the token."""
-        client_address.set(address_of(request))
+        headers = {name: request.META[key] for name, key in FORWARDED_META.items() if key in request.META}
+        client_address.set(address_of(request.META.get("REMOTE_ADDR"), headers))
+        proxies.see(headers)
         if "\0" in request.path_info or "%00" in request.META.get("QUERY_STRING", ""):
             # No name holds one, and no database stores one.
             sentence = "An address holds no NUL character."
@@ -111,17 +114,6 @@ class Guard(Middleware):
             return refuse(request, refusal) if refusal else exchange(request, facts.host)
         refusal = guard.check(facts)
         return refuse(request, refusal) if refusal else None
-
-
-def address_of(request: HttpRequest) -> str | None:
-    """The client's address: what the outermost proxy that we believe wrote down, or the connection's."""
-    hops = environment().proxy_hops
-    forwarded = [part.strip() for part in request.META.get("HTTP_X_FORWARDED_FOR", "").split(",")]
-    address = forwarded[-hops] if 0 < hops <= len(forwarded) else request.META.get("REMOTE_ADDR", "")
-    try:
-        return str(ip_address(address))
-    except ValueError:
-        return None
 
 
 def facts_of(request: HttpRequest) -> guard.Facts:

@@ -14,6 +14,7 @@ import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
 
+from backend.config.clients import proxies
 from backend.config.environment import environment
 from backend.config.logs import set_up
 
@@ -171,6 +172,7 @@ def _alone() -> Iterator[None]:
 def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
     """Serves until SIGINT or SIGTERM; then ends every session and returns."""
     set_up(log_level, environment().log_style)
+    proxies.at_start()
     with ended_by_interrupt():
         server = _make_server(on_ready)
     with suppress(KeyboardInterrupt):
@@ -201,6 +203,7 @@ def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
         ws_ping_interval=20,
         ws_ping_timeout=40,
         server_header=False,
+        proxy_headers=False,  # `clients.address_of` alone says whom we believe
         timeout_graceful_shutdown=GRACE_S,
     )
     return Server(config)

@@ -165,7 +165,15 @@ ACCOUNT_PREVENT_ENUMERATION = True
 ACCOUNT_SESSION_REMEMBER = True
 ACCOUNT_USERNAME_MIN_LENGTH = 2
 ACCOUNT_USERNAME_BLACKLIST = ["local", "admin", "root", "system"]
-ACCOUNT_RATE_LIMITS = {"login": "30/m/ip", "login_failed": "10/m/ip,5/5m/key"}
+# Failed sign-ins are counted by `backend.accounts.attempts`, wrong codes of second factors here, by user.
+# A class behind one address signs up, or follows links for new passwords, at once.
+ACCOUNT_RATE_LIMITS = {
+    "login": "",
+    "login_failed": "5/5m/key",
+    "signup": "300/m/ip",
+    "reset_password": "100/m/ip,5/m/key",
+    "reset_password_from_key": "300/m/ip",
+}
 SOCIALACCOUNT_ADAPTER = "backend.accounts.adapters.SocialAccountAdapter"
 SOCIALACCOUNT_LOGIN_ON_GET = False
 SOCIALACCOUNT_ONLY = False
@@ -191,7 +199,10 @@ MFA_TOTP_TOLERANCE = 1
 REST_FRAMEWORK: dict[str, Any] = {
     "DEFAULT_AUTHENTICATION_CLASSES": ["backend.accounts.authentication.GuardAuthentication"],
     "DEFAULT_PERMISSION_CLASSES": ["backend.accounts.permissions.MayAsk"],
-    "DEFAULT_THROTTLE_CLASSES": ["backend.accounts.permissions.ExpensiveCalls"],
+    "DEFAULT_THROTTLE_CLASSES": [
+        "backend.accounts.permissions.ExpensiveCalls",
+        "backend.accounts.permissions.ExpensiveCallsOfGuests",
+    ],
     "DEFAULT_PARSER_CLASSES": ["backend.config.parsers.StrictJSONParser"],
     "DEFAULT_RENDERER_CLASSES": ["rest_framework.renderers.JSONRenderer"],
     "DEFAULT_SCHEMA_CLASS": "backend.config.openapi.ProblemSchema",

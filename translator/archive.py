@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.foreign import is_of_tool
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 MAX_FILES = 5_000
 MAX_FILE_BYTES = 64 * 1024 * 1024
 MAX_TOTAL_BYTES = 256 * 1024 * 1024
-SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules", ".git"}
+SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules"}
 # zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
 _CHUNK = 1024 * 1024
@@ -67,7 +68,7 @@ def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]
         kind = stat.S_IFMT(entry.external_attr >> 16)
         if path is None or kind not in {0, stat.S_IFREG, stat.S_IFDIR} or path in seen:
             raise _error("BT0921", file, path=entry.filename[:200].encode("utf-8", "replace").decode())
-        if entry.is_dir() or not SKIPPED_FOLDERS.isdisjoint(path.split("/")):
+        if entry.is_dir() or is_of_tool(path) or not SKIPPED_FOLDERS.isdisjoint(path.split("/")):
             continue
         seen.add(path)
         data = _bounded(archive, entry, file, MAX_TOTAL_BYTES - total)
@@ -108,10 +109,12 @@ def read_folder(folder: Path) -> dict[str, bytes]:
     files: dict[str, bytes] = {}
     total = 0
     for place, folders, names in os.walk(folder):
-        folders[:] = sorted(name for name in folders if name not in SKIPPED_FOLDERS and name[0] != ".")
+        folders[:] = sorted(
+            name for name in folders if name not in SKIPPED_FOLDERS and not is_of_tool(f"{name}/")
+        )
         for name in sorted(names):
             path = Path(place, name)
-            if path.is_symlink() or not path.is_file():
+            if is_of_tool(name) or path.is_symlink() or not path.is_file():
                 continue
             total += path.stat().st_size
             if total > MAX_TOTAL_BYTES or len(files) >= MAX_FILES:

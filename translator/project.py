@@ -13,6 +13,7 @@ from translator.action import KEPT_BYTES, ActionModel, inspect_action
 from translator.catalog import NodeModel, PortModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, restore
+from translator.foreign import without_tools
 from translator.settings import PROJECT_FILE, Settings, read_settings
 from translator.text import bad_character
 from translator.tree import used_types
@@ -81,6 +82,7 @@ def load(files: Mapping[str, bytes]) -> Project:
     Raises:
         TranslatorError: If the files hold no project at all: neither `project.json` nor a diagram.
     """
+    files = without_tools(files)
     found: list[Diagnostic] = []
     if PROJECT_FILE not in files and not any(_is_diagram(path) for path in files):
         raise TranslatorError([diagnostic("BT0008", Place(PROJECT_FILE))])
@@ -97,6 +99,7 @@ def load(files: Mapping[str, bytes]) -> Project:
 
 def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:
     """Makes the project that `load` would read from `files`, of settings and trees that are known already."""
+    files = without_tools(files)
     found: list[Diagnostic] = []
     placed = {tree.id: tree for tree in trees}
     actions = _load_actions(files, used_types(placed.values()), found)

@@ -3,8 +3,9 @@
 Three rules on localhost, the first two on a server with accounts, the same for pages, the API and sockets:
 
 * the `Host` is one of ours, so that a rebound DNS name of a foreign page gets nothing (421);
-* an `Origin`, when the browser sends one, is that host itself (403). Sockets must send one, for a
-  browser lets every page open them; a program that shows the token instead needs none;
+* an `Origin`, when the browser sends one, is that host itself, by http or https as users open it (403).
+  Sockets must send one, for a browser lets every page open them; a program that shows the token instead
+  needs none;
 * the request carries the cookie that the link with the token was exchanged for, or the token (403).
 
 The token is made anew at each start. The cookie's value is derived from it, so that reading one does
@@ -38,6 +39,7 @@ class Facts:
 
     method: str
     host: str
+    schemes: tuple[str, ...] = ("http",)
     origin: str | None = None
     fetch_site: str | None = None
     cookie: str | None = None
@@ -100,13 +102,8 @@ def judge(
 
     With `accounts` there is no link to know; who asks is told by their own session, later.
     """
-    if host_name(facts.host) not in LOOPBACK_HOSTS and host_name(facts.host) not in extra_hosts:
-        return Refusal(
-            421,
-            "host_refused",
-            f"This server does not answer for the host “{facts.host[:100]}”.",
-            "Open it under its own address, or name the host in BT_STUDIO_ALLOWED_HOSTS.",
-        )
+    if refusal := judge_host(facts.host, extra_hosts):
+        return refusal
     if accounts:
         return _judge_origin(facts)
     is_program = keys.is_token(facts.bearer)
@@ -122,6 +119,18 @@ def judge(
     return None
 
 
+def judge_host(host: str, extra_hosts: tuple[str, ...]) -> Refusal | None:
+    """Returns why a host is none of ours."""
+    if host_name(host) in LOOPBACK_HOSTS or host_name(host) in extra_hosts:
+        return None
+    return Refusal(
+        421,
+        "host_refused",
+        f"This server does not answer for the host “{host[:100]}”.",
+        "Open it under its own address, or name the host in BT_STUDIO_ALLOWED_HOSTS.",
+    )
+
+
 def _judge_origin(facts: Facts) -> Refusal | None:
     if facts.origin is None:
         foreign = facts.socket or facts.fetch_site not in {None, "same-origin", "none"}
@@ -129,7 +138,8 @@ def _judge_origin(facts: Facts) -> Refusal | None:
         allowed = is_harmless or not foreign
     else:
         # A GET with a foreign Origin is a cross-origin read: no header of ours lets a page see it.
-        allowed = urlsplit(facts.origin).netloc.lower() == facts.host.lower()
+        own = {f"{scheme}://{facts.host.lower()}" for scheme in facts.schemes}
+        allowed = facts.origin.lower() in own
     if allowed:
         return None
     return Refusal(
@@ -145,6 +155,21 @@ def known_hosts() -> tuple[str, ...]:
     settings = environment()
     public = (host_name(settings.public_host),) if settings.public_url else ()
     return public + tuple(host.lower() for host in settings.allowed_hosts)
+
+
+def schemes_of(host: str, connection: str) -> tuple[str, ...]:
+    """How pages of this host are opened; `connection` is how this request came.
+
+    A page that came by plain http, which anybody on its way may have written, is not of a server that
+    its users open by https.
+    """
+    settings = environment()
+    if settings.public_url and host.lower() == settings.public_host:
+        return (urlsplit(settings.public_url).scheme,)
+    if host_name(host) in LOOPBACK_HOSTS:
+        return (connection,)
+    # Of a further name the settings say no more; a tunnel in front of it may do TLS.
+    return ("https",) if settings.is_https else ("http", "https")
 
 
 def check(facts: Facts) -> Refusal | None:

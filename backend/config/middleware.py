@@ -36,7 +36,7 @@ CONTENT_SECURITY_POLICY: Final = "; ".join(
     )
 )
 FORWARDED_META: Final = {name: "HTTP_" + name.upper().replace("-", "_") for name in FORWARDED}
-HEADERS: Final = {
+HEADERS: Final[dict[str, str]] = {
     "Content-Security-Policy": CONTENT_SECURITY_POLICY,
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -52,6 +52,14 @@ def page_policy() -> str:
     issuer = environment().oidc_issuer
     origin = "/".join(issuer.split("/")[:3])
     return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
+
+
+def headers_of_all() -> dict[str, str]:
+    """The headers of every answer."""
+    settings = environment()
+    if not settings.is_https or not settings.hsts_days:
+        return HEADERS
+    return HEADERS | {"Strict-Transport-Security": f"max-age={settings.hsts_days * 24 * 3600}"}
 
 
 class Middleware:
@@ -87,7 +95,7 @@ def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
         # Under `no-referrer`, browsers send forms with `Origin: null`.
         response.headers["Referrer-Policy"] = "same-origin"
         response.headers["Content-Security-Policy"] = page_policy()
-    for name, value in HEADERS.items():
+    for name, value in headers_of_all().items():
         response.headers.setdefault(name, value)
     if path.startswith("/api/"):
         response.headers.setdefault("Cache-Control", "private, no-cache")
@@ -123,6 +131,7 @@ def facts_of(request: HttpRequest) -> guard.Facts:
     return guard.Facts(
         method=request.method or "GET",
         host=host,
+        schemes=guard.schemes_of(host, request.scheme or "http"),
         origin=request.META.get("HTTP_ORIGIN"),
         fetch_site=request.META.get("HTTP_SEC_FETCH_SITE"),
         cookie=request.COOKIES.get(guard.cookie_name(host)),

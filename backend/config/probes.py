@@ -2,31 +2,41 @@
 
 * `/health/live`: this process answers.
 * `/health/ready`: it answers and its database does.
-* `/metrics`: Prometheus' text, for loopback clients, or for those that show `BT_STUDIO_METRICS_TOKEN`.
+* `/metrics`: Prometheus' text, for programs of this machine, or those that show `BT_STUDIO_METRICS_TOKEN`.
+
+Probes name the server by its address, by a name that it answers for, or not at all: a page of another site,
+whose name was made to point here, learns nothing.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hmac
 import json
 import logging
 import time
+from ipaddress import ip_address
 from typing import TYPE_CHECKING, Any, Final
 
 from asgiref.sync import sync_to_async
 
-from backend.config import metrics
+from backend.config import guard, metrics
+from backend.config.clients import is_on_this_machine
 from backend.config.environment import environment
 from backend.config.healthcheck import READY
+from backend.config.middleware import headers_of_all
+from backend.config.problems import MEDIA_TYPE, problem
+from backend.config.scopes import headers_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, HTTPScope, Scope
 
 log = logging.getLogger("bt_studio.access")
 
 LIVE: Final = "/health/live"
 METRICS: Final = "/metrics"
-LOOPBACK: Final = frozenset({"127.0.0.1", "::1"})
 
 
 def probed(application: ASGI3Application) -> ASGI3Application:
@@ -53,7 +63,8 @@ async def _http(
     path = scope["path"]
     if path in {LIVE, READY, METRICS}:
         status, kind, body = await _answer(scope)
-        headers = [(b"content-type", kind.encode()), (b"cache-control", b"no-store")]
+        own = {"Content-Type": kind, "Cache-Control": "no-store"}
+        headers = [(name.encode(), value.encode()) for name, value in (headers_of_all() | own).items()]
         await send({"type": "http.response.start", "status": status, "headers": headers, "trailers": False})
         await send({"type": "http.response.body", "body": body.encode(), "more_body": False})
         return
@@ -78,24 +89,43 @@ async def _http(
 
 
 async def _answer(scope: HTTPScope) -> tuple[int, str, str]:
+    headers = headers_of(scope)
+    shows_token = _shows_token(headers)
+    refusal = None if shows_token else _judge_host(headers.get("host", ""))
+    if refusal is not None:
+        document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
+        return refusal.status, MEDIA_TYPE, json.dumps(document) + "\n"
     if scope["path"] == LIVE:
         return 200, "application/json", '{"status": "ok"}\n'
     if scope["path"] == READY:
         trouble = await sync_to_async(_trouble)()
         answer = {"status": "failed", "detail": trouble} if trouble else {"status": "ok"}
         return 503 if trouble else 200, "application/json", json.dumps(answer) + "\n"
-    if not _may_measure(scope):
+    if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
     return 200, "text/plain; version=0.0.4; charset=utf-8", await sync_to_async(_metrics)()
 
 
-def _may_measure(scope: HTTPScope) -> bool:
+def _judge_host(host: str) -> guard.Refusal | None:
+    if not host:  # no browser leaves it out
+        return None
+    with contextlib.suppress(ValueError):
+        ip_address(guard.host_name(host).strip("[]"))
+        return None
+    return guard.judge_host(host, guard.known_hosts())
+
+
+def _shows_token(headers: Mapping[str, str]) -> bool:
     token = environment().metrics_token.get_secret_value()
-    given = next((value for name, value in scope["headers"] if name == b"authorization"), b"")
-    if token:
-        return hmac.compare_digest(given, f"Bearer {token}".encode())
+    given = headers.get("authorization", "")
+    return bool(token) and hmac.compare_digest(given.encode(), f"Bearer {token}".encode())
+
+
+def _may_measure(scope: HTTPScope, headers: Mapping[str, str]) -> bool:
+    if environment().metrics_token.get_secret_value():
+        return False
     client = scope["client"]
-    return client is not None and client[0] in LOOPBACK
+    return client is not None and is_on_this_machine(client[0], headers)
 
 
 def _trouble() -> str:

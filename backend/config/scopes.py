@@ -6,8 +6,11 @@ from http.cookies import CookieError, SimpleCookie
 from typing import TYPE_CHECKING
 
 from backend.config import guard
+from backend.config.environment import environment
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from asgiref.typing import HTTPScope, WebSocketScope
 
 
@@ -24,6 +27,13 @@ def cookies_of(header: str) -> dict[str, str]:
         return {}
 
 
+def scheme_of(scope: HTTPScope | WebSocketScope, headers: Mapping[str, str]) -> str:
+    """`http` or `https`: as the proxy that we believe says, else as the connection is."""
+    told = headers.get("x-forwarded-proto", "") if environment().proxy_hops else ""
+    scheme = told or scope.get("scheme", "http")
+    return "https" if scheme in {"https", "wss"} else "http"
+
+
 def facts_of(scope: HTTPScope | WebSocketScope) -> guard.Facts:
     """What the guard needs to know."""
     headers = headers_of(scope)
@@ -32,6 +42,7 @@ def facts_of(scope: HTTPScope | WebSocketScope) -> guard.Facts:
     return guard.Facts(
         method=scope.get("method", "GET"),  # type: ignore[arg-type] # a socket has none
         host=host,
+        schemes=guard.schemes_of(host, scheme_of(scope, headers)),
         origin=headers.get("origin"),
         fetch_site=headers.get("sec-fetch-site"),
         cookie=cookies_of(headers.get("cookie", "")).get(guard.cookie_name(host)),

@@ -56,6 +56,12 @@ class TeamSettings(BaseSettings):
         le=5,
         description="Number of reverse proxies in front whose `X-Forwarded-For` is believed.",
     )
+    hsts_days: int = Field(
+        default=365,
+        ge=0,
+        description="Days for which browsers are told to open this server by https alone (HSTS), where "
+        "`BT_STUDIO_PUBLIC_URL` is https; 0 tells nothing.",
+    )
     smtp_url: SecretStr = Field(
         default=SecretStr(""),
         description="Mail server: `smtp://`, `smtp+starttls://` or `smtps://` `user:password@host:port`; "

@@ -50,7 +50,7 @@ def create_project(
         InvalidInputError: a path or `project.json` is not acceptable.
         QuotaExceededError: it is too large.
     """
-    checked = {names.file_path(path): data for path, data in files.items()}
+    checked = {names.writable_path(path): data for path, data in files.items()}
     manifest = read(checked.get(MANIFEST, b"{}"))
     transaction_lock(f"projects of {acting_user.pk}")
     taken = set(Project.objects.filter(owner=acting_user, deleted_at=None).values_list("name_key", flat=True))
@@ -146,6 +146,8 @@ def restore_revision(
         base = now[path].revision if path in now else 0
         if path not in then:
             wanted.append(FileChange(path, base, delete=True))
+        elif names.is_of_tool(path):
+            continue
         elif path not in now or now[path].sha256 != then[path].sha256:
             wanted.append(FileChange(path, base, Content.of(then[path].data)))
     if MANIFEST in {change.path for change in wanted}:
@@ -179,7 +181,8 @@ def label_revision(
 def duplicate_project(project_id: UUID, *, acting_user: User, name: str = "") -> Project:
     """Makes a new project of the current files; it starts its own history."""
     source = queries.project(project_id, user=acting_user, need=Need.COPY)
-    files = {path: file.data for path, file in queries.current_files(source).items()}
+    kept_files = queries.current_files(source)
+    files = {path: file.data for path, file in kept_files.items() if not names.is_of_tool(path)}
     return create_project(files, acting_user=acting_user, name=name, message=f"Duplicate of {source.name}")
 
 
@@ -261,12 +264,14 @@ def _locked(project_id: UUID, user: User, need: Need = Need.WRITE) -> Project:
 
 
 def _checked(change: FileChange) -> FileChange:
+    # What an older version let in can still be taken out.
+    rule = names.file_path if change.content is None or change.rename_to else names.writable_path
     return FileChange(
-        path=names.file_path(change.path, field="files.path"),
+        path=rule(change.path, field="files.path"),
         base_revision=change.base_revision,
         content=change.content,
         delete=change.delete,
-        rename_to=names.file_path(change.rename_to, field="files.rename_to") if change.rename_to else "",
+        rename_to=names.writable_path(change.rename_to, field="files.rename_to") if change.rename_to else "",
     )
 
 

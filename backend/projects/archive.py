@@ -21,14 +21,14 @@ if TYPE_CHECKING:
 _DATE: Final = (1980, 1, 1, 0, 0, 0)
 _CHUNK: Final = 256 * 1024
 XML_SUFFIXES: Final = (".xml", ".btproj")
-_JUNK: Final = ("__MACOSX/", ".git/", "__pycache__/")
+_JUNK: Final = ("__MACOSX/", "__pycache__/")
 
 
 def pack(files: Mapping[str, bytes]) -> bytes:
-    """The same files give the same bytes."""
+    """The same files give the same bytes; what is of a tool stays here."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted(files):
+        for path in sorted(path for path in files if not names.is_of_tool(path)):
             entry = zipfile.ZipInfo(path, _DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.external_attr = 0o644 << 16
@@ -99,7 +99,12 @@ def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, limit: int) -> bytes
 
 
 def _is_junk(name: str) -> bool:
-    return name.startswith(_JUNK) or "/__pycache__/" in name or name.rpartition("/")[2] == ".DS_Store"
+    return (
+        names.is_of_tool(name)
+        or name.startswith(_JUNK)
+        or "/__pycache__/" in name
+        or name.rpartition("/")[2] == ".DS_Store"
+    )
 
 
 def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:

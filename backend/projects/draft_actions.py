@@ -33,7 +33,7 @@ def save_draft(  # noqa: PLR0913 - a draft's columns
         QuotaExceededError: it is larger than a file may be.
     """
     project = queries.project(project_id, user=acting_user, need=Need.WRITE, lock=True)
-    path = names.file_path(path)
+    path = names.writable_path(path)
     if len(content.encode()) > environment().max_file_bytes:
         raise too_large(path)
     before = Draft.objects.filter(project=project, author=acting_user, path=path).first()

@@ -77,6 +77,30 @@ def file_path(path: str, *, field: str = "path") -> str:
     return clean
 
 
+def writable_path(path: str, *, field: str = "path") -> str:
+    """Returns the path in the form that is stored, of a file that is to be written.
+
+    Raises:
+        InvalidInputError: it cannot be the path of a file, or lies in a folder of a tool.
+    """
+    clean = file_path(path, field=field)
+    if is_of_tool(clean):
+        raise InvalidInputError(
+            f"“{shown(clean)}” cannot be written: folders that begin with a dot are for tools, which run "
+            "what they say.",
+            hint="Choose a folder without a dot before its name.",
+            field=field,
+        )
+    return clean
+
+
+def is_of_tool(path: str) -> bool:
+    """Whether a file belongs to a tool, such as `.git/config`; the translator has the rule."""
+    from translator.foreign import is_of_tool as rule  # noqa: PLC0415 - keeps the start of the server short
+
+    return rule(path)
+
+
 def _segment_complaint(segment: str) -> str:  # noqa: PLR0911 - one return a rule
     if segment in {"", ".", ".."}:
         return "a part of it is empty, “.” or “..”"

@@ -5,11 +5,15 @@ from __future__ import annotations
 import io
 import stat
 import zipfile
+from pathlib import Path
 
 import pytest
 
-from translator import TranslatorError, archive
+from translator import TranslatorError, archive, load, to_app_zip, to_ros2_package
 from translator.archive import read_folder, read_zip, safe_path
+from translator.foreign import is_of_tool
+
+ROOT = Path(__file__).parents[2]
 
 
 def zipped(entries):
@@ -86,6 +90,38 @@ def test_many_small_bombs_are_refused(monkeypatch):
 @pytest.mark.parametrize("raw", [b"", b"junk", zipped([("a", b"x" * 1000)])[:60]])
 def test_what_is_no_zip_is_refused(raw):
     assert refused(raw) == "BT0920"
+
+
+TOOLS = [
+    ".git/config",
+    ".GIT/hooks/pre-commit",
+    "assets/.git/config",
+    ".vscode/tasks.json",
+    "lib/.idea/workspace.xml",
+    ".git",
+    "lib/.Git",
+    "GIT~1/config",
+    ".g\u200cit/config",
+    ".\uff27it/config",
+    ".github/workflows/ci.yml",
+    "\u200c.git/config",
+]
+OWN = ["trees/A.json", ".gitignore", "assets/.gitkeep", "git/config", "a.git/x", "lib/x.py", ".clang-format"]
+
+
+def test_what_is_of_a_tool_is_known_by_its_path():
+    assert [path for path in TOOLS + OWN if is_of_tool(path)] == TOOLS
+
+
+def test_what_is_of_a_tool_is_read_from_no_zip_and_goes_into_no_package():
+    example = ROOT / "examples" / "laser_bump_and_go"
+    files = read_folder(example)
+    dirty = files | dict.fromkeys(TOOLS, b"x")
+    assert read_zip(zipped(dirty.items())) == files
+    for made in (dict(to_ros2_package(load(dirty)).files), read_zip(to_app_zip(load(dirty)))):
+        assert made
+        assert not [path for path in made if is_of_tool(path)]
+        assert b"x" not in made.values()
 
 
 def test_folders_are_read_without_links_and_hidden_folders(tmp_path):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.config.guard import Facts, Keys, cookie_name, host_name, judge
+from backend.config.guard import Facts, Keys, cookie_name, host_name, judge, schemes_of
 
 KEYS = Keys("secret-token")
 HOST = "127.0.0.1:8000"
@@ -100,3 +100,34 @@ def test_servers_on_two_ports_have_two_cookies():
 def test_host_names_lose_their_port_and_nothing_else():
     assert host_name("[::1]:80") == "[::1]"
     assert host_name("A.B") == "a.b"
+
+
+@pytest.mark.parametrize(
+    ("public_url", "host", "connection", "schemes"),
+    [
+        ("", "127.0.0.1:8000", "http", ("http",)),
+        ("", "studio.lan:8000", "http", ("http", "https")),
+        ("https://bt.example.org", "bt.example.org", "http", ("https",)),
+        ("https://bt.example.org", "BT.example.org", "http", ("https",)),
+        ("http://bt.example.org", "bt.example.org", "https", ("http",)),
+        ("https://bt.example.org", "other.example.org", "http", ("https",)),
+        ("https://bt.example.org", "localhost:8000", "http", ("http",)),
+    ],
+)
+def test_a_host_is_opened_by_the_scheme_of_the_settings(settings_of, public_url, host, connection, schemes):
+    settings_of(public_url=public_url)
+    assert schemes_of(host, connection) == schemes
+
+
+def test_a_page_that_came_by_plain_http_is_not_of_a_server_with_tls():
+    facts = {"host": "bt.example.org", "schemes": ("https",), "method": "POST", "socket": True}
+    judged = [
+        judge(
+            Facts(origin=f"{scheme}://bt.example.org", **facts),
+            KEYS,
+            extra_hosts=("bt.example.org",),
+            accounts=True,
+        )
+        for scheme in ("https", "http", "ftp")
+    ]
+    assert [refusal and refusal.code for refusal in judged] == [None, "origin_refused", "origin_refused"]

@@ -121,3 +121,12 @@ def test_no_answer_invites_other_origins(browser):
 )
 def test_the_front_end_hands_out_nothing_beside_itself(browser, path):
     assert browser.get(path).status_code in {400, 404}
+
+
+def test_browsers_are_told_to_stay_with_tls_where_there_is_some(browser, settings_of):
+    name = "Strict-Transport-Security"
+    assert name not in browser.get("/").headers
+    settings_of(public_url="https://bt.example.org")
+    assert browser.get("/").headers[name] == "max-age=31536000"
+    settings_of(public_url="https://bt.example.org", hsts_days=0)
+    assert name not in browser.get("/").headers

@@ -36,6 +36,46 @@ async def test_a_process_that_answers_is_alive_and_ready():
     assert (await ask(probes.READY, client=("10.0.0.9", 5)))[0] == 200
 
 
+def host(name):
+    return [(b"host", name.encode())]
+
+
+@pytest.mark.parametrize("path", [probes.LIVE, probes.READY, probes.METRICS])
+async def test_a_page_whose_name_was_made_to_point_here_learns_nothing(path, settings_of):
+    for name in ("evil.example", "evil.example:8000", "127.0.0.1.evil.example"):
+        status, body = await ask(path, headers=host(name))
+        assert (status, json.loads(body)["code"]) == (421, "host_refused")
+    settings_of(allowed_hosts='["web"]')
+    for name in ("127.0.0.1:8000", "localhost:8000", "[::1]:8000", "10.0.0.5:8000", "web:8000"):
+        assert (await ask(path, headers=host(name)))[0] == 200
+
+
+async def test_the_metrics_of_a_server_behind_a_proxy_on_its_machine_are_not_for_all(settings_of):
+    forwarded = [(b"x-forwarded-for", b"203.0.113.7")]
+    assert (await ask(probes.METRICS, headers=forwarded))[0] == 403
+    settings_of(metrics_token="t0ken")
+    shown = [(b"authorization", b"Bearer t0ken"), *host("prometheus.internal"), *forwarded]
+    assert (await ask(probes.METRICS, headers=shown))[0] == 200
+    assert (await ask(probes.METRICS))[0] == 403
+
+
+async def test_probes_have_the_headers_of_every_answer():
+    sent = []
+
+    async def send(message):
+        sent.append(message)
+
+    scope = {"type": "http", "path": probes.LIVE, "method": "GET", "client": ("127.0.0.1", 5), "headers": []}
+    await probes.probed(None)(scope, None, send)
+    names = {name.lower() for name, _ in sent[0]["headers"]}
+    assert {
+        b"x-content-type-options",
+        b"content-security-policy",
+        b"x-frame-options",
+        b"cache-control",
+    } <= names
+
+
 async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch):
     monkeypatch.setattr(probes, "_trouble", lambda: "The database does not answer: OperationalError.")
     status, body = await ask(probes.READY)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import unicodedata
+import zipfile
 
 import pytest
 from hypothesis import given
@@ -112,3 +114,47 @@ def test_a_free_name_counts_up_and_keeps_its_length():
     free = names.free_name(long, {names.key(long)})
     assert len(free) <= names.MAX_NAME_LENGTH
     assert free.endswith(" 2")
+
+
+# --- what is of a tool --------------------------------------------------------------------------------
+
+
+@pytest.mark.django_db(transaction=True)
+def test_folders_of_tools_can_neither_be_written_nor_renamed_to(api):
+    one = api.post("projects", {"name": "Robot"}, expect=201)["id"]
+    api.save(one, {"path": "lib/a.txt", "base_revision": 0, "content": "x"})
+    for path in (".git/config", "lib/.GIT/hooks/post-checkout", ".vscode/tasks.json", ".git", "git~1/x"):
+        refused = api.save(one, {"path": path, "base_revision": 0, "content": "x"}, expect=422)
+        assert "for tools" in refused["detail"]
+        api.save(one, {"path": "lib/a.txt", "base_revision": 2, "rename_to": path}, expect=422)
+        api.put(f"projects/{one}/drafts/{path}", {"base_revision": 0, "content": ""}, expect=422)
+    api.save(one, {"path": ".gitignore", "base_revision": 0, "content": "x"})
+
+
+@pytest.mark.django_db(transaction=True)
+def test_what_an_older_version_let_in_stays_here_and_can_be_taken_out(api, monkeypatch):
+    one = api.post("projects", {"name": "Robot"}, expect=201)["id"]
+    with monkeypatch.context() as older:
+        older.setattr(names, "is_of_tool", lambda path: False)
+        api.save(one, {"path": ".git/config", "base_revision": 0, "content": "x"})
+    assert ".git/config" in {each["path"] for each in api.get(f"projects/{one}")["files"]}
+    exported = zipfile.ZipFile(io.BytesIO(api.get(f"projects/{one}/export")))
+    assert ".git/config" not in exported.namelist()
+    copy = api.post(f"projects/{one}/duplicate", expect=201)
+    assert ".git/config" not in {each["path"] for each in copy["files"]}
+    api.save(one, {"path": ".git/config", "base_revision": 2, "delete": True})
+    back = api.post(f"projects/{one}/revisions/2/restore")
+    assert ".git/config" not in {each["path"] for each in back["files"]}
+
+
+@pytest.mark.django_db(transaction=True)
+def test_an_import_leaves_folders_of_tools_out(api):
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as packed:
+        packed.writestr("Robot/project.json", "{}")
+        for path in (".git/config", ".vscode/tasks.json", "assets/.git/HEAD", "assets/a.txt"):
+            packed.writestr(f"Robot/{path}", "x")
+    stream.seek(0)
+    stream.name = "Robot.zip"
+    made = api.client.post("/api/v1/projects/import", {"file": stream}).json()
+    assert {each["path"] for each in made["files"]} == {"project.json", "assets/a.txt"}

@@ -1,6 +1,6 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
+.PHONY: audit sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
@@ -61,6 +61,9 @@ lock: setup-test ## writes the locks again, with the newest versions that pyproj
 
 audit: setup-test ## asks the advisory services about all locked packages (needs the internet)
 	@$(BIN)/python -m tests.tools.audit
+
+sbom: setup-test ## writes what the program is made of as CycloneDX, to var/sbom
+	@$(BIN)/python -m tests.tools.sbom var/sbom
 
 clean: ## removes everything that set-up and runs made, but for your projects in var/data
 	rm -rf .venv frontend/node_modules frontend/dist var/setup .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -17,13 +17,14 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
     python3 -m venv /build/tools && /build/tools/bin/pip install -q --require-hashes -r requirements-build.lock
 
 FROM tools AS packages
-COPY requirements.lock docker/without.py docker/executor.without ./
+COPY requirements.lock docker/without.py docker/notices.py docker/executor.without ./
 RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run/secrets/ca.crt \
     if [ -s /run/secrets/ca.crt ]; then export SSL_CERT_FILE=/run/secrets/ca.crt; fi; \
     python3 without.py requirements.lock executor.without > executor.lock && \
     /build/tools/bin/uv venv -q --python /usr/bin/python3 /opt/bt-studio/.venv && \
     /build/tools/bin/uv pip install -q --link-mode=copy --compile-bytecode --python /opt/bt-studio/.venv/bin/python \
-      --no-deps --require-hashes -r executor.lock
+      --no-deps --require-hashes -r executor.lock && \
+    /opt/bt-studio/.venv/bin/python notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES
 # Message packages of which there is no wheel: tf2_msgs, nav2_msgs …
 COPY executor/__init__.py /opt/bt-studio/executor/__init__.py
 COPY executor/ros /opt/bt-studio/executor/ros
@@ -44,6 +45,8 @@ RUN apt-get update -q && DEBIAN_FRONTEND=noninteractive \
 RUN useradd --uid 10001 --no-create-home --home-dir /tmp --shell /usr/sbin/nologin robot
 WORKDIR /opt/bt-studio
 COPY --from=packages /opt/bt-studio/.venv .venv
+COPY --from=packages /opt/bt-studio/THIRD-PARTY-NOTICES ./
+COPY LICENSE ./
 COPY --from=packages /opt/bt-studio/library library
 COPY tree_gardener tree_gardener
 COPY translator translator

@@ -28,19 +28,22 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
     python3 -m venv /build/tools && /build/tools/bin/pip install -q --require-hashes -r requirements-build.lock
 
 FROM tools AS packages
-COPY requirements.lock docker/without.py docker/web.without ./
+COPY requirements.lock docker/without.py docker/notices.py docker/web.without ./
 RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run/secrets/ca.crt \
     if [ -s /run/secrets/ca.crt ]; then export SSL_CERT_FILE=/run/secrets/ca.crt; fi; \
     python3 without.py requirements.lock web.without > web.lock && \
     /build/tools/bin/uv venv -q --python /usr/bin/python3 /opt/bt-studio/.venv && \
     /build/tools/bin/uv pip install -q --link-mode=copy --compile-bytecode --python /opt/bt-studio/.venv/bin/python \
-      --no-deps --require-hashes -r web.lock
+      --no-deps --require-hashes -r web.lock && \
+    /opt/bt-studio/.venv/bin/python notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES
 
 FROM python
 RUN useradd --uid 10002 --create-home --shell /usr/sbin/nologin studio && \
     install -d -o studio -g studio -m 0700 /var/lib/bt-studio
 WORKDIR /opt/bt-studio
 COPY --from=packages /opt/bt-studio/.venv .venv
+COPY --from=packages /opt/bt-studio/THIRD-PARTY-NOTICES ./
+COPY LICENSE ./
 COPY --from=frontend /build/frontend/dist frontend/dist
 COPY tree_gardener tree_gardener
 COPY translator translator

@@ -1,12 +1,13 @@
 import react from '@vitejs/plugin-react';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
+import { fontNotices, NOTICES } from './notices';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';
 
 export default defineConfig({
-  plugins: [react()],
+  plugins: [react(), fontNotices()],
   resolve: {
     alias: { '@': here('./src'), '@catalog': here('../tree_gardener/catalog.json') },
   },
@@ -26,6 +27,8 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     assetsInlineLimit: 0,
     sourcemap: false,
+    // Licences ask that their text goes along with what is made of them.
+    license: { fileName: NOTICES },
   },
   test: {
     environment: 'jsdom',

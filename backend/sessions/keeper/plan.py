@@ -74,7 +74,8 @@ def seccomp_profile() -> str:
 
     Those that Docker's own profile of 2025 allows a program without capabilities, but for what no robot
     needs: asynchronous I/O in the kernel (`io_uring`, `io_setup`), tracing of others, 32-bit programs, and
-    sockets that are not of Unix, IP or netlink. Older Dockers allow `io_uring` and AF_VSOCK, which leads to the host.
+    sockets that are not of Unix, IP or netlink. Older Dockers allow `io_uring` and AF_VSOCK, which leads to
+    the host.
     """
     profile = json.loads(PROFILE.read_text(encoding="utf-8"))
     return json.dumps(profile, separators=(",", ":"))

@@ -61,7 +61,8 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 const NOT_CHECKED = 'BT0009';
 
 /** What is known after an answer: one that could not check the project adds that to what was known before. */
-export function findingsAfter(before: Findings, { checked, diagnostics, actions }: CheckResult): Findings {
+export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
+  const { checked, diagnostics, actions } = answer;
   if (checked !== false) return { diagnostics, actions };
   const earlier = before.diagnostics.filter(({ code }) => code !== NOT_CHECKED);
   return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };

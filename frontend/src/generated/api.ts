@@ -3483,6 +3483,8 @@ export interface operations {
             query?: {
                 /** @description The file's name, where the body is the file itself. */
                 filename?: string;
+                /** @description Escape bare & and < in attributes of XML. */
+                repair?: boolean;
             };
             header?: {
                 /**

@@ -1,7 +1,7 @@
 import react from '@vitejs/plugin-react';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
-import { fontNotices, NOTICES } from './notices';
+import { fontNotices, NOTICES } from './notices.ts';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';

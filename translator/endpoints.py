@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import ast
 import re
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from translator.python_source import parse
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -68,10 +69,7 @@ _TF_CLASSES = {
 def endpoints(source: str, path: str) -> list[Endpoint]:
     """Returns what a Python file opens, in order of the file; nothing where it is no Python."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            module = ast.parse(source)
-        return list(_Reader(module, path).found())
+        return list(_Reader(parse(source, path), path).found())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
 

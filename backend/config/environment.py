@@ -95,6 +95,11 @@ class Environment(TeamSettings):
         description="Largest body of a request of somebody who is signed in; of others a megabyte is read. "
         "An archive that is imported may be as large as its user has room.",
     )
+    work_deadline_s: float = Field(
+        default=10.0,
+        gt=0,
+        description="How long translating, checking, comparing or packing a project may take.",
+    )
     deleted_project_days: int = Field(
         default=30, ge=0, description="Days after which a deleted project can no longer be restored."
     )

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import atexit
 import threading
+import time
 from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
@@ -34,6 +35,8 @@ class Threads:
         self._idle: list[Inbox] = []
         self._waiting: deque[Job] = deque()
         self._threads: dict[threading.Thread, Inbox] = {}
+        self._full_since_s: float | None = None
+        self._progress_s = 0.0
         atexit.register(self.end)
 
     def run(self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any]) -> asyncio.Future[Any]:
@@ -49,6 +52,18 @@ class Threads:
 
         self._hand_out(job)
         return future
+
+    def full_for_s(self) -> float:
+        """For how long no thread has been free."""
+        with self._lock:
+            return 0.0 if self._full_since_s is None else time.monotonic() - self._full_since_s
+
+    def stuck_for_s(self) -> float:
+        """For how long no thread has been free or has come to the end of a piece of work."""
+        with self._lock:
+            if self._full_since_s is None:
+                return 0.0
+            return time.monotonic() - max(self._full_since_s, self._progress_s)
 
     def end(self) -> None:
         """Lets what is begun come to its end, and waits for it a while."""
@@ -70,6 +85,8 @@ class Threads:
             else:
                 self._waiting.append(job)
                 return
+            if not self._idle and len(self._threads) == self._number:
+                self._full_since_s = time.monotonic()
         inbox.put(job)
 
     def _begin_thread(self) -> Inbox:
@@ -91,9 +108,11 @@ class Threads:
     def _next(self, inbox: Inbox) -> Job | None:
         """What waits for a thread; without it, this one is idle."""
         with self._lock:
+            self._progress_s = time.monotonic()
             if self._waiting:
                 return self._waiting.popleft()
             self._idle.append(inbox)
+            self._full_since_s = None
             return None
 
 

@@ -7,6 +7,7 @@ import threading
 
 import pytest
 
+from backend.config import threads as module
 from backend.config.threads import Threads
 
 
@@ -80,3 +81,26 @@ def test_the_end_waits_for_what_is_begun():
     threading.Timer(0.05, gate.set).start()
     threads.end()
     assert done == [1]
+
+
+def test_it_tells_for_how_long_no_thread_was_free_and_none_made_progress(threads, monkeypatch):
+    now = [100.0]
+    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+
+    async def ask():
+        loop = asyncio.get_running_loop()
+        gates = [threading.Event() for _ in range(4)]
+        first, second, third, fourth = (threads.run(loop, gate.wait) for gate in gates)
+        assert (threads.full_for_s(), threads.stuck_for_s()) == (0.0, 0.0)
+        now[0] += 10
+        assert (threads.full_for_s(), threads.stuck_for_s()) == (10.0, 10.0)
+        gates[0].set()  # the fourth takes the thread of the first
+        await first
+        now[0] += 5
+        assert (threads.full_for_s(), threads.stuck_for_s()) == (15.0, 5.0)
+        for gate in gates:
+            gate.set()
+        await asyncio.gather(second, third, fourth)
+        return threads.full_for_s(), threads.stuck_for_s()
+
+    assert asyncio.run(ask()) == (0.0, 0.0)

@@ -1,0 +1,36 @@
+"""What can become of work that was handed to the pool.
+
+StudioError
+├─ BusyError         503, with Retry-After: too much waits already
+├─ TookTooLongError  422: the deadline passed, the worker was ended
+└─ WorkFailedError   422: the worker died, for want of memory as a rule
+"""
+
+from __future__ import annotations
+
+from backend.config.problems import StudioError
+
+
+class BusyError(StudioError):
+    """Too much work waits for a worker."""
+
+    status = 503
+    code = "busy"
+    title = "The server is busy"
+    retry_after_s = 5
+
+
+class TookTooLongError(StudioError):
+    """The deadline passed."""
+
+    status = 422
+    code = "took_too_long"
+    title = "The work took too long"
+
+
+class WorkFailedError(StudioError):
+    """The worker died of the work."""
+
+    status = 422
+    code = "work_failed"
+    title = "The work could not be done"

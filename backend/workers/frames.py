@@ -1,0 +1,71 @@
+"""Messages between the pool and a worker: a length, then msgpack.
+
+Not pickle: what a worker says comes from a process that has read users' files.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+if TYPE_CHECKING:
+    import socket
+
+PREFIX: Final = struct.Struct("!Q")
+MAX_BYTES: Final = 1 << 30
+
+
+class FrameError(Exception):
+    """The other end is gone, or what it says is no message."""
+
+
+def pack(message: Any) -> bytes:
+    """A message as bytes; equal messages give equal bytes."""
+    return msgspec.msgpack.encode(message, order="deterministic")
+
+
+def send(connection: socket.socket, packed: bytes) -> None:
+    """Sends a packed message.
+
+    Raises:
+        TimeoutError: the socket's time is over.
+        FrameError: the other end is gone.
+    """
+    try:
+        connection.sendall(PREFIX.pack(len(packed)))
+        connection.sendall(packed)
+    except TimeoutError:
+        raise
+    except OSError as error:
+        raise FrameError("the other end is gone") from error
+
+
+def receive(connection: socket.socket) -> bytes:
+    """Returns the next message, still packed.
+
+    Raises:
+        TimeoutError: the socket's time is over.
+        FrameError: the other end is gone, or sends more than a message may have.
+    """
+    (length,) = PREFIX.unpack(_exactly(connection, PREFIX.size))
+    if length > MAX_BYTES:
+        raise FrameError(f"a message of {length} bytes is too large")
+    return bytes(_exactly(connection, length))
+
+
+def _exactly(connection: socket.socket, length: int) -> bytearray:
+    data = bytearray(length)
+    view = memoryview(data)
+    while view:
+        try:
+            count = connection.recv_into(view)
+        except TimeoutError:
+            raise
+        except OSError as error:
+            raise FrameError("the other end is gone") from error
+        if not count:
+            raise FrameError("the other end is gone")
+        view = view[count:]
+    return data

@@ -1,0 +1,178 @@
+"""What a worker does: pure functions of files and texts, without Django.
+
+What the translator refuses is an answer like any other: `{"refused": [diagnostic, …]}`.
+"""
+
+from __future__ import annotations
+
+import base64
+from typing import TYPE_CHECKING, Any, Final
+
+from backend.workers import differences, zips
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from translator import Tree
+    from translator.tree_text import TreeText
+
+Files = dict[str, bytes]
+Answer = dict[str, Any]
+
+
+def warm_up() -> None:
+    """Imports what the first job would wait for."""
+    import translator  # noqa: F401, PLC0415 - the web server, too, imports this module
+
+
+def report(files: Files) -> Answer:
+    """Problems and actions of a project."""
+    import translator  # noqa: PLC0415 - as above
+
+    try:
+        project = translator.load(files)
+    except translator.TranslatorError as error:
+        return {"diagnostics": _told(error), "actions": []}
+    diagnostics = [found.to_json() for found in translator.check(project)]
+    return {"diagnostics": diagnostics, "actions": [action.to_json() for action in project.actions.values()]}
+
+
+def xml(files: Files, *, self_contained: bool) -> Answer:
+    """The tree as BT.CPP XML."""
+    import translator  # noqa: PLC0415
+
+    project = translator.load(files)
+    return {"text": translator.self_contained(project) if self_contained else translator.to_xml(project)}
+
+
+def app(files: Files) -> Answer:
+    """What the browser sends to the executor to run the project, without the universe."""
+    import translator  # noqa: PLC0415
+
+    project = translator.load(files)
+    settings = project.settings
+    return {
+        "app_zip_base64": base64.b64encode(translator.to_app_zip(project)).decode("ascii"),
+        "tick_hz": settings.tick_hz,
+        "on_finish": settings.on_finish,
+        "on_error": settings.on_error,
+        "universe": settings.universe,
+        "robot": settings.robot,
+    }
+
+
+def app_zip(files: Files) -> Answer:
+    """The dockerized app."""
+    import translator  # noqa: PLC0415
+
+    return {"zip": translator.to_app_zip(translator.load(files))}
+
+
+def package(files: Files, *, name: str | None) -> Answer:
+    """The ROS 2 package with the engine beside it."""
+    import translator  # noqa: PLC0415
+
+    made = translator.to_ros2_package(translator.load(files), name=name)
+    return {"name": made.name, "zip": made.to_zip()}
+
+
+def package_preview(files: Files, *, name: str | None) -> Answer:
+    """What the ROS 2 package will hold."""
+    import translator  # noqa: PLC0415
+
+    made = translator.to_ros2_package(translator.load(files), name=name)
+    return {
+        "name": made.name,
+        "files": [{"path": path, "size": len(data)} for path, data in sorted(made.files.items())],
+        "manifest": made.files.get(f"{made.name}/package.xml", b"").decode(),
+        "diagnostics": [found.to_json() for found in made.diagnostics],
+    }
+
+
+def opened(files: Files, *, name: str) -> Answer:
+    """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML."""
+    import translator  # noqa: PLC0415
+
+    return {"files": dict(translator.open_files(files, name=name).files)}
+
+
+def inspect(source: str, *, filename: str) -> Answer:
+    """What the source of an action says about it."""
+    import translator  # noqa: PLC0415
+
+    return translator.inspect_action(source, filename).to_json()
+
+
+def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
+    """A diagram as XML, patched into an earlier text of it where there is one."""
+    from translator.tree_text import write_tree_text  # noqa: PLC0415
+
+    return _text(write_tree_text(_tree(diagram), base=base, ids=ids))
+
+
+def read_tree(xml: str, *, diagram: str) -> Answer:
+    """The diagram that an edited text stands for; `diagram` is what it was before.
+
+    A text that is half typed is nothing out of the ordinary: it has no diagram, and findings that say why.
+    """
+    from translator import TranslatorError  # noqa: PLC0415
+    from translator.diagram import diagram_text  # noqa: PLC0415
+    from translator.tree_text import read_tree_text  # noqa: PLC0415
+
+    now = _tree(diagram)
+    try:
+        found = read_tree_text(xml, now)
+    except TranslatorError as error:
+        return {"xml": xml, "ranges": [], "diagram": None, "diagnostics": _told(error)}
+    told = [item.to_json() for item in found.diagnostics]
+    return _text(found.text) | {"diagram": diagram_text(found.tree), "diagnostics": told}
+
+
+def pack(files: Files) -> Answer:
+    """Files as a zip; the same files give the same bytes."""
+    return {"zip": zips.pack(files)}
+
+
+def diff(older: Mapping[str, str | None], newer: Mapping[str, str | None]) -> Answer:
+    """The differences of files as text; None stands for what is no text."""
+    return {"files": differences.diff(older, newer)}
+
+
+def _tree(diagram: str) -> Tree:
+    from translator import TranslatorError  # noqa: PLC0415
+    from translator.diagram import restore  # noqa: PLC0415
+
+    tree, found = restore(diagram, file="diagram.json")
+    if tree is None:
+        raise TranslatorError(found)
+    return tree
+
+
+def _text(text: TreeText) -> Answer:
+    ranges = [{"node": r.node, "start": r.start, "open_end": r.open_end, "end": r.end} for r in text.ranges]
+    return {"xml": text.xml, "ranges": ranges}
+
+
+def _told(error: Any) -> list[Any]:
+    return [found.to_json() for found in error.diagnostics]
+
+
+def _refusing(job: Callable[..., Answer]) -> Callable[..., Answer]:
+    def answer(**arguments: Any) -> Answer:
+        from translator import TranslatorError  # noqa: PLC0415
+
+        try:
+            return job(**arguments)
+        except TranslatorError as error:
+            return {"refused": _told(error)}
+
+    return answer
+
+
+JOBS: Final[dict[str, Callable[..., Answer]]] = {
+    job.__name__: _refusing(job)
+    for job in (
+        *(report, xml, app, app_zip, package, package_preview, opened),
+        *(inspect, write_tree, read_tree, pack, diff),
+    )
+}

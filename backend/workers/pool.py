@@ -1,0 +1,306 @@
+"""The pool: a thread for each worker process, a fair queue before them, and answers kept by content."""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import logging
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from collections import OrderedDict
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, Final
+
+import msgspec
+
+from backend.config.environment import REPOSITORY, environment
+from backend.workers import frames
+from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
+from backend.workers.fair import FairQueue, QueueFullError
+
+log = logging.getLogger(__name__)
+
+WORKERS: Final = {"local": 2, "team": max(4, os.cpu_count() or 1)}
+"""By mode. On a team server, two users with their share still leave room for a third."""
+PER_OWNER: Final = 2
+WAITING_PER_WORKER: Final = 4
+MEMORY_BYTES: Final = 1 << 30
+KEPT_BYTES: Final = 64 << 20
+LARGEST_KEPT_BYTES: Final = 8 << 20
+SMALLER: Final = "Make the project smaller: split it, or remove what it does not need."
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a pool may use.
+
+    Attributes:
+        workers: processes, each started when it is first needed.
+        per_owner: jobs of one owner that are at work at a time.
+        waiting: jobs of all owners that may wait.
+        deadline_s: how long one job may be at work.
+        memory_bytes: what one worker may allocate.
+    """
+
+    workers: int
+    per_owner: int
+    waiting: int
+    deadline_s: float
+    memory_bytes: int
+
+
+@dataclass(frozen=True)
+class _Job:
+    key: bytes
+    packed: bytes
+    future: Future[Any]
+
+
+class Pool:
+    """Does jobs in worker processes; its methods may be called from every thread."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._changed = threading.Condition()
+        self._queue: FairQueue[_Job] = FairQueue(room=limits.waiting, per_owner=limits.per_owner)
+        self._going: dict[bytes, Future[Any]] = {}
+        self._kept = _Kept()
+        self._workers: list[_Worker] = []
+        self._idle = 0
+        self._is_closed = False
+        atexit.register(self.close)
+
+    @property
+    def waiting(self) -> int:
+        """How many jobs wait for a worker."""
+        with self._changed:
+            return len(self._queue)
+
+    def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
+        """Has a job done; the same job is done once, whoever asks for it.
+
+        Args:
+            owner: for whom; owners take turns.
+            job: a name of `jobs.JOBS`.
+            arguments: what it takes: text, numbers, bytes, lists and dicts of them.
+
+        Returns:
+            its result; or `TookTooLongError`, `WorkFailedError`.
+
+        Raises:
+            BusyError: too much waits already.
+        """
+        packed = frames.pack({"job": job, "arguments": arguments})
+        key = hashlib.sha256(packed).digest()
+        future: Future[Any] = Future()
+        with self._changed:
+            if (kept := self._kept.get(key)) is not None:
+                future.set_result(msgspec.msgpack.decode(kept)["result"])
+                return future
+            if (going := self._going.get(key)) is not None:
+                return going
+            try:
+                self._queue.put(owner, _Job(key, packed, future))
+            except QueueFullError:
+                raise BusyError(
+                    "The server has too much to translate and check at the moment.",
+                    hint="Try again in a few seconds.",
+                ) from None
+            self._going[key] = future
+            if not self._idle and len(self._workers) < self._limits.workers:
+                self._workers.append(_Worker(self, f"worker_{len(self._workers)}"))
+            self._changed.notify()
+        return future
+
+    def close(self) -> None:
+        """Ends all workers; jobs that wait or are at work fail."""
+        with self._changed:
+            self._is_closed = True
+            workers, self._workers = self._workers, []
+            self._changed.notify_all()
+        for worker in workers:
+            worker.kill()
+        for worker in workers:
+            worker.thread.join()
+        while (taken := self._queue.take()) is not None:
+            taken[1].future.set_exception(WorkFailedError("The server stops."))
+        atexit.unregister(self.close)
+
+    def next(self) -> tuple[str, _Job] | None:
+        """Waits for a job to do; None when the pool is closed."""
+        with self._changed:
+            self._idle += 1
+            try:
+                while not self._is_closed:
+                    if (taken := self._queue.take()) is not None:
+                        return taken
+                    self._changed.wait()
+                return None
+            finally:
+                self._idle -= 1
+
+    def done(self, owner: str, job: _Job, answer: bytes | Exception) -> None:
+        """Hands out what became of a job."""
+        result, error = _opened(answer)
+        with self._changed:
+            self._queue.done(owner)
+            self._going.pop(job.key, None)
+            if error is None and isinstance(answer, bytes):
+                self._kept.put(job.key, answer)
+            self._changed.notify()  # another job of this owner may begin
+        if error is None:
+            job.future.set_result(result)
+        else:
+            job.future.set_exception(error)
+
+    @property
+    def limits(self) -> Limits:
+        """What it may use."""
+        return self._limits
+
+
+def _opened(answer: bytes | Exception) -> tuple[Any, Exception | None]:
+    if isinstance(answer, Exception):
+        return None, answer
+    try:
+        message = msgspec.msgpack.decode(answer)
+    except msgspec.DecodeError:
+        return None, WorkFailedError("The work ended in disorder.", hint=SMALLER)
+    if "error" in message:
+        log.error("a job failed\n%s", message["error"])
+        return None, WorkFailedError(
+            "The work could not be done; this is a fault of BT Studio.",
+            hint="The server's log has the details.",
+        )
+    return message["result"], None
+
+
+class _Worker:
+    """A thread that waits for one process, and starts another where that one died."""
+
+    def __init__(self, pool: Pool, name: str) -> None:
+        self._pool = pool
+        self._process: subprocess.Popen[bytes] | None = None
+        self._connection: socket.socket | None = None
+        self.thread = threading.Thread(target=self._work, name=name, daemon=True)
+        self.thread.start()
+
+    def kill(self) -> None:
+        """Ends the process, whatever it does."""
+        process = self._process
+        if process is not None:
+            with suppress(ProcessLookupError):
+                process.kill()
+
+    def _work(self) -> None:
+        while (taken := self._pool.next()) is not None:
+            owner, job = taken
+            answer: bytes | Exception
+            try:
+                answer = self._done(job)
+            except Exception as error:  # the one who waits must hear of everything
+                answer = error
+            self._pool.done(owner, job, answer)
+        self._end()
+
+    def _done(self, job: _Job) -> bytes:
+        limits = self._pool.limits
+        connection = self._connected(limits)
+        connection.settimeout(limits.deadline_s)
+        try:
+            frames.send(connection, job.packed)
+            return frames.receive(connection)
+        except TimeoutError:
+            self._end()
+            raise TookTooLongError(
+                f"The work took more than {limits.deadline_s:g} s and was ended.", hint=SMALLER
+            ) from None
+        except frames.FrameError:
+            reason = self._end()
+            log.warning("a worker %s", reason)
+            raise WorkFailedError(
+                f"The work needed more than a worker may use: it {reason}.", hint=SMALLER
+            ) from None
+
+    def _connected(self, limits: Limits) -> socket.socket:
+        if self._connection is not None:
+            return self._connection
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(
+                [
+                    *(sys.executable, "-m", "backend.workers.worker"),
+                    *("--fd", str(theirs.fileno())),
+                    *("--memory-bytes", str(limits.memory_bytes)),
+                    *("--deadline-s", str(limits.deadline_s)),
+                ],
+                cwd=REPOSITORY,
+                env=_ENVIRONMENT,
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+        self._connection = ours
+        return ours
+
+    def _end(self) -> str:
+        """Ends the process and says how it ended."""
+        connection, self._connection = self._connection, None
+        process, self._process = self._process, None
+        if connection is not None:
+            connection.close()
+        if process is None:
+            return "was not there"
+        process.kill()
+        code = process.wait()
+        return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
+
+
+# A worker reads users' files: it gets what Python needs, and none of the server's secrets.
+_ENVIRONMENT: Final = {
+    name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH") if name in os.environ
+}
+
+
+class _Kept:
+    """Answers by the hash of their question; what was not used for longest goes."""
+
+    def __init__(self) -> None:
+        self._answers: OrderedDict[bytes, bytes] = OrderedDict()
+        self._size = 0
+
+    def get(self, key: bytes) -> bytes | None:
+        found = self._answers.get(key)
+        if found is not None:
+            self._answers.move_to_end(key)
+        return found
+
+    def put(self, key: bytes, answer: bytes) -> None:
+        if len(answer) > LARGEST_KEPT_BYTES or key in self._answers:
+            return
+        self._answers[key] = answer
+        self._size += len(answer)
+        while self._size > KEPT_BYTES:
+            self._size -= len(self._answers.popitem(last=False)[1])
+
+
+@lru_cache(maxsize=1)
+def pool() -> Pool:
+    """The pool of this web server."""
+    workers = WORKERS[environment().mode]
+    return Pool(
+        Limits(
+            workers=workers,
+            per_owner=PER_OWNER,
+            waiting=WAITING_PER_WORKER * workers,
+            deadline_s=environment().work_deadline_s,
+            memory_bytes=MEMORY_BYTES,
+        )
+    )

@@ -1,0 +1,72 @@
+"""A worker, `python -m backend.workers.worker --fd N`: does one job after the other and keeps only caches.
+
+It knows neither the database nor any secret, and ends when the web server does.
+"""
+
+from __future__ import annotations
+
+import argparse
+import gc
+import os
+import resource
+import signal
+import socket
+import traceback
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+from backend.workers import frames
+from backend.workers.jobs import JOBS, warm_up
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+NICENESS: Final = 5
+"""Answers to requests come before heavy work."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Works until the pool closes the socket."""
+    parser = argparse.ArgumentParser(prog="python -m backend.workers.worker", description=__doc__)
+    parser.add_argument("--fd", type=int, required=True)
+    parser.add_argument("--memory-bytes", type=int, required=True)
+    parser.add_argument("--deadline-s", type=float, required=True)
+    options = parser.parse_args(arguments)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is the server's to handle
+    resource.setrlimit(resource.RLIMIT_DATA, (options.memory_bytes, options.memory_bytes))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    os.nice(NICENESS)
+    warm_up()
+    gc.collect()
+    gc.freeze()
+    with socket.socket(fileno=options.fd) as connection:
+        serve(connection, options.deadline_s)
+
+
+def serve(connection: socket.socket, deadline_s: float) -> None:
+    """Answers messages until there are no more."""
+    try:
+        while True:
+            packed = frames.receive(connection)
+            # The pool ends who works for too long; without a pool, the worker ends itself.
+            signal.setitimer(signal.ITIMER_REAL, 2 * deadline_s)
+            answer = _answer(packed)
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            frames.send(connection, answer)
+    except frames.FrameError:
+        return
+
+
+def _answer(packed: bytes) -> bytes:
+    message: dict[str, Any] = msgspec.msgpack.decode(packed)
+    try:
+        return frames.pack({"result": JOBS[message["job"]](**message["arguments"])})
+    except MemoryError:
+        raise  # the process is of no use any more
+    except Exception:
+        return frames.pack({"error": traceback.format_exc()})
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,157 @@
+"""The pool with real processes: what comes back, what is bounded, and what survives what."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from concurrent.futures import wait
+from pathlib import Path
+
+import pytest
+
+from backend.projects.templates import files_of
+from backend.workers import pool as module
+from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
+from backend.workers.pool import Limits, Pool
+
+PATIENCE_S = 60
+
+
+@pytest.fixture
+def make_pool():
+    made = []
+
+    def make(*, workers=2, per_owner=2, waiting=8, deadline_s=PATIENCE_S, memory_bytes=1 << 30):
+        limits = Limits(
+            workers=workers,
+            per_owner=per_owner,
+            waiting=waiting,
+            deadline_s=deadline_s,
+            memory_bytes=memory_bytes,
+        )
+        made.append(Pool(limits))
+        return made[-1]
+
+    yield make
+    for pool in made:
+        pool.close()
+
+
+def pack(pool, size, owner="someone"):
+    """Work that takes longer the larger it is, and differs by its size."""
+    return pool.ask(owner, "pack", files={"a": bytes(size)})
+
+
+def pids(pool):
+    return [worker._process.pid for worker in pool._workers if worker._process is not None]
+
+
+def until(condition):
+    gone = threading.Event()
+    for _ in range(PATIENCE_S * 100):
+        if condition():
+            return
+        gone.wait(0.01)
+    raise AssertionError("it did not come about")
+
+
+def test_a_project_is_checked_as_the_translator_checks_it(make_pool):
+    import translator
+
+    files = files_of("laser_bump_and_go")
+    found = make_pool().ask("someone", "report", files=files).result(PATIENCE_S)
+    project = translator.load(files)
+    assert found["diagnostics"] == [d.to_json() for d in translator.check(project)]
+    assert [action["name"] for action in found["actions"]] == list(project.actions)
+
+
+def test_what_the_translator_refuses_is_an_answer(make_pool):
+    found = make_pool().ask("someone", "xml", files={"project.json": b"{"}, self_contained=False)
+    assert found.result(PATIENCE_S)["refused"][0]["severity"] == "error"
+
+
+def test_the_same_question_is_answered_once(make_pool):
+    pool = make_pool(workers=1)
+    first = pack(pool, 10_000_000)
+    assert pack(pool, 10_000_000, owner="another") is first
+    result = first.result(PATIENCE_S)
+    os.kill(pids(pool)[0], signal.SIGSTOP)  # it could not answer again
+    try:
+        assert pack(pool, 10_000_000).result(0) == result
+    finally:
+        os.kill(pids(pool)[0], signal.SIGCONT)
+
+
+def test_work_that_takes_too_long_is_ended_and_the_next_is_done(make_pool):
+    pool = make_pool(workers=1, deadline_s=3)
+    pack(pool, 1).result(PATIENCE_S)
+    os.kill(pids(pool)[0], signal.SIGSTOP)
+    with pytest.raises(TookTooLongError, match="more than 3 s"):
+        pack(pool, 2).result(PATIENCE_S)
+    assert pack(pool, 3).result(PATIENCE_S)["zip"]
+
+
+def test_a_worker_that_dies_fails_its_own_work_alone(make_pool):
+    pool = make_pool(workers=2)
+    wait([pack(pool, 1, "a"), pack(pool, 2, "b")])
+    lost = pids(pool)[0]
+    os.kill(lost, signal.SIGSTOP)
+    futures = [pack(pool, 10 + n, f"owner {n}") for n in range(6)]
+    until(lambda: sum(f.done() for f in futures) == 5)
+    os.kill(lost, signal.SIGKILL)
+    errors = [error for f in futures if (error := f.exception(PATIENCE_S)) is not None]
+    assert [type(error) for error in errors] == [WorkFailedError]
+    assert "SIGKILL" in str(errors[0])
+    assert pack(pool, 99).result(PATIENCE_S)["zip"]
+
+
+def test_work_that_needs_too_much_memory_fails_with_that_reason(make_pool):
+    pool = make_pool(workers=1, memory_bytes=120 << 20)
+    with pytest.raises(WorkFailedError, match="more than a worker may use"):
+        pool.ask("someone", "pack", files={"a": os.urandom(100 << 20)}).result(PATIENCE_S)
+    assert pack(pool, 3).result(PATIENCE_S)["zip"]
+
+
+def test_more_than_may_wait_is_refused_with_when_to_ask_again(make_pool):
+    pool = make_pool(workers=1, waiting=2)
+    pack(pool, 1).result(PATIENCE_S)
+    os.kill(pids(pool)[0], signal.SIGSTOP)
+    try:
+        going = [pack(pool, 10)]
+        until(lambda: pool.waiting == 0)
+        going += [pack(pool, 11), pack(pool, 12)]
+        with pytest.raises(BusyError) as refused:
+            pack(pool, 13)
+        assert (refused.value.status, refused.value.retry_after_s) == (503, 5)
+    finally:
+        os.kill(pids(pool)[0], signal.SIGCONT)
+    assert all(future.result(PATIENCE_S)["zip"] for future in going)
+
+
+def test_one_owner_does_not_take_the_others_workers(make_pool):
+    pool = make_pool(workers=3, per_owner=2, waiting=20)
+    wait([pack(pool, n, f"owner {n}") for n in range(3)])
+    # The hoarder's work never ends while it is stopped.
+    hoarded = [pack(pool, 60_000_000 + n, "hoarder") for n in range(6)]
+    assert pack(pool, 77, "another").result(PATIENCE_S)["zip"]
+    assert sum(not future.done() for future in hoarded) >= 4
+    assert all(future.result(PATIENCE_S)["zip"] for future in hoarded)
+
+
+def test_workers_see_no_secret_and_end_with_the_pool(make_pool, monkeypatch):
+    pool = make_pool(workers=1)
+    pack(pool, 1).result(PATIENCE_S)
+    (pid,) = pids(pool)
+    assert b"BT_STUDIO" not in Path(f"/proc/{pid}/environ").read_bytes()
+    pool.close()
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_a_worker_does_not_outlive_a_server_that_was_killed(make_pool):
+    pool = make_pool(workers=1)
+    pack(pool, 1).result(PATIENCE_S)
+    worker = pool._workers[0]
+    worker._connection.shutdown(module.socket.SHUT_RDWR)  # as the end of the process does
+    assert worker._process.wait(PATIENCE_S) == 0

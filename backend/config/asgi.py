@@ -65,12 +65,7 @@ async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASG
     await serve(routes, scope, receive, send)
 
 
+requests: Final = ThreadedHandler(Upload(IMPORT, room_for_archive))
 application: ASGI3Application = probed(
-    ProtocolTypeRouter(
-        {
-            "http": ThreadedHandler(Upload(IMPORT, room_for_archive)),
-            "websocket": sockets,
-            "lifespan": lifespan,
-        }
-    )
+    ProtocolTypeRouter({"http": requests, "websocket": sockets, "lifespan": lifespan}), requests.threads
 )

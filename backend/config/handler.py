@@ -16,6 +16,7 @@ from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 from django.core import signals
 from django.core.handlers.asgi import ASGIHandler, get_script_prefix
 from django.core.handlers.base import BaseHandler
+from django.middleware.http import ConditionalGetMiddleware
 from django.urls import set_script_prefix
 
 from backend.config.bodies import BODY, Bodies, BodyRefusedError, ClientLeftError
@@ -23,11 +24,14 @@ from backend.config.environment import environment
 from backend.config.middleware import secured
 from backend.config.problems import problem, problem_response
 from backend.config.threads import Threads
+from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
-    from collections.abc import AsyncIterator
+    from collections.abc import AsyncIterator, Callable
+    from concurrent.futures import Future
 
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
+    from django.http import HttpRequest
 
     from backend.config.bodies import Refused, Upload
 
@@ -50,16 +54,23 @@ class Answer(NamedTuple):
     body: bytes
 
 
+class Unfinished(NamedTuple):
+    """A response that needs no thread until a worker has done its work."""
+
+    request: HttpRequest
+    response: Deferred
+
+
 class ThreadedHandler(ASGIHandler):
     """Django as an ASGI application for HTTP alone."""
 
     def __init__(self, upload: Upload | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
-        self._threads = Threads(THREADS[environment().mode], "http")
+        self.threads = Threads(THREADS[environment().mode], "http")
         self._hashing = asyncio.Semaphore(max(2, (os.cpu_count() or 1) // 2))
         self._waiting = 0
-        self._bodies = Bodies(self._threads, upload, environment().data_dir / "uploads")
+        self._bodies = Bodies(self.threads, upload, environment().data_dir / "uploads")
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
@@ -69,7 +80,10 @@ class ThreadedHandler(ASGIHandler):
                 context = contextvars.copy_context()
                 work = partial(context.run, self._answer, scope, body.file)
                 async with self._turn(scope):
-                    answer: Answer = await self._threads.run(asyncio.get_running_loop(), work)
+                    answer = await self._answered(work)
+                while isinstance(answer, Unfinished):
+                    await _ended(answer.response.work)
+                    answer = await self._answered(partial(context.run, self._complete, answer))
         except ClientLeftError:
             return
         except BodyRefusedError as error:
@@ -94,17 +108,46 @@ class ThreadedHandler(ASGIHandler):
         finally:
             self._waiting -= 1
 
-    def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer:
+    async def _answered(self, work: Callable[[], Answer | Unfinished]) -> Answer | Unfinished:
+        answer: Answer | Unfinished = await self.threads.run(asyncio.get_running_loop(), work)
+        return answer
+
+    def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer | Unfinished:
         set_script_prefix(get_script_prefix(scope))
         scope[BODY] = body  # type: ignore[typeddict-unknown-key]
         _tell_length(scope, body)
         signals.request_started.send(sender=type(self), scope=scope)
         request, refused = self.create_request(scope, body)
-        response: Any = refused if request is None else self.get_response(request)
-        try:
-            return Answer(response.status_code, _headers(response), response.getvalue())
-        finally:
-            response.close()
+        if request is None:
+            return _closed(refused)
+        request.handler_waits = True  # type: ignore[attr-defined]
+        return self._taken(request, self.get_response(request))
+
+    def _complete(self, unfinished: Unfinished) -> Answer | Unfinished:
+        """The other half of an answer: what the views' own middleware would do after it included."""
+        request, deferred = unfinished
+        signals.request_started.send(sender=type(self), scope=getattr(request, "scope", None))
+        return self._taken(request, ConditionalGetMiddleware(lambda _: deferred.complete())(request))
+
+    def _taken(self, request: HttpRequest, response: Any) -> Answer | Unfinished:
+        if isinstance(response, Deferred):
+            response.close()  # gives up what a request holds, the connection to the database among it
+            return Unfinished(request, response)
+        return _closed(response)
+
+
+async def _ended(work: Future[Any]) -> None:
+    """Returns when the work is done, whatever became of it; others may wait for it, too."""
+    waiting = asyncio.wrap_future(work)
+    await asyncio.wait([waiting])
+    waiting.exception()  # that of `work` is what counts
+
+
+def _closed(response: Any) -> Answer:
+    try:
+        return Answer(response.status_code, _headers(response), response.getvalue())
+    finally:
+        response.close()
 
 
 def _tell_length(scope: HTTPScope, body: IO[bytes]) -> None:

@@ -1,7 +1,8 @@
 """What orchestrators and monitors ask, before any guard: is it alive, ready, how busy; and the access log.
 
-* `/health/live`: this process answers.
-* `/health/ready`: it answers and its database does.
+* `/health/live`: this process answers, and its request threads made progress within a minute. It is slow to
+  give up, since an orchestrator's restart would complete the work of an attacker.
+* `/health/ready`: it answers and its database does, and a request thread was free within ten seconds.
 * `/metrics`: Prometheus' text, for programs of this machine, or those that show `BT_STUDIO_METRICS_TOKEN`.
 
 Probes name the server by its address, by a name that it answers for, or not at all: a page of another site,
@@ -33,18 +34,31 @@ if TYPE_CHECKING:
 
     from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, HTTPScope, Scope
 
+    from backend.config.threads import Threads
+
 log = logging.getLogger("bt_studio.access")
 
 LIVE: Final = "/health/live"
 METRICS: Final = "/metrics"
 
 
-def probed(application: ASGI3Application) -> ASGI3Application:
-    """The application with the probes before it, measured and logged."""
+NOT_READY_S: Final = 10.0
+"""For how long no request thread has been free."""
+NOT_LIVE_S: Final = 60.0
+"""For how long no request thread has come to the end of a request."""
+
+
+def probed(application: ASGI3Application, threads: Threads) -> ASGI3Application:
+    """The application with the probes before it, measured and logged.
+
+    Args:
+        application: what is behind the probes.
+        threads: those that answer its requests.
+    """
 
     async def entry(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
         if scope["type"] == "http":
-            await _http(application, scope, receive, send)
+            await _http(application, threads, scope, receive, send)
         elif scope["type"] == "websocket":
             metrics.sockets.add("opened")
             try:
@@ -58,11 +72,15 @@ def probed(application: ASGI3Application) -> ASGI3Application:
 
 
 async def _http(
-    application: ASGI3Application, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable
+    application: ASGI3Application,
+    threads: Threads,
+    scope: HTTPScope,
+    receive: ASGIReceiveCallable,
+    send: ASGISendCallable,
 ) -> None:
     path = scope["path"]
     if path in {LIVE, READY, METRICS}:
-        status, kind, body = await _answer(scope)
+        status, kind, body = await _answer(scope, threads)
         own = {"Content-Type": kind, "Cache-Control": "no-store"}
         headers = [(name.encode(), value.encode()) for name, value in (headers_of_all() | own).items()]
         await send({"type": "http.response.start", "status": status, "headers": headers, "trailers": False})
@@ -88,7 +106,7 @@ async def _http(
         log.debug("request", extra={"facts": facts})
 
 
-async def _answer(scope: HTTPScope) -> tuple[int, str, str]:
+async def _answer(scope: HTTPScope, threads: Threads) -> tuple[int, str, str]:
     headers = headers_of(scope)
     shows_token = _shows_token(headers)
     refusal = None if shows_token else _judge_host(headers.get("host", ""))
@@ -96,14 +114,22 @@ async def _answer(scope: HTTPScope) -> tuple[int, str, str]:
         document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
         return refusal.status, MEDIA_TYPE, json.dumps(document) + "\n"
     if scope["path"] == LIVE:
-        return 200, "application/json", '{"status": "ok"}\n'
+        return _health(_late("has answered", threads.stuck_for_s(), NOT_LIVE_S))
     if scope["path"] == READY:
-        trouble = await sync_to_async(_trouble)()
-        answer = {"status": "failed", "detail": trouble} if trouble else {"status": "ok"}
-        return 503 if trouble else 200, "application/json", json.dumps(answer) + "\n"
+        late = _late("has been free", threads.full_for_s(), NOT_READY_S)
+        return _health(late or await sync_to_async(_trouble)())
     if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
     return 200, "text/plain; version=0.0.4; charset=utf-8", await sync_to_async(_metrics)()
+
+
+def _late(what: str, seconds: float, limit_s: float) -> str:
+    return f"No request thread {what} for {seconds:.0f} s." if seconds > limit_s else ""
+
+
+def _health(trouble: str) -> tuple[int, str, str]:
+    answer = {"status": "failed", "detail": trouble} if trouble else {"status": "ok"}
+    return 503 if trouble else 200, "application/json", json.dumps(answer) + "\n"
 
 
 def _judge_host(host: str) -> guard.Refusal | None:
@@ -141,8 +167,11 @@ def _trouble() -> str:
 
 def _metrics() -> str:
     from backend.sessions.queries import counts  # noqa: PLC0415 - Django must be set up first
+    from backend.workers.pool import pool  # noqa: PLC0415 - as above
 
     states = {state: float(n) for state, n in counts().items()}
     parts = [metrics.requests.text(), metrics.request_seconds.text(), metrics.sockets.text()]
     parts.append(metrics.gauges("bt_studio_sessions", "Executors by state.", "state", states))
+    jobs = {"waiting": float(pool().waiting)}
+    parts.append(metrics.gauges("bt_studio_work_jobs", "Work for the pool of processes.", "state", jobs))
     return "".join(parts)

@@ -45,6 +45,8 @@ class StudioError(Exception):
     status: ClassVar[int] = 400
     code: ClassVar[str] = "bad_request"
     title: ClassVar[str] = "The request cannot be carried out"
+    retry_after_s: ClassVar[int] = 0
+    """When to ask again; 0 where that does not help."""
 
     def __init__(self, detail: str, *, hint: str = "", field: str = "", **extra: Any) -> None:
         super().__init__(detail)
@@ -107,6 +109,7 @@ def exception_handler(error: Exception, context: dict[str, Any]) -> Response | N
     headers: dict[str, str] = {}
     if isinstance(error, StudioError):
         document = error.document()
+        headers |= {"Retry-After": str(error.retry_after_s)} if error.retry_after_s else {}
     elif isinstance(error, Http404):
         document = problem(404, "not_found", detail="There is nothing at this address.")
     elif isinstance(error, OperationalError):

@@ -55,6 +55,7 @@ LOCAL_MIDDLEWARE = [
     "backend.config.middleware.Guard",
     "backend.config.static.FrontEndFiles",
     "django.middleware.http.ConditionalGetMiddleware",
+    "backend.workers.deferred.Waiting",
 ]
 # The API reads its session itself; what pages need costs it nothing.
 TEAM_MIDDLEWARE = [

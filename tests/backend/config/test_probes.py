@@ -11,11 +11,20 @@ import pytest
 from backend.config import metrics, probes
 from backend.config.environment import environment
 from backend.config.logs import JsonFormatter, TextFormatter
+from backend.config.threads import Threads
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
 
-async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None):
+class Busy(Threads):
+    """Threads of which none has been free for a while."""
+
+    def __init__(self, *, full_s=0.0, stuck_s=0.0):
+        super().__init__(1, "busy")
+        self.full_for_s, self.stuck_for_s = lambda: full_s, lambda: stuck_s
+
+
+async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None, threads=None):
     """Status and body of an answer."""
     sent = []
 
@@ -27,7 +36,7 @@ async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None):
         await send({"type": "http.response.body", "body": b""})
 
     scope = {"type": "http", "path": path, "method": "GET", "client": client, "headers": list(headers)}
-    await probes.probed(inner or application)(scope, None, send)
+    await probes.probed(inner or application, threads or Busy())(scope, None, send)
     return sent[0]["status"], b"".join(message.get("body", b"") for message in sent[1:]).decode()
 
 
@@ -84,6 +93,21 @@ async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch)
     assert (await ask(probes.LIVE))[0] == 200
 
 
+@pytest.mark.parametrize(
+    ("path", "busy", "status"),
+    [
+        (probes.READY, {"full_s": 9.0}, 200),
+        (probes.READY, {"full_s": 11.0}, 503),
+        (probes.LIVE, {"full_s": 300.0, "stuck_s": 59.0}, 200),
+        (probes.LIVE, {"full_s": 61.0, "stuck_s": 61.0}, 503),
+    ],
+)
+async def test_threads_that_are_never_free_cost_readiness_first_and_life_much_later(path, busy, status):
+    found, body = await ask(path, threads=Busy(**busy))
+    assert found == status
+    assert ("No request thread" in body) == (status == 503)
+
+
 async def test_metrics_count_requests_and_sessions():
     def count(text):
         return next(int(row.split()[1]) for row in text.splitlines() if 'requests_total{status="4xx"}' in row)
@@ -93,6 +117,7 @@ async def test_metrics_count_requests_and_sessions():
     status, text = await ask(probes.METRICS)
     assert (status, count(text)) == (200, before + 1)
     assert 'bt_studio_sessions{state="queued"} 0' in text
+    assert 'bt_studio_work_jobs{state="waiting"} 0' in text
     assert 'bt_studio_request_seconds_bucket{le="+Inf"}' in text
 
 

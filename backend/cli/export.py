@@ -16,8 +16,8 @@ def export(
 ) -> None:
     """Writes the current files of a stored project to a zip."""
     with stored_projects():
-        from backend.projects.archive import pack
         from backend.projects.queries import contents
+        from backend.workers.zips import pack
 
         found = find_project(project)
         target = output or Path(f"{found.name}.zip")

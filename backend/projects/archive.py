@@ -1,39 +1,24 @@
-"""Project zips: written deterministically, read with suspicion."""
+"""Zips from outside, read with suspicion."""
 
 from __future__ import annotations
 
-import io
 import stat
 import zipfile
 import zlib
 from pathlib import PurePosixPath
-from typing import IO, TYPE_CHECKING, Final
+from typing import IO, TYPE_CHECKING, Final, NamedTuple
 
 from backend.config.environment import environment
 from backend.projects import names
-from backend.projects.checking import opened
 from backend.projects.errors import ArchiveError, QuotaExceededError
 from backend.projects.manifest import MANIFEST
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
-_DATE: Final = (1980, 1, 1, 0, 0, 0)
 _CHUNK: Final = 256 * 1024
 XML_SUFFIXES: Final = (".xml", ".btproj")
 _JUNK: Final = ("__MACOSX/", "__pycache__/")
-
-
-def pack(files: Mapping[str, bytes]) -> bytes:
-    """The same files give the same bytes; what is of a tool stays here."""
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted(path for path in files if not names.is_of_tool(path)):
-            entry = zipfile.ZipInfo(path, _DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, files[path])
-    return buffer.getvalue()
 
 
 def unpack(data: IO[bytes]) -> dict[str, bytes]:
@@ -116,20 +101,31 @@ def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
     return {path.removeprefix(folder + "/"): content for path, content in files.items()}
 
 
-def read_upload(data: IO[bytes], filename: str, *, repair: bool = False) -> dict[str, bytes]:
-    """The files of a project from whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
+class Upload(NamedTuple):
+    """What a user brings.
 
-    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when it cannot be read as it is.
+    Attributes:
+        files: what is in it, by path.
+        is_ours: it is a project; else the translator opens it.
+        name: what a project made of it is called, if it does not say so itself.
+    """
+
+    files: dict[str, bytes]
+    is_ours: bool
+    name: str
+
+
+def read_upload(data: IO[bytes], filename: str) -> Upload:
+    """The files of whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
 
     Raises:
         ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.
-        CheckFailedError: there is no project in it that can be read.
     """
     name = PurePosixPath(filename)
     if name.suffix.lower() in XML_SUFFIXES:
         content = data.read(environment().max_file_bytes + 1)
         if len(content) > environment().max_file_bytes:
             raise QuotaExceededError(f"“{names.shown(filename)}” is larger than a file may be.", field="file")
-        return opened({f"import{name.suffix.lower()}": content}, name.stem, repair=repair)
+        return Upload({f"import{name.suffix.lower()}": content}, is_ours=False, name=name.stem)
     files = unpack(data)
-    return files if MANIFEST in files else opened(files, name.stem, repair=repair)
+    return Upload(files, MANIFEST in files, name.stem)

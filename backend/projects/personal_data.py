@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from backend.accounts.groups import groups_of
 from backend.accounts.models import AuditEntry
-from backend.projects import archive, queries
+from backend.projects import queries
 from backend.projects.models import ChangeSet, Draft, Project
+from backend.workers import zips
 
 if TYPE_CHECKING:
     from backend.accounts.models import User
@@ -23,7 +24,7 @@ def archive_of(user: User) -> bytes:
         folder.writestr("account.json", json.dumps(_account(user), ensure_ascii=False, indent=2) + "\n")
         for project in Project.objects.filter(owner=user).order_by("name_key", "id"):
             place = "deleted" if project.deleted_at else "projects"
-            files = archive.pack(queries.contents(project))
+            files = zips.pack(queries.contents(project))
             folder.writestr(f"{place}/{project.name} ({project.id}).zip", files)
     return packed.getvalue()
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from backend.projects import queries
-from backend.projects.checking import report
 from backend.projects.manifest import MANIFEST, read
 
 if TYPE_CHECKING:
@@ -75,18 +74,10 @@ def opened(project: Project) -> Opened:
     return Opened(rows, {path: stored.data for path, stored in files.items()})
 
 
-def detail(found: Opened) -> dict[str, Any]:
-    """An opened project."""
-    return found.rows | report(lambda: found.contents).to_json()
-
-
 def changed(project: Project) -> dict[str, Any]:
-    """A project after a change set."""
+    """A project after a change set, before it is checked."""
     files = queries.existing_files(project)
-    return {
-        "revision": project.revision,
-        "files": [file_info(files[path]) for path in sorted(files)],
-    } | report(lambda: queries.contents(project)).to_json()
+    return {"revision": project.revision, "files": [file_info(files[path]) for path in sorted(files)]}
 
 
 def revision(change: ChangeSet) -> dict[str, Any]:

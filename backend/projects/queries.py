@@ -211,6 +211,22 @@ def files_at(project: Project, number: int, paths: Sequence[str] | None = None) 
     return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in found if wanted[row[0]] == row[1]}
 
 
+def differing(
+    older: Mapping[str, StoredFile], newer: Mapping[str, StoredFile]
+) -> tuple[dict[str, str | None], dict[str, str | None]]:
+    """The files that are not the same in both, as text; None stands for what is no text."""
+    paths = [
+        path
+        for path in {*older, *newer}
+        if path not in older or path not in newer or older[path].sha256 != newer[path].sha256
+    ]
+    return _texts(older, paths), _texts(newer, paths)
+
+
+def _texts(files: Mapping[str, StoredFile], paths: Iterable[str]) -> dict[str, str | None]:
+    return {path: files[path].text for path in sorted(paths) if path in files}
+
+
 def file_at(project: Project, number: int, path: str) -> StoredFile:
     """One file as it was after change set `number`."""
     file = files_at(project, number, [path]).get(path)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+from uuid import UUID
 
 from django.db import transaction
 from drf_spectacular.utils import OpenApiParameter, extend_schema
@@ -19,23 +20,39 @@ from backend.projects.schema import ConflictProblemSerializer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from uuid import UUID
 
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
     from backend.projects.models import Project
 
 
-def written(action: Callable[[], Project], status: int = 200) -> Response:
-    """Carries out what writes a project, and answers with it, opened.
+def opened(
+    view: APIView, request: Request, action: Callable[[], Project], *, status: int = 200
+) -> HttpResponseBase:
+    """Carries out what writes a project, once for its key, and answers with the project and its problems.
 
     What the answer takes from the database is read in the same transaction: nothing that comes after the
     commit can make what was written look as if it had failed.
     """
-    with transaction.atomic():
-        project = action()
-        found = presentation.opened(project)
-    return Response(presentation.detail(found), status=status, headers={"ETag": queries.etag(project)})
+    contents: dict[str, bytes] = {}
+
+    def effect() -> Response:
+        with transaction.atomic():
+            project = action()
+            found = presentation.opened(project)
+        contents.update(found.contents)
+        return Response(found.rows, status=status, headers={"ETag": queries.etag(project)})
+
+    response = once(request, user_of(request), effect)
+    return checking.reported(
+        view, request, response, lambda: contents or _stored(request, response.data["id"])
+    )
+
+
+def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
+    """The files of a project that an earlier request with the same key wrote."""
+    return queries.contents(queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ))
 
 
 class Projects(APIView):
@@ -66,16 +83,16 @@ class Projects(APIView):
         responses={201: s.ProjectDetailSerializer},
         tags=["projects"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> HttpResponseBase:
         """Creates a project from a template."""
         asked = parsed(s.CreateProjectSerializer, request.data)
         user = user_of(request)
 
-        def effect() -> Response:
+        def create() -> Project:
             files = templates.files_of(asked["template"])
-            return written(lambda: actions.create_project(files, acting_user=user, name=asked["name"]), 201)
+            return actions.create_project(files, acting_user=user, name=asked["name"])
 
-        return once(request, user, effect)
+        return opened(self, request, create, status=201)
 
 
 class OneProject(APIView):
@@ -87,13 +104,14 @@ class OneProject(APIView):
         responses={200: s.ProjectDetailSerializer, 304: None},
         tags=["projects"],
     )
-    def get(self, request: Request, project_id: UUID) -> Response:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Opens a project: its files, actions and problems."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         if queries.etag(project) in request.headers.get("If-None-Match", ""):
             return Response(status=304, headers={"ETag": queries.etag(project)})
-        found = presentation.detail(presentation.opened(project))
-        return Response(found, headers={"ETag": queries.etag(project)})
+        found = presentation.opened(project)
+        response = Response(found.rows, headers={"ETag": queries.etag(project)})
+        return checking.reported(self, request, response, lambda: found.contents)
 
     @extend_schema(
         operation_id="edit_project",
@@ -103,11 +121,15 @@ class OneProject(APIView):
         | problem_of(ConflictProblemSerializer, "project.json changed meanwhile, or the name is taken."),
         tags=["projects"],
     )
-    def patch(self, request: Request, project_id: UUID) -> Response:
+    def patch(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Renames a project or changes its settings."""
         asked = parsed(s.EditProjectSerializer, request.data)
         user, tag = user_of(request), if_match(request)
-        return written(lambda: actions.edit_settings(project_id, acting_user=user, if_match=tag, **asked))
+        return opened(
+            self,
+            request,
+            lambda: actions.edit_settings(project_id, acting_user=user, if_match=tag, **asked),
+        )
 
     @extend_schema(
         operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
@@ -128,10 +150,12 @@ class Restore(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Brings a deleted project back, under another name where its own was taken since."""
         user, tag = user_of(request), if_match(request)
-        return written(lambda: actions.restore_project(project_id, acting_user=user, if_match=tag))
+        return opened(
+            self, request, lambda: actions.restore_project(project_id, acting_user=user, if_match=tag)
+        )
 
 
 class Archive(APIView):
@@ -144,11 +168,13 @@ class Archive(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Moves a project to the archive."""
         user, tag = user_of(request), if_match(request)
-        return written(
-            lambda: actions.set_archived(project_id, acting_user=user, archived=True, if_match=tag)
+        return opened(
+            self,
+            request,
+            lambda: actions.set_archived(project_id, acting_user=user, archived=True, if_match=tag),
         )
 
 
@@ -162,11 +188,13 @@ class Unarchive(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Moves a project out of the archive."""
         user, tag = user_of(request), if_match(request)
-        return written(
-            lambda: actions.set_archived(project_id, acting_user=user, archived=False, if_match=tag)
+        return opened(
+            self,
+            request,
+            lambda: actions.set_archived(project_id, acting_user=user, archived=False, if_match=tag),
         )
 
 
@@ -182,16 +210,16 @@ class Duplicate(APIView):
         responses={201: s.ProjectDetailSerializer},
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Makes a new project of the current files."""
-        asked = parsed(s.DuplicateProjectSerializer, request.data)
+        name = parsed(s.DuplicateProjectSerializer, request.data)["name"]
         user = user_of(request)
-
-        def effect() -> Response:
-            name = asked["name"]
-            return written(lambda: actions.duplicate_project(project_id, acting_user=user, name=name), 201)
-
-        return once(request, user, effect)
+        return opened(
+            self,
+            request,
+            lambda: actions.duplicate_project(project_id, acting_user=user, name=name),
+            status=201,
+        )
 
 
 class Changes(APIView):
@@ -205,10 +233,11 @@ class Changes(APIView):
         | problem_of(ConflictProblemSerializer, "A base is stale; nothing was written."),
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Writes, renames and deletes files in one step, all or nothing."""
         asked = parsed(s.ChangesSerializer, request.data)
         user = user_of(request)
+        saved: list[Project] = []
 
         def effect() -> Response:
             project = actions.save_files(
@@ -218,9 +247,16 @@ class Changes(APIView):
                 message=asked["message"],
                 if_match=if_match(request),
             )
+            saved.append(project)
             return Response(presentation.changed(project), headers={"ETag": queries.etag(project)})
 
-        return once(request, user, effect)
+        response = once(request, user, effect)
+        return checking.reported(
+            self,
+            request,
+            response,
+            lambda: queries.contents(saved[0]) if saved else _stored(request, project_id),
+        )
 
 
 class Check(APIView):
@@ -232,13 +268,13 @@ class Check(APIView):
         responses=s.ReportSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Checks the project as it would be with these files."""
         asked = parsed(s.CheckSerializer, request.data)
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
-        return Response(checking.report(lambda: files).to_json())
+        return checking.reported(self, request, Response({}), lambda: files)
 
 
 class App(APIView):
@@ -250,11 +286,15 @@ class App(APIView):
         responses=s.AppSerializer,
         tags=["projects"],
     )
-    def get(self, request: Request, project_id: UUID) -> Response:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """What the executor needs to run the project; 422 with `diagnostics` when it has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        wanted = request.query_params.get("universe") or None
-        return Response(checking.app(queries.contents(project), wanted))
+        universe = request.query_params.get("universe") or ""
+        files = queries.contents(project)
+        built_in = checking.built_in_universe(files, universe or project.universe)
+        return checking.answered(
+            self, request, "app", Response, files=files, universe=universe, built_in=built_in
+        )
 
 
 class InspectAction(APIView):
@@ -266,9 +306,10 @@ class InspectAction(APIView):
         responses=s.ActionSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> HttpResponseBase:
         """What the source of an action declares."""
         asked = parsed(s.InspectActionSerializer, request.data)
         filename = names.file_path(asked["filename"], field="filename")
-        answer: dict[str, Any] = checking.inspect(asked["source"], filename)
-        return Response(answer)
+        return checking.answered(
+            self, request, "inspect", Response, source=asked["source"], filename=filename
+        )

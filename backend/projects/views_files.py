@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import IO, TYPE_CHECKING, Any
 from urllib.parse import quote
 
@@ -20,13 +21,13 @@ from backend.config.problems import InvalidInputError
 from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
-from backend.projects.idempotency import once
-from backend.projects.views import written
+from backend.projects.views import opened
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from uuid import UUID
 
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
 
@@ -44,6 +45,16 @@ def flag(request: Request, name: str) -> bool:
     if wish not in {"", "0", "1", "true", "false"}:
         raise InvalidInputError(f"{name} is true or false.", field=name)
     return wish in {"1", "true"}
+
+
+def zipped(name: str, made: dict[str, Any]) -> HttpResponse:
+    """A zip that a worker made."""
+    return download(made["zip"], "application/zip", f"{name}.zip")
+
+
+def packaged(made: dict[str, Any]) -> HttpResponse:
+    """A package that a worker made; it knows its name."""
+    return zipped(made["name"], made)
 
 
 class File(APIView):
@@ -77,11 +88,17 @@ class Xml(APIView):
         responses={(200, "text/xml"): OpenApiTypes.STR},
         tags=["files"],
     )
-    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        text = checking.xml(queries.contents(project), self_contained=flag(request, "self_contained"))
-        return download(text, "text/xml; charset=utf-8", f"{project.name}.xml")
+        return checking.answered(
+            self,
+            request,
+            "xml",
+            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
+            files=queries.contents(project),
+            self_contained=flag(request, "self_contained"),
+        )
 
 
 class Export(APIView):
@@ -94,10 +111,11 @@ class Export(APIView):
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
         tags=["files"],
     )
-    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """The current files as a zip; the same revision gives the same bytes."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return download(archive.pack(queries.contents(project)), "application/zip", f"{project.name}.zip")
+        files = queries.contents(project)
+        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
 
 
 class Package(APIView):
@@ -114,14 +132,14 @@ class Package(APIView):
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
         tags=["files"],
     )
-    def get(self, request: Request, project_id: UUID) -> HttpResponse:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         if flag(request, "dockerized"):
-            return download(checking.app_zip(files), "application/zip", f"{project.name}.zip")
-        package = checking.package(files, request.query_params.get("name") or None)
-        return download(package.to_zip(), "application/zip", f"{package.name}.zip")
+            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
+        name = request.query_params.get("name") or None
+        return checking.answered(self, request, "package", packaged, files=files, name=name)
 
 
 class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
@@ -149,19 +167,12 @@ class PackagePreview(APIView):
         responses=PackagePreviewSerializer,
         tags=["files"],
     )
-    def get(self, request: Request, project_id: UUID) -> Response:
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """What the ROS 2 package will hold, before it is downloaded."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        package = checking.package(queries.contents(project), request.query_params.get("name") or None)
-        manifest = package.files.get(f"{package.name}/package.xml", b"")
-        return Response(
-            {
-                "name": package.name,
-                "files": [{"path": path, "size": len(data)} for path, data in sorted(package.files.items())],
-                "manifest": manifest.decode(),
-                "diagnostics": [found.to_json() for found in package.diagnostics],
-            }
-        )
+        name = request.query_params.get("name") or None
+        files = queries.contents(project)
+        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
 
 
 class UploadSerializer(serializers.Serializer[dict[str, object]]):
@@ -202,7 +213,7 @@ class Import(APIView):
         responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
         tags=["files"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> HttpResponseBase:
         """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
 
         The file may be the body itself, and then as large as the user has room; a form has a request's bound.
@@ -211,11 +222,21 @@ class Import(APIView):
         data, name = _uploaded(request)
         wants_repair = flag(request, "repair") or request.POST.get("repair") == "true"
 
-        def effect() -> Response:
-            files = archive.read_upload(data, name, repair=wants_repair)
-            return written(lambda: actions.create_project(files, acting_user=user, message="Import"), 201)
+        def create(made: dict[str, Any]) -> HttpResponseBase:
+            files: dict[str, bytes] = made["files"]
+            return opened(
+                self,
+                request,
+                lambda: actions.create_project(files, acting_user=user, message="Import"),
+                status=201,
+            )
 
-        return once(request, user, effect)
+        upload = archive.read_upload(data, name)
+        if upload.is_ours:
+            return create({"files": upload.files})
+        return checking.answered(
+            self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
+        )
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Final
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.http import HttpResponse
 from django.urls import re_path
@@ -23,15 +24,26 @@ from backend.config.parsers import StrictJSONParser
 from backend.config.problems import InvalidInputError
 from backend.projects import actions, checking, names, queries, templates
 from backend.projects.changes import Content, FileChange
-from backend.projects.views_files import download
+from backend.projects.views_files import packaged, zipped
 
 if TYPE_CHECKING:
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
     from backend.projects.models import Project
 
 Parameters = dict[str, str]
-Handler = Callable[[User, Parameters], Response | HttpResponse]
+
+
+class Later(NamedTuple):
+    """An answer that a worker makes."""
+
+    job: str
+    make: Callable[[dict[str, Any]], HttpResponse]
+    arguments: dict[str, Any]
+
+
+Handler = Callable[[User, Parameters], Response | HttpResponse | Later]
 DONE: Final = {"success": True}
 
 
@@ -110,18 +122,17 @@ def delete_file(user: User, asked: Parameters) -> Response:
     return Response(DONE)
 
 
-def generate_app(user: User, asked: Parameters) -> HttpResponse:
+def generate_app(user: User, asked: Parameters) -> Later:
     """The ROS 2 package of the project."""
-    project = _project(user, asked)
-    package = checking.package(queries.contents(project), asked.get("app_name") or None)
-    return download(package.to_zip(), "application/zip", f"{package.name}.zip")
+    files = queries.contents(_project(user, asked))
+    return Later("package", packaged, {"files": files, "name": asked.get("app_name") or None})
 
 
-def get_dockerized_app(user: User, asked: Parameters) -> HttpResponse:
+def get_dockerized_app(user: User, asked: Parameters) -> Later:
     """The app as the manager runs it."""
     project = _project(user, asked)
     name = asked.get("app_name") or project.name
-    return download(checking.app_zip(queries.contents(project)), "application/zip", f"{name}.zip")
+    return Later("app_zip", partial(zipped, name), {"files": queries.contents(project)})
 
 
 def _need(asked: Parameters, name: str) -> str:
@@ -153,9 +164,9 @@ class Reading(APIView):
     handler: Handler | None = None
 
     @extend_schema(exclude=True)
-    def get(self, request: Request) -> Response | HttpResponse:
+    def get(self, request: Request) -> HttpResponseBase:
         """Parameters are in the query."""
-        return _call(self.handler, request, request.query_params.dict())
+        return _call(self, self.handler, request, request.query_params.dict())
 
 
 class Writing(APIView):
@@ -165,7 +176,7 @@ class Writing(APIView):
     parser_classes = (StrictJSONParser, FormParser, MultiPartParser)
 
     @extend_schema(exclude=True)
-    def post(self, request: Request) -> Response | HttpResponse:
+    def post(self, request: Request) -> HttpResponseBase:
         """Parameters are in the body."""
         data: Any = request.data
         if not isinstance(data, dict):
@@ -176,15 +187,18 @@ class Writing(APIView):
         texts = {
             name: value if isinstance(value, str) else json.dumps(value) for name, value in values.items()
         }
-        return _call(self.handler, request, texts)
+        return _call(self, self.handler, request, texts)
 
 
-def _call(handler: Handler | None, request: Request, asked: Parameters) -> Response | HttpResponse:
+def _call(view: APIView, handler: Handler | None, request: Request, asked: Parameters) -> HttpResponseBase:
     assert handler is not None  # noqa: S101 - each address below names one
-    return handler(user_of(request), asked)
+    answer = handler(user_of(request), asked)
+    if isinstance(answer, Later):
+        return checking.answered(view, request, answer.job, answer.make, **answer.arguments)
+    return answer
 
 
-READING: Final = (
+READING: Final[tuple[Handler, ...]] = (
     get_project_list,
     get_project_graph,
     get_file_list,
@@ -192,8 +206,18 @@ READING: Final = (
     generate_app,
     get_dockerized_app,
 )
-WRITING: Final = (create_project, delete_project, save_project_graph, create_file, delete_file, save_file)
-ALIASES: Final = {"save_project": save_project_graph, "get_simplified_app": get_dockerized_app}
+WRITING: Final[tuple[Handler, ...]] = (
+    create_project,
+    delete_project,
+    save_project_graph,
+    create_file,
+    delete_file,
+    save_file,
+)
+ALIASES: Final[dict[str, Handler]] = {
+    "save_project": save_project_graph,
+    "get_simplified_app": get_dockerized_app,
+}
 
 
 def _address(name: str, handler: Handler) -> Any:
@@ -202,6 +226,6 @@ def _address(name: str, handler: Handler) -> Any:
 
 
 urlpatterns = [
-    *(_address(handler.__name__, handler) for handler in READING + WRITING),
+    *(_address(handler.__name__, handler) for handler in (*READING, *WRITING)),
     *(_address(name, handler) for name, handler in ALIASES.items()),
 ]

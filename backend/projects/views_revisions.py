@@ -12,17 +12,17 @@ from rest_framework.views import APIView
 
 from backend.config.api import if_match, parsed, user_of
 from backend.config.openapi import IF_MATCH
-from backend.projects import actions, draft_actions, names, presentation, queries
+from backend.projects import actions, checking, draft_actions, names, presentation, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
-from backend.projects.diffs import diff
-from backend.projects.views import written
+from backend.projects.views import opened
 from backend.projects.views_files import file_response
 
 if TYPE_CHECKING:
     from uuid import UUID
 
     from django.http import HttpResponse
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
 
@@ -89,14 +89,22 @@ class RevisionDiff(APIView):
         responses=s.DiffSerializer,
         tags=["revisions"],
     )
-    def get(self, request: Request, project_id: UUID, number: int) -> Response:
+    def get(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
         """Compares a revision with the one before, or with `against` (0 is the empty project)."""
         asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         newer = queries.files_at(project, number)
         against = asked.get("against", number - 1)
         older = queries.files_at(project, against) if against else {}
-        return Response({"older": against, "newer": number, "files": diff(older, newer)})
+        older_texts, newer_texts = queries.differing(older, newer)
+        return checking.answered(
+            self,
+            request,
+            "diff",
+            lambda found: Response({"older": against, "newer": number} | found),
+            older=older_texts,
+            newer=newer_texts,
+        )
 
 
 class RestoreRevision(APIView):
@@ -109,13 +117,15 @@ class RestoreRevision(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["revisions"],
     )
-    def post(self, request: Request, project_id: UUID, number: int) -> Response:
+    def post(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
         """Makes a new revision with files as they were."""
         asked = parsed(s.RestoreRevisionSerializer, request.data)
         paths = [names.file_path(path, field="paths") for path in asked["paths"]]
         user, tag = user_of(request), if_match(request)
-        return written(
-            lambda: actions.restore_revision(project_id, number, acting_user=user, paths=paths, if_match=tag)
+        return opened(
+            self,
+            request,
+            lambda: actions.restore_revision(project_id, number, acting_user=user, paths=paths, if_match=tag),
         )
 
 

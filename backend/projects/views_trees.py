@@ -10,10 +10,11 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import parsed
+from backend.projects import checking
 from backend.projects import serializers as s
-from backend.projects import tree_text
 
 if TYPE_CHECKING:
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
 MAX_TEXT = 2_000_000
@@ -78,9 +79,10 @@ class TreeXml(APIView):
         responses=TreeTextSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> HttpResponseBase:
         """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
-        return Response(tree_text.write(**parsed(WriteTreeSerializer, request.data)))
+        asked = parsed(WriteTreeSerializer, request.data)
+        return checking.answered(self, request, "write_tree", Response, **asked)
 
 
 class TreeDiagram(APIView):
@@ -92,6 +94,7 @@ class TreeDiagram(APIView):
         responses=ReadTreeDoneSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> HttpResponseBase:
         """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
-        return Response(tree_text.read(**parsed(ReadTreeSerializer, request.data)))
+        asked = parsed(ReadTreeSerializer, request.data)
+        return checking.answered(self, request, "read_tree", Response, **asked)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import wait
 from typing import TYPE_CHECKING, Any
 
 from django.http import HttpResponse
@@ -23,7 +24,7 @@ class Deferred(HttpResponse):
         view: whose answer it is; errors become answers as they do in its methods.
         request: what it answers.
         work: what it waits for.
-        finish: makes the answer of the result, in a thread for requests; it may defer again.
+        finish: makes the answer of the work that is done, in a thread for requests; it may defer again.
     """
 
     streaming = True  # there is nothing yet that a middleware could look at
@@ -33,7 +34,7 @@ class Deferred(HttpResponse):
         view: APIView,
         request: Request,
         work: Future[Any],
-        finish: Callable[[Any], HttpResponseBase],
+        finish: Callable[[Future[Any]], HttpResponseBase],
     ) -> None:
         super().__init__()
         del self.headers["Content-Type"]
@@ -42,8 +43,9 @@ class Deferred(HttpResponse):
 
     def complete(self) -> HttpResponseBase:
         """The answer, or what it waits for next; the work is waited for if it is not done."""
+        wait([self.work])
         try:
-            response = self._finish(self.work.result())
+            response = self._finish(self.work)
         except Exception as error:
             response = self._view.handle_exception(error)
         if not isinstance(response, Deferred):

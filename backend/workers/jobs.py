@@ -6,6 +6,7 @@ What the translator refuses is an answer like any other: `{"refused": [diagnosti
 from __future__ import annotations
 
 import base64
+import re
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.workers import differences, zips
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
 
     from translator import Tree
     from translator.tree_text import TreeText
+
+_OWN_ROBOT: Final = re.compile(r"robots/[^/]+/robot\.yaml")
 
 Files = dict[str, bytes]
 Answer = dict[str, Any]
@@ -45,8 +48,14 @@ def xml(files: Files, *, self_contained: bool) -> Answer:
     return {"text": translator.self_contained(project) if self_contained else translator.to_xml(project)}
 
 
-def app(files: Files) -> Answer:
-    """What the browser sends to the executor to run the project, without the universe."""
+def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
+    """What the browser sends to the executor to run the project, there or in its own universe.
+
+    Args:
+        files: the project.
+        universe: where to run; "" for the project's own choice.
+        built_in: the document of a universe of that name that the project does not have.
+    """
     import translator  # noqa: PLC0415
 
     project = translator.load(files)
@@ -56,9 +65,31 @@ def app(files: Files) -> Answer:
         "tick_hz": settings.tick_hz,
         "on_finish": settings.on_finish,
         "on_error": settings.on_error,
-        "universe": settings.universe,
+        "universe": _universe(files, universe or settings.universe, built_in),
         "robot": settings.robot,
     }
+
+
+def _universe(files: Files, name: str, built_in: bytes | None) -> str | dict[str, str]:
+    """A universe of the project as document with its assets, or the id of a built-in one.
+
+    Where the project has robots of its own, a built-in universe goes as document, too: they come with it.
+    """
+    from translator.diagnostic import Place, TranslatorError, diagnostic  # noqa: PLC0415
+
+    path = f"universes/{name}.yaml"
+    document = files.get(path)
+    if document is None and any(_OWN_ROBOT.fullmatch(path) for path in files):
+        document = built_in
+    if document is None:
+        return name
+    try:
+        text = document.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise TranslatorError([diagnostic("BT0002", Place(path), byte=error.start)]) from error
+    assets = {p: data for p, data in files.items() if p.startswith(("assets/", "robots/", "universes/"))}
+    packed = base64.b64encode(zips.pack(assets)).decode("ascii")
+    return {"document": text, "assets_zip_base64": packed, "file": path}
 
 
 def app_zip(files: Files) -> Answer:
@@ -89,11 +120,14 @@ def package_preview(files: Files, *, name: str | None) -> Answer:
     }
 
 
-def opened(files: Files, *, name: str) -> Answer:
-    """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML."""
+def opened(files: Files, *, name: str, repair: bool) -> Answer:
+    """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
+
+    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when it cannot be read as it is.
+    """
     import translator  # noqa: PLC0415
 
-    return {"files": dict(translator.open_files(files, name=name).files)}
+    return {"files": dict(translator.open_files(files, name=name, repair=repair).files)}
 
 
 def inspect(source: str, *, filename: str) -> Answer:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import threading
+from concurrent.futures import Future
 
 import pytest
 from django.db import OperationalError
 
-import translator
 from backend.config import telling
-from backend.projects import checking, presentation, queries
+from backend.projects import presentation, queries
 from backend.projects.signals import project_deleted
+from backend.workers.errors import BusyError, WorkFailedError
+from backend.workers.pool import Pool
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -22,15 +24,21 @@ def fails(error):
     return failing
 
 
-@pytest.fixture(autouse=True)
-def _nothing_is_known_yet(monkeypatch):
-    monkeypatch.setattr(checking, "_reports", checking._Reports())
+def fails_later(error):
+    """Work that fails when it is at work."""
+    failed = Future()
+    failed.set_exception(error)
+    return lambda *_, **__: failed
+
+
+def no_checks(monkeypatch):
+    monkeypatch.setattr(Pool, "ask", fails_later(WorkFailedError("The worker was killed.")))
 
 
 DOWN = OperationalError("the database went away")
 STEPS = {
-    "the check": (translator, "check", SystemError("AST constructor recursion depth mismatch")),
-    "the loading": (translator, "load", MemoryError()),
+    "the check": (Pool, "ask", WorkFailedError("The worker was killed.")),
+    "the pool": (Pool, "ask", BusyError("Too much waits.")),
     "the contents": (queries, "contents", DOWN),
     "the notices": (telling._teller, "tell", ConnectionError("Redis is down")),
     "the channel layer": (telling, "get_channel_layer", ConnectionError("Redis is down")),
@@ -41,7 +49,8 @@ STEPS = {
 def broken(request, monkeypatch):
     def breaks():
         where, what, error = STEPS[request.param]
-        monkeypatch.setattr(where, what, fails(error))
+        failing = fails_later(error) if isinstance(error, WorkFailedError) else fails(error)
+        monkeypatch.setattr(where, what, failing)
         if what == "tell":
             monkeypatch.setattr("backend.projects.notices.tell", fails(error))
 
@@ -69,7 +78,7 @@ def test_a_save_is_acknowledged_and_the_next_one_is_no_conflict(api, one, broken
 
 
 def test_an_answer_that_is_kept_for_its_key_is_the_same(api, one, monkeypatch):
-    monkeypatch.setattr(translator, "check", fails(SystemError()))
+    no_checks(monkeypatch)
     again = {"expect": 200, "Idempotency_Key": "k1"}
     first = api.save(one, python(0, "x = 1\n"), **again)
     assert api.save(one, python(0, "x = 1\n"), **again) == first
@@ -88,8 +97,7 @@ WRITES = {
 
 @pytest.mark.parametrize("write", WRITES)
 def test_other_writes_and_looks_are_answered_too(api, one, monkeypatch, write):
-    monkeypatch.setattr(translator, "check", fails(SystemError()))
-    monkeypatch.setattr(checking, "_reports", checking._Reports())
+    no_checks(monkeypatch)
     answer = WRITES[write](api, one)
     assert answer["checked"] is False
     assert [each["code"] for each in answer["diagnostics"]] == ["BT0009"]

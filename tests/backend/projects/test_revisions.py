@@ -11,8 +11,9 @@ from datetime import timedelta
 import pytest
 from django.utils import timezone
 
-from backend.projects import actions, archive
+from backend.projects import actions
 from backend.projects.models import Blob, Draft, Project
+from backend.workers import zips
 from tests.backend.projects.test_views import file
 
 
@@ -215,7 +216,7 @@ def test_a_header_that_lies_about_the_size_does_not_help(api, settings_of):
 
 
 def test_packing_is_deterministic():
-    assert archive.pack({"b": b"2", "a": b"1"}) == archive.pack({"a": b"1", "b": b"2"})
+    assert zips.pack({"b": b"2", "a": b"1"}) == zips.pack({"a": b"1", "b": b"2"})
 
 
 def test_garbage_goes_and_what_someone_can_reach_stays(api, edited):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import ast
-import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from translator.action_ports import last_name
+from translator.python_source import parse
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
@@ -48,9 +48,7 @@ class Proposal:
 def topics_used(source: str) -> list[TopicUse]:
     """Returns the topics that the source of an action publishes and subscribes; a wrong source has none."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            module = ast.parse(source)
+        module = parse(source, "proposal.py")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     return list(_uses(module))

@@ -7,8 +7,7 @@ reported and all was right again (minimum, median, maximum).
 `--false-faults MINUTES` runs a session while all processors are busy with something else, and counts what was
 reported that was none. Exit status 1 if something was not reported in time, or falsely.
 
-Who reports a manager that is stopped is its launcher. Give its class to `MANAGER_WATCHERS` to have that
-measured as well.
+A manager that stays stopped is reported by the web server's watch, which ends it: that is measured as well.
 """
 
 from __future__ import annotations
@@ -16,16 +15,24 @@ from __future__ import annotations
 import argparse
 import asyncio
 import contextlib
+import logging
 import os
 import signal
 import subprocess
 import sys
 import time
-from collections.abc import Awaitable, Callable, Iterator
 from statistics import median
+from types import SimpleNamespace
+from typing import TYPE_CHECKING
+
+import django
 
 from executor.session.ladder import State
 from tests.executor.hanging import CASES, HangingSession, hanging_session
+from tests.executor.session_client import TOKEN
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 REPORTED_WITHIN_S = 3.0
 RIGHT_WITHIN_S = 12.0
@@ -33,10 +40,6 @@ MANAGER_REPORTED_WITHIN_S = 4.0
 MANAGER_STOPPED_S = 6.0
 CALM_S = 4.0
 CYCLE_S = 20.0
-
-Watcher = Callable[[HangingSession], Awaitable[tuple[float, float]]]
-MANAGER_WATCHERS: list[Watcher] = []
-"""Each stops a session's manager, and returns after how many seconds that was reported, and all was right."""
 
 Times = dict[str, list[tuple[float, float]]]
 
@@ -80,21 +83,44 @@ async def stop_managers(rounds: int, failed: list[str]) -> None:
 
 
 async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
-    """Stops the manager of a session of its own in each state, and leaves it to its launcher."""
-    for watcher in MANAGER_WATCHERS:
-        for number in range(rounds):
-            for state in State:
-                async with hanging_session() as session:
-                    await session.climb(state)
-                    try:
-                        reported_s, right_s = await watcher(session)
-                    except (AssertionError, TimeoutError) as error:
-                        failed.append(f"manager in {state}: {error!r}")
-                        continue
-                times.setdefault("manager", []).append((reported_s, right_s))
-                print(
-                    f"{number + 1:4} manager in {state:29} {reported_s:6.2f} s {right_s:6.2f} s", flush=True
-                )
+    """Stops the manager of a session of its own in each state, and leaves it to the web server's watch."""
+    for number in range(rounds):
+        for state in State:
+            async with hanging_session() as session:
+                await session.climb(state)
+                try:
+                    reported_s, right_s = await stop_manager(session)
+                except (AssertionError, TimeoutError) as error:
+                    failed.append(f"manager in {state}: {error!r}")
+                    continue
+            times.setdefault("manager", []).append((reported_s, right_s))
+            print(
+                f"{number + 1:4} manager in {state:29} reported {reported_s:6.2f} s  right {right_s:6.2f} s",
+                flush=True,
+            )
+
+
+async def stop_manager(session: HangingSession) -> tuple[float, float]:
+    """Stops a manager; returns after how many seconds the watch noted that, and had it given up and ended."""
+    from backend.sessions import actions, watch
+
+    actions.manager_token = lambda _: TOKEN
+    one = SimpleNamespace(id="benchmark", address=f"127.0.0.1:{session.manager.ready['port']}")
+    noted: list[float] = []
+    handler = logging.Handler()
+    handler.emit = lambda _: noted.append(time.monotonic())
+    watch.log.addHandler(handler)
+    watching = asyncio.create_task(watch.until_silent(one))
+    await asyncio.sleep(CALM_S)
+    began_s = time.monotonic()
+    os.kill(session.manager.pid, signal.SIGSTOP)
+    try:
+        await asyncio.wait_for(watching, 60)
+    finally:
+        watch.log.removeHandler(handler)
+        os.kill(session.manager.pid, signal.SIGKILL)
+    await session.manager.wait()
+    return noted[0] - began_s, time.monotonic() - began_s
 
 
 def tell(times: Times) -> list[str]:
@@ -168,6 +194,8 @@ def main() -> int:
             faults = asyncio.run(count_false_faults(options.false_faults))
         print(f"{faults} false faults in {options.false_faults:g} minutes")
         return 1 if faults else 0
+    os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
+    django.setup()
     times: Times = {}
     failed: list[str] = []
     asyncio.run(stop_children(options.rounds, times, failed))

@@ -99,6 +99,7 @@ async def test_topics_are_listed_echoed_published_and_described():
         while not rate:  # the first lists start the measuring
             assert await client.ask("list_topics") == "ack"
             rate = next(t["hz"] for t in client.named("topics")[-1]["topics"] if t["name"] == "/odom")
+            await asyncio.sleep(0.2)  # a client may not ask without pause
         assert (await client.ask("echo_topic", {"topic": "/ghost"}))["code"] == "unknown_topic"
 
         twist = "geometry_msgs/msg/Twist"

@@ -75,7 +75,7 @@ async def test_probes_have_the_headers_of_every_answer():
         sent.append(message)
 
     scope = {"type": "http", "path": probes.LIVE, "method": "GET", "client": ("127.0.0.1", 5), "headers": []}
-    await probes.probed(None)(scope, None, send)
+    await probes.probed(None, Busy())(scope, None, send)
     names = {name.lower() for name, _ in sent[0]["headers"]}
     assert {
         b"x-content-type-options",

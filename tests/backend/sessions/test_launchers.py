@@ -14,7 +14,7 @@ import pytest
 
 from backend.sessions.errors import LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Started
-from tests.backend.sessions.conftest import spec
+from tests.backend.sessions.conftest import children, spec
 
 
 def is_alive(process):
@@ -87,7 +87,7 @@ def test_a_manager_that_does_not_come_up_is_told_and_leaves_nothing(launcher_of,
     with pytest.raises(LaunchError, match=says) as caught:
         launcher_of(kind).start(spec(start_timeout_s=0.7 if kind == "never" else 60))
     assert caught.value.hint == "the fake manager starts" or kind == "never"
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_a_slow_manager_is_waited_for(launcher_of):

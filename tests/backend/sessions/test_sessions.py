@@ -14,7 +14,7 @@ from backend.projects.models import Project
 from backend.sessions import actions
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
-from tests.backend.sessions.conftest import spec
+from tests.backend.sessions.conftest import children, spec
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -45,7 +45,7 @@ def test_a_session_can_be_ended_while_it_starts(api, project, fake_manager):
     started = api.post(f"projects/{project['id']}/session")
     api.delete(f"sessions/{started['id']}")
     assert api.get(f"sessions/{started['id']}")["state"] == "ended"
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_a_session_can_be_ended_by_who_saw_it_start(api, project, fake_manager):
@@ -56,7 +56,7 @@ def test_a_session_can_be_ended_by_who_saw_it_start(api, project, fake_manager):
     seen.state, seen.launcher_state = SessionState.STARTING, {}
     actions.end_session(seen)
     assert Session.objects.get().state == "ended"
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_a_session_that_another_server_ended_while_it_started_stays_ended(api, project, fake_manager):
@@ -65,7 +65,7 @@ def test_a_session_that_another_server_ended_while_it_started_stays_ended(api, p
     Session.objects.update(state=SessionState.ENDED)
     launched(started["id"])
     assert Session.objects.get().state == "ended"
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_a_failed_start_says_why_and_another_may_follow(api, project, fake_manager):
@@ -111,7 +111,7 @@ def test_deleting_a_project_ends_its_session(api, project, fake_manager):
     launched(started["id"])
     api.delete(f"projects/{project['id']}")
     assert Session.objects.get().state == "ended"
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
@@ -124,7 +124,7 @@ def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
     assert domains <= set(actions.ROS_DOMAINS)
     actions.end_all_sessions()
     assert set(Session.objects.values_list("state", flat=True)) == {"ended"}
-    assert psutil.Process().children(recursive=True) == []
+    assert children() == []
 
 
 def test_a_full_host_says_so(api, project, fake_manager, monkeypatch):

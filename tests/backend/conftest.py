@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import threading
 
 import pytest
 from django.conf import settings
+from django.db import connections
 from django.test import Client
 
 from backend.accounts.actions import local_user
 from backend.accounts.identity import the_local_user
 from backend.config import guard
 from backend.config.environment import environment
+from backend.config.handler import ThreadedHandler
 
 HOST = "127.0.0.1:8000"
 
@@ -65,6 +69,34 @@ def django_db_modify_db_settings(tmp_path_factory):
 def _the_local_user():
     """Each test has a database, and so a local user, of its own."""
     the_local_user.cache_clear()
+
+
+@pytest.fixture(autouse=True)
+def _handlers_end(monkeypatch):
+    """Threads of a handler keep a connection each: PostgreSQL drops no database that somebody uses."""
+    made, make = [], ThreadedHandler.__init__
+
+    def made_and_noted(handler, *args, **kwargs):
+        make(handler, *args, **kwargs)
+        made.append(handler)
+
+    monkeypatch.setattr(ThreadedHandler, "__init__", made_and_noted)
+    yield
+    for handler in made:
+        asyncio.run(_without_connections(handler.threads))
+        handler.threads.end()
+
+
+async def _without_connections(threads):
+    number = len(threads._threads)
+    together = threading.Barrier(number)  # so that each thread gets one
+
+    def close():
+        together.wait()
+        connections.close_all()
+
+    loop = asyncio.get_running_loop()
+    await asyncio.gather(*(threads.run(loop, close) for _ in range(number)))
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 
 FAR_M = 1.5
-UNIVERSES = {write_wanderer: "walled_room", write_follower: "person_in_green"}
+UNIVERSES = {write_wanderer: "Walled room", write_follower: "Person in green"}
 
 
 @pytest.mark.parametrize("write", UNIVERSES, ids=lambda write: write.__name__)

@@ -25,7 +25,7 @@ ATTACKS = {
     "text alone": ("hello", "BT0701"),
     "nothing": ("", "BT0701"),
     "no quotes": ("<root a=1/>", "BT0701"),
-    "less-than in a value": ('<root a="<"/>', "BT0701"),
+    "less-than in a value": ('<root a="<"/>', "BT0740"),
     "another document": ("<html/>", "BT0703"),
     "no tree": ("<root/>", "BT0734"),
     "endless ID": (f'<root><BehaviorTree ID="{"M" * 300}"><AlwaysSuccess/></BehaviorTree></root>', "BT0736"),

@@ -18,7 +18,7 @@ import msgspec
 from msgspec import Struct
 
 from executor import messages
-from executor.session import actions, hearing, steps, watch
+from executor.session import actions, endings, hearing, steps, streaming, watch
 from executor.session.asked import ANSWER_S, Asked
 from executor.session.child import Child
 from executor.session.clients import Clients
@@ -301,7 +301,7 @@ class Session:
                 for topic in self.clients.leave(event.client, self._now_s):
                     self.tell("world", "echo_topic", topic=topic, max_hz=0.0)
             case StreamOpened() | StreamClosed() | StreamPaced():
-                self._on_stream(event)
+                streaming.heard(self, event)
             case CommandCame():
                 self._on_command(event)
             case ChildSaid():
@@ -311,7 +311,7 @@ class Session:
             case ChildTraced():
                 watch.traced(self, event)
             case ChildExited():
-                self._on_exit(event)
+                endings.exited(self, event)
             case Unpacked():
                 self._count.unpacked = {event.token: event}
             case TimePassed():
@@ -341,26 +341,6 @@ class Session:
         for client in self.clients.here():
             self.introspect(client)
 
-    def _on_stream(self, event: StreamOpened | StreamClosed | StreamPaced) -> None:
-        match event:
-            case StreamOpened():
-                self._open_stream(event.client)
-            case StreamClosed():
-                self._close_stream(event.client)
-            case StreamPaced() if self.state.reaches(State.VISUALIZATION_READY):
-                self.tell("world", "pace", client=event.client, lost=event.lost)
-
-    def _open_stream(self, client: str) -> None:
-        self.clients.set_stream(client, is_open=True)
-        if self.state.reaches(State.VISUALIZATION_READY):
-            for data in self.clients.streams_of(client):
-                self.subscribe(client, data)
-
-    def _close_stream(self, client: str) -> None:
-        for data in self.clients.streams_of(client):
-            self.tell("world", "unsubscribe", client=client, stream=data.stream)
-        self.clients.set_stream(client, is_open=False)
-
     def _on_message(self, event: ChildSaid) -> None:
         if event.kind == "node":
             self.nodes.said(self, event)
@@ -383,57 +363,6 @@ class Session:
             self.replenish()
         elif message["type"] == "fault" and message.get("kind") == "timeout":
             self.tell("world", "stop_robot")
-
-    def _on_exit(self, event: ChildExited) -> None:
-        self.leaving.discard((event.kind, event.number))
-        if event.kind == "node":
-            self.nodes.exited(self, event)
-            return
-        child = self.children.get(event.kind)
-        if child is None or child.number != event.number:
-            return
-        del self.children[event.kind]
-        child.end(event.reason, event.last_lines)
-        self.answer_late(self.asked.orphaned((event.kind, event.number)), "process_died", event.reason)
-        if child.is_stopping:
-            self._stopped()
-            return
-        what = "The simulated world" if event.kind == "world" else "The application"
-        message = f"{what} {event.reason}."
-        lines = "\n".join(event.last_lines)
-        if not child.is_in_use:
-            text = f"{message} It was not in use yet. {lines}".strip()
-            self.emit(messages.Log("manager", "warning", text))
-            return
-        self.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
-        self._fall(child, message)
-
-    def lose(self, child: Child, reason: str, message: str) -> None:
-        """Ends a child that is in use, and goes down to what is true without it."""
-        self.drop(child.kind, reason=reason)
-        self._fall(child, message)
-
-    def _stopped(self) -> None:
-        """The application ended because it was told to."""
-        if self.state in HAS_APPLICATION:
-            self.emit(messages.Finished("IDLE", "terminated"))
-            self.enter(State.VISUALIZATION_READY)
-            self.replenish()
-
-    def _fall(self, child: Child, message: str) -> None:
-        """Goes down to the rung that is still true without the child."""
-        rung = State.CONNECTED if child.kind == "world" else State.VISUALIZATION_READY
-        if self.state.height <= rung.height:
-            return
-        if self.state in HAS_APPLICATION:
-            self.emit(messages.Finished("IDLE", "process_died", message))
-        if child.kind == "world":
-            self.run.universe = None
-            self.drop("application", reason="was ended, since the simulated world is gone")
-        else:
-            steps.stop_moving(self)
-        self.enter(rung, message)
-        self.replenish()
 
     # --- commands ---------------------------------------------------------------------------------
 

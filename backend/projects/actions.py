@@ -194,7 +194,7 @@ def delete_project(project_id: UUID, *, acting_user: User, if_match: str = "") -
     project.deleted_at = timezone.now()
     project.save(update_fields=["deleted_at"])
     note("project.delete", actor=acting_user, subject=project.name, subject_id=project.id)
-    # Robust: what was done is done, also when those who are told cannot follow.
+    # Robust: what was done is done, also when those who listen fail.
     transaction.on_commit(lambda: project_deleted.send_robust(Project, project_id=project.id), robust=True)
 
 

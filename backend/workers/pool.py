@@ -84,7 +84,7 @@ class Pool:
             return len(self._queue)
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Has a job done; the same job is done once, whoever asks for it.
+        """Has a job done; the same job is done once, however many ask for it.
 
         Args:
             owner: for whom; owners take turns.

@@ -42,9 +42,9 @@ class Application:
 
     def __init__(self, channel: Channel, pulse: Pulse) -> None:
         from executor.application.locate import Locator  # noqa: PLC0415 - after the environment is set
-        from executor.application.report import Reporter  # noqa: PLC0415 - dito
-        from executor.application.ros import Graph  # noqa: PLC0415 - dito
-        from executor.application.watchdog import Breaker  # noqa: PLC0415 - dito
+        from executor.application.report import Reporter  # noqa: PLC0415 - as above
+        from executor.application.ros import Graph  # noqa: PLC0415 - as above
+        from executor.application.watchdog import Breaker  # noqa: PLC0415 - as above
 
         self._channel = channel
         self._pulse = pulse

@@ -187,6 +187,8 @@ def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someon
     ada.press("combobox", "What they may do")
     ada.press("option", "Can edit")
     dialog.get_by_role("button", name="Share", exact=True).click()
+    # His row moves what is below it: a click that is on its way would miss.
+    expect(dialog.get_by_role("button", name="Make bob the owner")).to_be_visible()
     ada.press("button", "Make a link")
     guest.go(ada.page.get_by_label("Read-only link").input_value())
     expect(guest.at("read-only")).to_be_visible()

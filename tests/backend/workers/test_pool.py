@@ -131,12 +131,17 @@ def test_more_than_may_wait_is_refused_with_when_to_ask_again(make_pool):
 
 def test_one_owner_does_not_take_the_others_workers(make_pool):
     pool = make_pool(workers=3, per_owner=2, waiting=20)
-    wait([pack(pool, n, f"owner {n}") for n in range(3)])
-    # The hoarder's work never ends while it is stopped.
-    hoarded = [pack(pool, 60_000_000 + n, "hoarder") for n in range(6)]
-    assert pack(pool, 77, "another").result(PATIENCE_S)["zip"]
-    assert sum(not future.done() for future in hoarded) >= 4
-    assert all(future.result(PATIENCE_S)["zip"] for future in hoarded)
+    wait([pack(pool, 20_000_000 + n, f"owner {n}") for n in range(3)])
+    until(lambda: len(pids(pool)) == 3)
+    for pid in pids(pool):
+        os.kill(pid, signal.SIGSTOP)  # no work ends
+    hoarded = [pack(pool, 10 + n, "hoarder") for n in range(6)]
+    until(lambda: pool.waiting == 4)
+    others = pack(pool, 77, "another")
+    until(lambda: pool.waiting == 4)  # the third worker was free for it
+    for pid in pids(pool):
+        os.kill(pid, signal.SIGCONT)
+    assert all(future.result(PATIENCE_S)["zip"] for future in [others, *hoarded])
 
 
 def test_workers_see_no_secret_and_end_with_the_pool(make_pool, monkeypatch):

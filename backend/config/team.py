@@ -59,8 +59,8 @@ class TeamSettings(BaseSettings):
     hsts_days: int = Field(
         default=365,
         ge=0,
-        description="Days for which browsers are told to open this server by https alone (HSTS), where "
-        "`BT_STUDIO_PUBLIC_URL` is https; 0 tells nothing.",
+        description="Days for which browsers open this server by https alone (HSTS), where "
+        "`BT_STUDIO_PUBLIC_URL` is https; 0 sends no such header.",
     )
     smtp_url: SecretStr = Field(
         default=SecretStr(""),

@@ -125,7 +125,7 @@ async def _explained(session: Session, closed: Closed) -> Closed:
 
 
 def _ended(session: Session) -> Closed:
-    """How a page is told that its session is over; it has words of its own for the one reason."""
+    """The code that closes a page's socket at the end of its session; a silent executor has its own."""
     code = EXECUTOR_SILENT if session.error == why() else EXECUTOR_FAILED
     return Closed(code, session.error or "The session has ended.")
 

@@ -24,7 +24,7 @@ class Interrupted(BaseException):
 
 
 class Breaker:
-    """Takes the manager's signal while a run goes on."""
+    """Takes the manager's signal during a run."""
 
     def __init__(self, locator: Locator) -> None:
         self._locator = locator

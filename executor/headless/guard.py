@@ -60,7 +60,7 @@ def sentence(file: str, line: int, what: str, for_s: float) -> str:
 
 
 class Guard:
-    """Watches this process while a run goes on. Enter it on the main thread."""
+    """Watches this process during a run. Enter it on the main thread."""
 
     def __init__(self) -> None:
         self._main = threading.main_thread().ident or 0

@@ -1,8 +1,8 @@
 """Publishes in a thread of its own: a subscriber that is frozen must not hold up the world.
 
 Fast DDS hands messages over in shared memory, whose lock a process may hold when it is stopped (a debugger,
-SIGSTOP); anyone who publishes to it then waits for up to three seconds. rclpy holds the interpreter's lock while
-it publishes, so a thread alone would not help: the call goes to rcl directly.
+SIGSTOP); anyone who publishes to it then waits for up to three seconds. rclpy holds the interpreter's lock
+while it publishes, so a thread alone would not help: the call goes to rcl directly.
 """
 
 from __future__ import annotations

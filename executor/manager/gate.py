@@ -1,14 +1,16 @@
 """How a manager without a network comes to be reached: it is handed a socket that listens already.
 
 In a container without a network, and with nothing to write to that others see, a manager can make no socket
-that anyone could find. The keeper beside the web server makes one and passes it through the gate, a unix
-socket that the container sees through a read-only mount (`backend/sessions/keeper/gate.py`).
+that anyone could find. The keeper beside the web server makes one and has it passed through the gate: at the
+door of this session, a unix socket that the container sees through a read-only mount
+(`backend/sessions/gate`).
 """
 
 from __future__ import annotations
 
 import json
 import socket
+import time
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
@@ -17,19 +19,33 @@ if TYPE_CHECKING:
 __all__ = ["fetch_listener"]
 
 TIMEOUT_S: Final = 10.0
+RETRY_S: Final = 0.1
 
 
-def fetch_listener(gate: Path, session_id: str, token: str) -> socket.socket:
-    """Returns the session's listening socket.
+def fetch_listener(door: Path, session_id: str, token: str, *, timeout_s: float = TIMEOUT_S) -> socket.socket:
+    """Returns the session's listening socket; a gate that is being started again is waited for.
 
     Raises:
-        OSError: nobody answers at the gate, or it refuses this session.
+        OSError: there is no such door, nobody answers there, or it refuses this session.
     """
+    deadline_s = time.monotonic() + timeout_s
+    while True:
+        try:
+            return _fetch(door, session_id, token)
+        except (FileNotFoundError, BlockingIOError, ConnectionError):
+            if time.monotonic() >= deadline_s:
+                raise
+            time.sleep(RETRY_S)
+
+
+def _fetch(door: Path, session_id: str, token: str) -> socket.socket:
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
         connection.settimeout(TIMEOUT_S)
-        connection.connect(str(gate))
+        connection.connect(str(door))
         connection.sendall(json.dumps({"session": session_id, "token": token}).encode() + b"\n")
-        _, descriptors, _, _ = socket.recv_fds(connection, 16, 1)
-    if not descriptors:
-        raise PermissionError("the gate does not know this session")
-    return socket.socket(fileno=descriptors[0])
+        answer, descriptors, _, _ = socket.recv_fds(connection, 16, 1)
+    if descriptors:
+        return socket.socket(fileno=descriptors[0])
+    if not answer:
+        raise ConnectionResetError("the gate closed the connection")
+    raise PermissionError("the gate does not know this session")

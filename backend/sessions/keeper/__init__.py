@@ -6,8 +6,9 @@ so that what has root's power over the host can be read in one sitting:
 
     docker      the Docker Engine's API over its socket
     plan        what an executor's container may do, and its limits
-    gate        how an executor without a network is reached
+    gate        how it has sockets handed to executors, by a gate that is a program of its own
     service     start, look, stop, and what has run too long
     tools       containers that read users' files for the editor
+    group       whether Docker's socket may be used
     server      the five requests that the web server may make
 """

@@ -15,6 +15,7 @@ from typing import Final
 from backend.sessions.keeper.docker import Docker
 from backend.sessions.keeper.errors import KeeperError
 from backend.sessions.keeper.gate import Gate
+from backend.sessions.keeper.group import check_socket
 from backend.sessions.keeper.plan import GATE_FOLDER, read_plan
 from backend.sessions.keeper.server import KeeperServer
 from backend.sessions.keeper.service import Keeper
@@ -24,6 +25,7 @@ from backend.sessions.keeper.unix_http import ask
 log = logging.getLogger("keeper")
 
 KEEPER_FOLDER: Final = "/run/bt-studio-keeper"
+CONTROL_SOCKET: Final = "/run/bt-studio-control/gate.sock"
 DOCKER_SOCKET: Final = "/var/run/docker.sock"
 TIDY_EVERY_S: Final = 5
 
@@ -45,18 +47,20 @@ def main() -> int:
 
 
 def _serve(folder: Path) -> None:
-    docker = Docker(os.environ.get("BT_STUDIO_DOCKER_SOCKET") or DOCKER_SOCKET)
+    docker_socket = os.environ.get("BT_STUDIO_DOCKER_SOCKET") or DOCKER_SOCKET
+    check_socket(docker_socket)
+    docker = Docker(docker_socket)
     gate_folder = Path(os.environ.get("BT_STUDIO_GATE_FOLDER") or GATE_FOLDER)
     gate_source, stack = _place(docker, gate_folder)
     plan = read_plan(gate_source=gate_source, stack=stack)
     max_sessions = int(os.environ.get("BT_STUDIO_MAX_SESSIONS") or 20)
-    gate = Gate(gate_folder, folder / "sessions")
+    control = Path(os.environ.get("BT_STUDIO_GATE_CONTROL") or CONTROL_SOCKET)
+    gate = Gate(control, folder / "sessions")
     keeper = Keeper(docker, gate, plan, max_sessions=max_sessions)
     max_tools = int(os.environ.get("BT_STUDIO_MAX_TOOLS") or 20)
     tools = ToolsKeeper(docker, gate, plan, max_tools=max_tools)
     server = KeeperServer(folder / "keeper.sock", keeper, tools)
-    for target in (gate.serve, server.serve_forever):
-        threading.Thread(target=target, daemon=True).start()
+    threading.Thread(target=server.serve_forever, daemon=True).start()
     ended = threading.Event()
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: ended.set())
@@ -69,7 +73,6 @@ def _serve(folder: Path) -> None:
         except KeeperError as error:
             log.warning("%s", error.detail)
     server.shutdown()
-    gate.close()
 
 
 def _place(docker: Docker, gate_folder: Path) -> tuple[str, str]:

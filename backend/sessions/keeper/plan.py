@@ -87,7 +87,7 @@ class Plan:
 
     Attributes:
         image: the executor's image.
-        gate_source: the volume, or the folder of the host, with the gate's socket.
+        gate_source: the volume, or the folder of the host, with the gate's doors.
         stack: tells the containers of this keeper from those of another.
         grace_s: how long a session lives without clients.
         tools_grace_s: how long a user's tools stay when no editor is open.
@@ -109,12 +109,12 @@ class Plan:
         """The name of the container with a user's tools."""
         return f"{self.stack}-tools-{tools_id}"
 
-    def container(self, session_id: str, token: str, domain_id: int) -> dict[str, Any]:
-        """The container of a session, as Docker's API takes it."""
+    def container(self, session_id: str, token: str, domain_id: int, door: str) -> dict[str, Any]:
+        """The container of a session, as Docker's API takes it; `door` is where it is handed its socket."""
         limits = self.limits
         command = [
             *("--host", "127.0.0.1", "--port", str(PORT), "--token-env", TOKEN_VARIABLE),
-            *("--gate", f"{GATE_FOLDER}/gate.sock", "--session", session_id),
+            *("--gate", f"{GATE_FOLDER}/{door}", "--session", session_id),
             *("--domain-id", str(domain_id), "--grace", str(self.grace_s)),
         ]
         environment = [
@@ -126,10 +126,10 @@ class Plan:
         made = self._confined(token, limits, {SESSION_LABEL: session_id})
         return made | {"Cmd": command, "Env": made["Env"] + environment}
 
-    def tools(self, tools_id: str, token: str) -> dict[str, Any]:
+    def tools(self, tools_id: str, token: str, door: str) -> dict[str, Any]:
         """The container that reads one user's files for the editor."""
         command = [
-            *("--gate", f"{GATE_FOLDER}/gate.sock", "--session", tools_id),
+            *("--gate", f"{GATE_FOLDER}/{door}", "--session", tools_id),
             *("--token-env", TOKEN_VARIABLE, "--grace", str(self.tools_grace_s)),
         ]
         made = self._confined(token, self.tools_limits, {TOOLS_LABEL: tools_id})

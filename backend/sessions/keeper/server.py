@@ -14,12 +14,13 @@ import json
 import logging
 import re
 import socketserver
+import threading
 from http.server import BaseHTTPRequestHandler
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
 
+from backend.sessions.gate.doors import listen_at
 from backend.sessions.keeper.errors import KeeperError
-from backend.sessions.keeper.gate import listen_at
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,10 +34,16 @@ SESSION_ID: Final = re.compile(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}")
 TOKEN: Final = re.compile(r"[0-9A-Za-z_-]{32,128}")
 MAX_BODY_BYTES: Final = 4096
 MAX_TIMEOUT_S: Final = 300.0
+MAX_REQUESTS: Final = 128
+"""Each takes a thread and some four descriptors."""
 
 
 class KeeperServer(socketserver.ThreadingUnixStreamServer):
-    """Listens at a path."""
+    """Listens at a path.
+
+    Requests are bounded, so that neither threads nor descriptors run out: a connection that says nothing has
+    30 s, and what comes when all places are taken is closed at once.
+    """
 
     daemon_threads = True
 
@@ -44,8 +51,31 @@ class KeeperServer(socketserver.ThreadingUnixStreamServer):
         super().__init__(str(path), _Handler, bind_and_activate=False)
         self.keeper = keeper
         self.tools = tools
+        self._places = threading.BoundedSemaphore(MAX_REQUESTS)
         self.socket.close()
         self.socket = listen_at(path)
+
+    def verify_request(self, *_: object) -> bool:
+        """Whether there is a place for one more request."""
+        if self._places.acquire(blocking=False):
+            return True
+        log.warning("%d requests at once are too many", MAX_REQUESTS)
+        return False
+
+    def process_request(self, *request: Any) -> None:
+        """Gives one request a thread."""
+        try:
+            super().process_request(*request)
+        except BaseException:
+            self._places.release()
+            raise
+
+    def process_request_thread(self, *request: Any) -> None:
+        """Answers one request in a thread of its own."""
+        try:
+            super().process_request_thread(*request)
+        finally:
+            self._places.release()
 
 
 class _Handler(BaseHTTPRequestHandler):

@@ -7,12 +7,15 @@ import logging
 import threading
 import time
 from datetime import UTC, datetime
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.sessions.keeper.errors import KeeperError
 from backend.sessions.keeper.plan import SESSION_LABEL, STACK_LABEL
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from backend.sessions.keeper.docker import Docker
     from backend.sessions.keeper.gate import Gate
     from backend.sessions.keeper.plan import Plan
@@ -60,8 +63,8 @@ class Keeper:
             self._starting.add(session_id)
         try:
             name = self._plan.container_name(session_id)
-            config = self._plan.container(session_id, token, domain_id)
-            bring_up(self._docker, self._gate, name, session_id, config, token, timeout_s)
+            configure = partial(self._plan.container, session_id, token, domain_id)
+            bring_up(self._docker, self._gate, name, session_id, configure, token, timeout_s)
         except BaseException:
             self._clear(session_id)
             raise
@@ -139,17 +142,26 @@ class Keeper:
         self._crowded = crowded
 
     def tidy(self, now_s: float) -> None:
-        """Ends what has run for too long, and removes what ended long ago and nobody asked for."""
+        """Ends what has run for too long or can be reached by nobody; removes what ended long ago."""
         oldest_s = now_s - self._plan.limits.hours * 3600
         for one in self.list():
             try:
                 if one["running"] and one["created"] < oldest_s:
                     log.warning("session %s has used up its time", one["session"])
                     self._docker.stop(self._plan.container_name(one["session"]), STOP_TIMEOUT_S)
+                elif one["running"] and self._is_unreachable(one["session"]):
+                    log.warning("session %s has no socket any more", one["session"])
+                    self._remember(one["session"], "Its socket was removed with the volume that held it.")
+                    self._docker.stop(self._plan.container_name(one["session"]), STOP_TIMEOUT_S)
                 elif not one["running"] and one["created"] < now_s and self._ended_long_ago(one, now_s):
                     self._clear(one["session"])
             except KeeperError as error:
                 log.warning("session %s: %s", one["session"], error.detail)
+
+    def _is_unreachable(self, session_id: str) -> bool:
+        """Whether the socket is gone, as it is when the stack was given other volumes."""
+        with self._lock:
+            return session_id not in self._starting and not self._gate.path(session_id).exists()
 
     def _ended_long_ago(self, one: dict[str, Any], now_s: float) -> bool:
         with self._lock:
@@ -160,25 +172,33 @@ class Keeper:
 
 
 def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows at the gate
-    docker: Docker, gate: Gate, name: str, gate_id: str, config: dict[str, Any], token: str, timeout_s: float
+    docker: Docker,
+    gate: Gate,
+    name: str,
+    gate_id: str,
+    configure: Callable[[str], dict[str, Any]],
+    token: str,
+    timeout_s: float,
 ) -> None:
     """Starts a container, and returns when it has taken its socket from the gate.
+
+    `configure` makes the container for a session that is given this door.
 
     Raises:
         KeeperError: it ended, or took too long; what is left of it is for the caller to clear.
     """
-    arrived = gate.expect(gate_id, token)
-    docker.create(name, config)
-    docker.start(name)
     deadline = time.monotonic() + timeout_s
-    while not arrived.wait(LOOK_EVERY_S):
-        state = (docker.inspect(name) or {}).get("State", {})
-        if not state.get("Running"):
-            reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
-            raise KeeperError(502, "executor_failed", reason, docker.log(name, LOG_LINES))
-        if time.monotonic() > deadline:
-            reason = f"The executor did not report that it is ready within {timeout_s:g} s."
-            raise KeeperError(504, "executor_slow", reason, docker.log(name, LOG_LINES))
+    with gate.door(gate_id, token) as door:
+        docker.create(name, configure(door.path))
+        docker.start(name)
+        while not door.wait(LOOK_EVERY_S):
+            state = (docker.inspect(name) or {}).get("State", {})
+            if not state.get("Running"):
+                reason = f"The executor ended with status {state.get('ExitCode')} before it was ready."
+                raise KeeperError(502, "executor_failed", reason, docker.log(name, LOG_LINES))
+            if time.monotonic() > deadline:
+                reason = f"The executor did not report that it is ready within {timeout_s:g} s."
+                raise KeeperError(504, "executor_slow", reason, docker.log(name, LOG_LINES))
 
 
 def ended_at(state: dict[str, Any]) -> float:

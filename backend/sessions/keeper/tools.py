@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 import threading
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.sessions.keeper.errors import KeeperError
@@ -57,8 +58,8 @@ class ToolsKeeper:
             self._opening.add(tools_id)
         try:
             self._clear(tools_id)
-            config = self._plan.tools(tools_id, token)
-            bring_up(self._docker, self._gate, name, tools_id, config, token, timeout_s)
+            configure = partial(self._plan.tools, tools_id, token)
+            bring_up(self._docker, self._gate, name, tools_id, configure, token, timeout_s)
         except BaseException:
             self._clear(tools_id)
             raise

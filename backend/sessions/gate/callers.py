@@ -1,0 +1,90 @@
+"""Connections that have not yet said what they want: how many there may be, and which of them give way."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import socket
+    from collections.abc import Iterator
+
+
+@dataclass(eq=False, slots=True)
+class Caller:
+    """A connection.
+
+    Attributes:
+        door: the name of the door where it came; empty for the keeper's own entrance.
+        deadline_s: until when it must have said everything.
+        heard: what it has said.
+        descriptors: what it has sent along, which is closed if nobody takes it.
+    """
+
+    connection: socket.socket
+    door: str
+    deadline_s: float
+    heard: bytes = b""
+    descriptors: list[int] = field(default_factory=list)
+
+
+class Callers:
+    """Bounds them at each door and in all; the oldest give way.
+
+    Args:
+        per_door: so many at one door.
+        in_all: so many at all doors.
+    """
+
+    def __init__(self, *, per_door: int, in_all: int) -> None:
+        self._per_door = per_door
+        self._in_all = in_all
+        self._by_door: dict[str, dict[Caller, None]] = {}
+        self._count = 0
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __contains__(self, caller: Caller) -> bool:
+        return caller in self._by_door.get(caller.door, {})
+
+    def __iter__(self) -> Iterator[Caller]:
+        for waiting in self._by_door.values():
+            yield from waiting
+
+    def add(self, caller: Caller) -> list[Caller]:
+        """Admits a connection; returns those that give way to it, which belong to nobody any more."""
+        waiting = self._by_door.setdefault(caller.door, {})
+        gone = []
+        if len(waiting) >= self._per_door:
+            gone.append(next(iter(waiting)))
+        elif self._count >= self._in_all and (oldest := self.first_to_go()) is not None:
+            gone.append(oldest)
+        for one in gone:
+            self.discard(one)
+        self._by_door.setdefault(caller.door, {})[caller] = None
+        self._count += 1
+        return gone
+
+    def discard(self, caller: Caller) -> None:
+        """Forgets a connection; one that is not there is no error."""
+        waiting = self._by_door.get(caller.door, {})
+        if caller not in waiting:
+            return
+        del waiting[caller]
+        self._count -= 1
+        if not waiting:
+            del self._by_door[caller.door]
+
+    def first_to_go(self) -> Caller | None:
+        """The oldest at the door where most wait: a flood at one door costs the other doors nothing."""
+        fullest = max(self._by_door.values(), key=len, default=None)
+        return next(iter(fullest)) if fullest else None
+
+    def overdue(self, now_s: float) -> list[Caller]:
+        """Those whose time is up."""
+        return [caller for caller in self if caller.deadline_s <= now_s]
+
+    def at(self, door: str) -> list[Caller]:
+        """Those at one door."""
+        return list(self._by_door.get(door, {}))

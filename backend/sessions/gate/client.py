@@ -1,0 +1,112 @@
+"""What the keeper says to the gate: a door is open for as long as a `Door` is."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import socket
+import time
+from typing import TYPE_CHECKING, Final, Self
+
+from backend.sessions.gate.doors import DOOR_SOCKET
+from backend.sessions.gate.errors import GateError
+from backend.sessions.gate.server import MAX_LINE_BYTES, OPEN, REFUSALS, TAKEN
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+OPEN_TIMEOUT_S: Final = 10.0
+RETRY_S: Final = 0.1
+
+
+class Door:
+    """One session's door.
+
+    A gate that is started again knows no doors. The door is then opened again, under the same name, since
+    the session has been given that name.
+
+    Args:
+        control: where the gate listens for the keeper.
+        listener: what the session is handed; the caller keeps it open until the door is closed.
+    """
+
+    def __init__(self, control: Path, listener: socket.socket, session: str, token: str) -> None:
+        self.name = secrets.token_hex(16)
+        self._control = str(control)
+        self._listener = listener
+        asked = {"door": self.name, "session": session, "token": token}
+        self._request = json.dumps(asked).encode() + b"\n"
+        self._connection: socket.socket | None = None
+        self._heard = b""
+
+    @property
+    def path(self) -> str:
+        """Where the door is, below the folder of the doors."""
+        return f"{self.name}/{DOOR_SOCKET}"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def open(self, timeout_s: float = OPEN_TIMEOUT_S) -> Self:
+        """Returns when sessions can come; a gate that is being started is waited for.
+
+        Raises:
+            GateError: it does not answer, or refuses.
+        """
+        deadline_s = time.monotonic() + timeout_s
+        while True:
+            try:
+                self._connect(max(0.1, deadline_s - time.monotonic()))
+            except (OSError, GateError) as error:
+                self.close()
+                if time.monotonic() >= deadline_s:
+                    if isinstance(error, GateError):
+                        raise
+                    raise GateError("gate_unreachable", f"The gate does not answer: {error}.") from error
+                time.sleep(RETRY_S)
+            else:
+                return self
+
+    def wait(self, timeout_s: float) -> bool:
+        """Whether a session has fetched its socket, by the end of this time."""
+        deadline_s = time.monotonic() + timeout_s
+        try:
+            connection = self._connection or self._connect(timeout_s)
+            return self._hear(connection, timeout_s) == TAKEN
+        except TimeoutError:
+            return False
+        except (OSError, GateError):
+            self.close()
+            time.sleep(max(0.0, min(RETRY_S, deadline_s - time.monotonic())))
+            return False
+
+    def close(self) -> None:
+        """Closes the door; closing twice is no error."""
+        if self._connection is not None:
+            self._connection.close()
+        self._connection = None
+        self._heard = b""
+
+    def _connect(self, timeout_s: float) -> socket.socket:
+        self._connection = connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        connection.settimeout(timeout_s)
+        connection.connect(self._control)
+        socket.send_fds(connection, [self._request], [self._listener.fileno()])
+        answer = self._hear(connection, timeout_s)
+        if answer != OPEN:
+            raise GateError("gate_refused", f"The gate refuses: {REFUSALS.get(answer, 'unknown answer')}.")
+        return connection
+
+    def _hear(self, connection: socket.socket, timeout_s: float) -> bytes:
+        """One line of the gate."""
+        connection.settimeout(timeout_s)
+        while b"\n" not in self._heard:
+            data = connection.recv(MAX_LINE_BYTES)
+            if not data:
+                raise ConnectionResetError("the gate has ended")
+            self._heard += data
+        line, end, self._heard = self._heard.partition(b"\n")
+        return line + end

@@ -1,0 +1,91 @@
+"""The doors: `<32 random hex>/gate.sock`, a folder for each session that is on its way.
+
+Every session sees the whole volume, since Docker before 25 cannot mount a part of one. The root may be
+entered but not read (0711), so that a door is found by those who were given its name and by nobody else.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import shutil
+import socket
+from typing import TYPE_CHECKING, Final
+
+from backend.sessions.gate.errors import GateError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+DOOR_NAME: Final = re.compile(r"[0-9a-f]{32}")
+DOOR_SOCKET: Final = "gate.sock"
+ENTER_ONLY: Final = 0o711
+EVERYBODY: Final = 0o666  # anyone who finds the folder; it is mounted where it is meant to be seen
+BACKLOG: Final = 128
+
+
+class Doors:
+    """The folders of the open doors.
+
+    Raises:
+        GateError: the folder is not ours, or another gate uses it.
+    """
+
+    def __init__(self, root: Path) -> None:
+        self._root = root
+        try:
+            root.mkdir(parents=True, exist_ok=True)
+            root.chmod(ENTER_ONLY)
+            self._lock = os.open(root, os.O_RDONLY | os.O_DIRECTORY)
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise GateError("gate_runs", f"Another gate uses {root}.", "One gate serves a stack.") from None
+        except OSError as error:
+            hint = (
+                "The gate's volume must belong to the user that the gate runs as: remove it and start again."
+            )
+            raise GateError("gate_folder", f"{root} cannot be used: {error}.", hint) from error
+        # Doors do not outlive their gate: the keeper has those opened again that it still needs.
+        for left in root.iterdir():
+            if DOOR_NAME.fullmatch(left.name):
+                shutil.rmtree(left, ignore_errors=True)
+
+    def make(self, name: str) -> socket.socket:
+        """Makes a door; returns the socket that listens there.
+
+        Raises:
+            OSError: there is such a door, or no room or descriptor for another.
+        """
+        folder = self._root / name
+        folder.mkdir(mode=ENTER_ONLY)
+        try:
+            listener = listen_at(folder / DOOR_SOCKET)
+        except OSError:
+            self.remove(name)
+            raise
+        listener.settimeout(0)
+        folder.chmod(ENTER_ONLY)  # the umask had a say in it
+        return listener
+
+    def remove(self, name: str) -> None:
+        """Removes a door; one that is gone is no error."""
+        shutil.rmtree(self._root / name, ignore_errors=True)
+
+    def close(self) -> None:
+        """Leaves the folder to another gate."""
+        os.close(self._lock)
+
+
+def listen_at(path: Path, mode: int = EVERYBODY) -> socket.socket:
+    """A socket that listens at a path, in place of an older one."""
+    path.unlink(missing_ok=True)
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        listener.bind(str(path))
+        path.chmod(mode)
+        listener.listen(BACKLOG)
+    except OSError:
+        listener.close()
+        raise
+    return listener

@@ -1,0 +1,40 @@
+"""Whether the keeper may use Docker's socket: it is no root, but one of the socket's group."""
+
+from __future__ import annotations
+
+import os
+import stat
+from typing import Final
+
+from backend.sessions.keeper.errors import KeeperError
+
+GROUP_MAY: Final = stat.S_IRGRP | stat.S_IWGRP
+
+
+def check_socket(path: str) -> None:
+    """Returns when the socket can be used.
+
+    Raises:
+        KeeperError: it cannot; the text says what to set.
+    """
+    try:
+        found = os.stat(path)  # noqa: PTH116 - a path that Docker gives as text
+    except OSError as error:
+        raise _refusal("docker_missing", f"There is no {path}: {error.strerror}.") from error
+    if not stat.S_ISSOCK(found.st_mode):
+        raise _refusal("docker_missing", f"{path} is no socket. Set BT_STUDIO_DOCKER_SOCKET to Docker's.")
+    if os.access(path, os.R_OK | os.W_OK):
+        return
+    if found.st_mode & GROUP_MAY != GROUP_MAY:
+        mode = f"{stat.S_IMODE(found.st_mode):04o}"
+        raise _refusal("keeper_group", f"The mode {mode} of {path} shuts its group {found.st_gid} out.")
+    groups = ", ".join(str(group) for group in sorted({os.getgid(), *os.getgroups()}))
+    raise _refusal(
+        "keeper_group",
+        f"Docker's socket {path} belongs to group {found.st_gid}, and the keeper is in {groups}. "
+        f"Set BT_STUDIO_DOCKER_GID={found.st_gid} in docker/.env and start again.",
+    )
+
+
+def _refusal(code: str, detail: str) -> KeeperError:
+    return KeeperError(503, code, f"{code}: {detail}")

@@ -3,6 +3,7 @@
 good      takes its socket from the gate and listens
 failing   ends with status 3
 never     runs, and never comes to the gate
+waits     is good when `go_on` is set
 tools     is `executor.tools`, as a child of this process
 liar      shows a wrong token at the gate, and ends
 """
@@ -22,6 +23,7 @@ from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
+from backend.sessions.keeper.plan import GATE_FOLDER
 from executor.manager.gate import fetch_listener
 
 REPOSITORY = Path(__file__).parents[2]
@@ -38,8 +40,9 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         self.children = {}
         self.requests = []
         self.processes = {}
+        self.go_on = threading.Event()
         self._lock = threading.Lock()
-        self._gate = gate_folder / "gate.sock"
+        self._gate = gate_folder
         super().__init__(str(path), _Handler)
         threading.Thread(target=self.serve_forever, daemon=True).start()
 
@@ -63,20 +66,23 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         environment = dict(entry.split("=", 1) for entry in container["Env"])
         session = command[command.index("--session") + 1]
         token = environment["BT_STUDIO_MANAGER_TOKEN"]
+        door = self._gate / Path(command[command.index("--gate") + 1]).relative_to(GATE_FOLDER)
         if kind == "failing":
             self.end(name, 3)
         elif kind == "liar":
             with contextlib.suppress(OSError):
-                self.listeners[name] = fetch_listener(self._gate, session, "wrong" + token)
+                self.listeners[name] = fetch_listener(door, session, "wrong" + token)
             self.end(name, 1)
         elif kind == "tools":
-            door = [str(self._gate) if part.endswith("/gate.sock") else part for part in command]
+            arguments = [str(door) if part.endswith("/gate.sock") else part for part in command]
             environment |= {"PATH": os.environ["PATH"]}
-            program = [sys.executable, *container["Entrypoint"][1:], *door]
+            program = [sys.executable, *container["Entrypoint"][1:], *arguments]
             child = self.children[name] = subprocess.Popen(program, env=environment, cwd=REPOSITORY)
             self.end(name, child.wait())
-        elif kind == "good":
-            self._listen(name, container, fetch_listener(self._gate, session, token))
+        elif kind in {"good", "waits"}:
+            if kind == "waits":
+                self.go_on.wait()
+            self._listen(name, container, fetch_listener(door, session, token))
 
     def _listen(self, name, container, listener):
         """Keeps what an executor listens at, unless it was ended while it fetched that."""
@@ -87,6 +93,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         listener.close()
 
     def close(self):
+        self.go_on.set()
         for child in self.children.values():
             child.kill()
             child.wait()
@@ -172,5 +179,10 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def gate_of(folder):
-    """The folder that a keeper below `folder` shares with executors."""
+    """The folder that a gate below `folder` shares with executors."""
     return Path(folder) / "gate"
+
+
+def control_of(folder):
+    """Where that gate listens for the keeper."""
+    return Path(folder) / "control" / "gate.sock"

@@ -229,10 +229,11 @@ class GateServer:
         caller.descriptors += descriptors
         caller.heard += data
         if b"\n" in caller.heard:
+            self._callers.discard(caller)  # it waits no more, and gives way to nobody
             answer = self._open(caller)
             self._say(caller.connection, answer)
             if answer != OPEN:
-                self._drop(caller, "refused to the keeper")
+                self._end(caller, "refused to the keeper")
         elif not data or len(caller.heard) >= MAX_LINE_BYTES:
             self._drop(caller, "no request")
 
@@ -253,7 +254,6 @@ class GateServer:
             self._folders.remove(said["door"])
             self._make_room(error)
             return b"failed\n"
-        self._callers.discard(caller)
         handed = socket.socket(fileno=caller.descriptors.pop())
         closes_s = self._clock() + self._limits.age_s
         token = said["token"].encode()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from backend.sessions.gate.client import Door
+from backend.sessions.gate.client import OPEN_TIMEOUT_S, Door
 from backend.sessions.gate.doors import listen_at
 from backend.sessions.gate.errors import GateError
 from backend.sessions.keeper.errors import KeeperError
@@ -21,11 +21,13 @@ class Gate:
     Args:
         control: where the gate listens for the keeper.
         socket_folder: where the sockets of the sessions are; only the web server sees it.
+        patience_s: so long a gate that does not answer is waited for, since it may be starting again.
     """
 
-    def __init__(self, control: Path, socket_folder: Path) -> None:
+    def __init__(self, control: Path, socket_folder: Path, *, patience_s: float = OPEN_TIMEOUT_S) -> None:
         self._control = control
         self._socket_folder = socket_folder
+        self._patience_s = patience_s
         socket_folder.mkdir(parents=True, exist_ok=True)
 
     def path(self, session_id: str) -> Path:
@@ -42,7 +44,7 @@ class Gate:
         path = self.path(session_id)
         with listen_at(path) as listener, Door(self._control, listener, session_id, token) as door:
             try:
-                door.open()
+                door.open(self._patience_s)
             except GateError as error:
                 raise KeeperError(503, error.code, error.detail) from error
             yield door

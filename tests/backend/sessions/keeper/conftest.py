@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from backend.sessions.gate.doors import Doors
+from backend.sessions.gate.server import GateServer
 from backend.sessions.keeper.docker import Docker
 from backend.sessions.keeper.gate import Gate
 from backend.sessions.keeper.plan import Limits, Plan
@@ -15,15 +17,16 @@ from backend.sessions.keeper.server import KeeperServer
 from backend.sessions.keeper.service import Keeper
 from backend.sessions.keeper.tools import ToolsKeeper
 from backend.sessions.launchers.docker import DockerLauncher
-from tests.fakes.docker import FakeDocker, gate_of
+from tests.fakes.docker import FakeDocker, control_of, gate_of
 
 
 class Host:
     """Everything that stands beside a web server."""
 
-    def __init__(self, folder, image, max_sessions):
+    def __init__(self, folder, image, max_sessions, patience_s):
         self.folder = folder / "keeper"
-        self.gate = Gate(gate_of(folder), self.folder / "sessions")
+        self.start_gate()
+        self.gate = Gate(control_of(folder), self.folder / "sessions", patience_s=patience_s)
         self.docker = FakeDocker(folder / "docker.sock", gate_of(folder))
         plan = Plan(image, "gate", "stack", limits=Limits(memory_mb=512, hours=2))
         engine = Docker(str(folder / "docker.sock"))
@@ -31,12 +34,21 @@ class Host:
         self.tools = ToolsKeeper(engine, self.gate, plan, max_tools=max_sessions)
         self.server = KeeperServer(self.folder / "keeper.sock", self.keeper, self.tools)
         self.launcher = DockerLauncher(self.folder)
-        self._threads = [
-            threading.Thread(target=target, daemon=True)
-            for target in (self.gate.serve, lambda: self.server.serve_forever(0.05))
-        ]
-        for thread in self._threads:
-            thread.start()
+        self._thread = threading.Thread(target=lambda: self.server.serve_forever(0.05), daemon=True)
+        self._thread.start()
+
+    def start_gate(self):
+        self._gate_server = GateServer(Doors(gate_of(self.folder.parent)), control_of(self.folder.parent))
+        self._gate_thread = threading.Thread(target=self._gate_server.serve, daemon=True)
+        self._gate_thread.start()
+
+    def end_gate(self):
+        self._gate_server.end()
+        self._gate_thread.join(60)
+
+    @property
+    def doors(self):
+        return sorted(path.name for path in gate_of(self.folder.parent).iterdir())
 
     @property
     def sockets(self):
@@ -45,10 +57,9 @@ class Host:
     def close(self):
         self.server.shutdown()
         self.server.server_close()
-        self.gate.close()
+        self.end_gate()
         self.docker.close()
-        for thread in self._threads:
-            thread.join(5)
+        self._thread.join(60)
 
 
 @pytest.fixture
@@ -63,8 +74,8 @@ def host_of(folder):
     """Makes a host whose executors behave as a kind does."""
     made = []
 
-    def make(image="good", max_sessions=2):
-        made.append(Host(folder, image, max_sessions))
+    def make(image="good", max_sessions=2, patience_s=60):
+        made.append(Host(folder, image, max_sessions, patience_s))
         return made[-1]
 
     yield make

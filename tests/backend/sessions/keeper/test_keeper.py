@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import http.client
 import json
+import re
 import socket
+import stat
 import time
+from concurrent.futures import ThreadPoolExecutor
 from uuid import uuid4
 
 import pytest
@@ -15,11 +19,12 @@ from backend.sessions.keeper.service import ended_at
 from backend.sessions.keeper.unix_http import ask
 from backend.sessions.launchers.base import UNKNOWN_EXIT
 from backend.sessions.launchers.docker import DockerLauncher
-from executor.manager.gate import fetch_listener
 from tests.backend.sessions.conftest import spec
+from tests.e2e.server import wait_until
 from tests.fakes.docker import gate_of
 
 TOKEN = "t" * 64
+DOOR = "d" * 32 + "/gate.sock"
 
 
 def session_spec(**changes):
@@ -87,23 +92,80 @@ def test_an_executor_that_took_too_much_memory_is_explained(host_of):
     assert "512 MB" in host.launcher.explain(started.state)
 
 
-def test_the_gate_lets_each_session_in_once(host_of, folder):
+def test_each_session_has_a_door_of_its_own_which_is_gone_when_it_has_come(host_of):
     host = host_of()
-    asked = session_spec()
-    host.launcher.start(asked)
-    gate = gate_of(folder) / "gate.sock"
-    for session, token in ((asked.session_id, TOKEN), (str(uuid4()), TOKEN), ("", "")):
-        with pytest.raises(PermissionError, match="does not know"):
-            fetch_listener(gate, session, token)
+    doors = []
+    for _ in range(2):
+        host.launcher.start(session_spec())
+        command = list(host.docker.containers.values())[-1]["Cmd"]
+        doors.append(command[command.index("--gate") + 1])
+    assert all(re.fullmatch(r"/run/bt-studio/[0-9a-f]{32}/gate\.sock", door) for door in doors)
+    assert len(set(doors)) == 2
+    assert host.doors == []
+    assert stat.S_IMODE(gate_of(host.folder.parent).stat().st_mode) == 0o711
 
 
-def test_the_gate_survives_nonsense(host_of, folder):
+def test_a_session_that_never_comes_leaves_no_door(host_of):
+    host = host_of("never")
+    with pytest.raises(LaunchError, match="within"):
+        host.launcher.start(session_spec(start_timeout_s=0.6))
+    wait_until(lambda: host.doors == [], "the door is gone")
+
+
+def test_without_a_gate_a_start_says_so(host_of):
+    host = host_of(patience_s=0.2)
+    host.end_gate()
+    with pytest.raises(LaunchError, match="The gate does not answer"):
+        host.launcher.start(session_spec())
+    assert host.docker.containers == {}
+    assert host.sockets == []
+
+
+def test_a_gate_that_is_started_again_lets_the_session_in_that_was_on_its_way(host_of):
+    host = host_of("waits")
+    with ThreadPoolExecutor(1) as web:
+        starting = web.submit(host.launcher.start, session_spec())
+        wait_until(lambda: host.docker.containers, "the container is made")
+        host.end_gate()
+        assert host.doors == []
+        host.start_gate()
+        host.docker.go_on.set()
+        assert starting.result(60).address
+    assert host.doors == []
+
+
+def test_a_session_whose_socket_is_gone_is_ended(host_of):
     host = host_of()
-    for nonsense in (b"", b"\n", b"[]\n", b"\xff\n", b'{"session": 1}\n', b"x" * 9000):
-        with socket.socket(socket.AF_UNIX) as client:
-            client.connect(str(gate_of(folder) / "gate.sock"))
-            client.sendall(nonsense)
+    started = host.launcher.start(session_spec())
+    host.keeper.tidy(time.time())
+    assert host.launcher.poll(started.state) is None
+    [path] = (host.folder / "sessions").iterdir()
+    path.unlink()
+    host.keeper.tidy(time.time())
+    assert host.launcher.poll(started.state) == 143
+    assert "Its socket was removed" in host.launcher.explain(started.state)
+
+
+def test_more_requests_than_there_are_places_for_are_refused_and_the_keeper_lives(host_of, monkeypatch):
+    monkeypatch.setattr("backend.sessions.keeper.server.MAX_REQUESTS", 4)
+    host = host_of()
+    silent = [socket.socket(socket.AF_UNIX) for _ in range(40)]
+    for client in silent:
+        client.connect(str(host.folder / "keeper.sock"))
+    # The last has been closed without an answer: all places are taken by those that say nothing.
+    silent[-1].settimeout(60)
+    assert silent[-1].recv(1) == b""
+    for client in silent:
+        client.close()
+    wait_until(lambda: answers(host), "the keeper answers")
     assert host.launcher.start(session_spec()).address
+
+
+def answers(host):
+    try:
+        return ask(str(host.folder / "keeper.sock"), "GET", "/health")[0] == 200
+    except (OSError, http.client.HTTPException):
+        return False
 
 
 @pytest.mark.parametrize(
@@ -192,13 +254,13 @@ def test_a_container_gets_no_more_processors_than_there_are(monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     for wanted, given in ((1.5, 1_500_000_000), (4, 2_000_000_000)):
         plan = Plan("executor:1", "gate", "stack", limits=Limits(cpus=wanted))
-        assert plan.container("id", TOKEN, 7)["HostConfig"]["NanoCpus"] == given
+        assert plan.container("id", TOKEN, 7, DOOR)["HostConfig"]["NanoCpus"] == given
 
 
 def test_a_container_may_do_little(monkeypatch):
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     plan = Plan("executor:1", "gate", "stack", limits=Limits(cpus=1.5, memory_mb=1024, pids=100, disk_mb=64))
-    config = plan.container("id", TOKEN, 7)
+    config = plan.container("id", TOKEN, 7, DOOR)
     host = config["HostConfig"]
     assert config["User"] == "10001:10001"
     assert (host["NetworkMode"], host["IpcMode"]) == ("none", "private")
@@ -214,12 +276,13 @@ def test_a_container_may_do_little(monkeypatch):
     assert host["Mounts"] == [mount]
     assert not {"Binds", "Devices", "CapAdd", "PortBindings", "PidMode", "VolumesFrom"} & set(host)
     assert TOKEN not in " ".join(config["Cmd"])
+    assert f"/run/bt-studio/{DOOR}" in config["Cmd"]
 
 
 def test_limits_come_from_the_environment_and_wrong_ones_are_refused_by_name():
     plan = read_plan({"BT_STUDIO_SESSION_PIDS": "33"}, gate_source="/gate", stack="s")
     assert plan.limits.pids == 33
-    assert plan.container("id", TOKEN, 1)["HostConfig"]["Mounts"][0]["Type"] == "bind"
+    assert plan.container("id", TOKEN, 1, DOOR)["HostConfig"]["Mounts"][0]["Type"] == "bind"
     for wrong in ("many", "0", "-1", "nan", "inf"):
         with pytest.raises(ValueError, match="BT_STUDIO_SESSION_PIDS"):
             read_plan({"BT_STUDIO_SESSION_PIDS": wrong}, gate_source="gate", stack="s")

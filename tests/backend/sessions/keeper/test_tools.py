@@ -15,6 +15,7 @@ from backend.sessions.keeper.plan import Plan, read_plan
 from backend.sessions.keeper.unix_http import ask
 
 TOKEN = "t" * 64
+DOOR = "d" * 32 + "/gate.sock"
 
 
 def opened(host, tools_id=None):
@@ -100,14 +101,17 @@ def test_the_keeper_takes_an_id_and_a_token_and_nothing_else(host_of, body):
 
 def test_tools_may_do_as_little_as_an_executor_and_use_less():
     plan = Plan("executor:1", "gate", "stack")
-    tools, session = plan.tools("id", TOKEN)["HostConfig"], plan.container("id", TOKEN, 7)["HostConfig"]
+    tools, session = (
+        plan.tools("id", TOKEN, DOOR)["HostConfig"],
+        plan.container("id", TOKEN, 7, DOOR)["HostConfig"],
+    )
     limits = {"Memory", "MemorySwap", "NanoCpus", "PidsLimit", "ShmSize", "Tmpfs"}
     assert {key: value for key, value in tools.items() if key not in limits} == {
         key: value for key, value in session.items() if key not in limits
     }
     assert tools["Memory"] < session["Memory"]
     assert tools["PidsLimit"] < session["PidsLimit"]
-    assert plan.tools("id", TOKEN)["User"] == "10001:10001"
+    assert plan.tools("id", TOKEN, DOOR)["User"] == "10001:10001"
 
 
 def test_their_limits_come_from_the_environment():

@@ -47,6 +47,7 @@ class Stack:
             "BT_STUDIO_SECRET_KEY": secrets.token_hex(32),
             "BT_STUDIO_DATABASE_PASSWORD": secrets.token_hex(16),
             "BT_STUDIO_DOCKER_SOCKET": str(engine.socket),
+            "BT_STUDIO_DOCKER_GID": str(engine.socket.stat().st_gid),
             **settings,
         }
         self._file.write_text("".join(f"{name}={value}\n" for name, value in values.items()))

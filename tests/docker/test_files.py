@@ -29,11 +29,19 @@ def test_compose_files_start_with_old_and_new_compose(path):
     assert set(document) <= {"version", "services", "networks", "volumes", "x-logging"}
     sockets = [name for name, service in document["services"].items() if "docker.sock" in str(service)]
     assert sockets == ["keeper"]
-    assert document["services"]["keeper"]["network_mode"] == "none"
-    for name in ("web", "keeper"):
+    for name in ("keeper", "gate"):
+        assert document["services"][name]["network_mode"] == "none"
+    for name in ("web", "keeper", "gate"):
         service = document["services"][name]
         assert (service["read_only"], service["cap_drop"]) == (True, ["ALL"])
         assert "privileged" not in service
+    for name, service in document["services"].items():
+        assert {"mem_limit", "pids_limit", "ulimits"} <= service.keys(), name
+    mounts = {name: str(service.get("volumes")) for name, service in document["services"].items()}
+    # The doors are for sessions and the gate; the way from keeper to gate is theirs alone.
+    assert [name for name in mounts if "doors:" in mounts[name]] == ["keeper", "gate"]
+    assert [name for name in mounts if "control:" in mounts[name]] == ["keeper", "gate"]
+    assert "sockets:" not in mounts["gate"]
 
 
 def test_each_variable_of_the_compose_file_is_explained_in_the_example():

@@ -32,7 +32,13 @@ class Local:
             port = free.getsockname()[1]
         self.engine = running
         self._command = (*running.compose, "-p", "btlocal" + secrets.token_hex(3), "-f", str(COMPOSE))
-        settings = {"VERSION": TAG, "PORT": str(port), "DOCKER_SOCKET": str(running.socket)}
+        group = str(running.socket.stat().st_gid)
+        settings = {
+            "VERSION": TAG,
+            "PORT": str(port),
+            "DOCKER_SOCKET": str(running.socket),
+            "DOCKER_GID": group,
+        }
         self._environment = running.environment | {f"BT_STUDIO_{k}": v for k, v in settings.items()}
 
     def compose(self, *arguments, **options):

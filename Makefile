@@ -1,6 +1,6 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
+.PHONY: audit lock-images sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
@@ -58,6 +58,9 @@ generate: setup-test ## writes the generated sources and reference pages again
 lock: setup-test ## writes the locks again, with the newest versions that pyproject.toml admits
 	@$(BIN)/uv pip compile pyproject.toml $(LOCK) -o requirements.lock
 	@$(BIN)/uv pip compile pyproject.toml --group dev -c requirements.lock $(LOCK) -o requirements-dev.lock
+
+lock-images: ## asks the registry for the digests of the base images (needs Docker and a registry)
+	@bash docker/bases/lock.sh
 
 audit: setup-test ## asks the advisory services about all locked packages (needs the internet)
 	@$(BIN)/python -m tests.tools.audit

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds BT Studio's images: bt-studio-web, bt-studio-executor, bt-studio-keeper.
 #
-# The images that theirs start from are pulled. Where no registry is reachable they are made on this machine,
+# The images that theirs start from are pulled, by the digests of docker/bases/digests where it has them. Where no registry is reachable they are made on this machine,
 # which takes root and Debian's debootstrap, and tagged with the names that the Dockerfiles use.
 #
 #   docker/images.sh [TAG]          (the tag is "latest" by default)
@@ -14,6 +14,8 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 tag=${1:-latest}
 docker=${DOCKER:-docker}
+digests=${BT_STUDIO_DIGESTS:-docker/bases/digests}
+pull_s=300
 export DOCKER_BUILDKIT=1
 work=$(mktemp -d)
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$work"' EXIT
@@ -28,7 +30,24 @@ build() { "$docker" build --quiet --network=host ${secrets[@]+"${secrets[@]}"} "
 
 has() { "$docker" image inspect "$1" >/dev/null 2>&1; }
 
-pull() { [ "${BT_STUDIO_NO_PULL:-}" != 1 ] && timeout 60 "$docker" pull --quiet "$1" >/dev/null 2>&1; }
+# The digest of an image in docker/bases/digests; empty where only its name is known.
+digest() { sed -n "s/^$1 \(sha256:[0-9a-f]\{64\}\)$/\1/p" "$digests"; }
+
+# Whether the image here is the one that the digest names, or, without a digest, whether there is one.
+has_locked() {
+  local digest; digest=$(digest "$1")
+  if [ -z "$digest" ]; then has "$1"; return; fi
+  "$docker" image inspect --format '{{join .RepoDigests "\n"}}' "$1" 2>/dev/null | grep -q "@$digest$"
+}
+
+# By its digest where that is known, so that nobody can exchange what stands behind a tag.
+pull() {
+  local digest name=${1%%:*}
+  digest=$(digest "$1")
+  if [ "${BT_STUDIO_NO_PULL:-}" = 1 ]; then return 1; fi
+  if [ -z "$digest" ]; then timeout "$pull_s" "$docker" pull --quiet "$1" >/dev/null 2>&1; return; fi
+  timeout "$pull_s" "$docker" pull --quiet "$name@$digest" >/dev/null 2>&1 && "$docker" tag "$name@$digest" "$1"
+}
 
 make_debian() {
   if [ "$(id -u)" != 0 ] || ! command -v debootstrap >/dev/null; then
@@ -58,7 +77,8 @@ make_postgres() { build -f docker/bases/postgres.Dockerfile -t "$1" docker/bases
 make_redis() { build -f docker/bases/redis.Dockerfile -t "$1" docker/bases; }
 
 base() {
-  if has "$1" || pull "$1"; then return; fi
+  if has_locked "$1" || pull "$1"; then return; fi
+  if has "$1"; then say "$1 is the one of this machine, not the one of docker/bases/digests"; return; fi
   say "making $1 on this machine …"
   "$2" "$1"
 }

@@ -13,7 +13,7 @@ RUN useradd --uid 10003 --no-create-home --home-dir /tmp --shell /usr/sbin/nolog
 WORKDIR /opt/bt-studio
 COPY LICENSE docker/notices.py ./
 RUN python3 notices.py > THIRD-PARTY-NOTICES && rm notices.py
-COPY backend/__init__.py backend/__init__.py
+COPY backend/__init__.py backend/confine.py backend/
 COPY backend/sessions/__init__.py backend/sessions/__init__.py
 COPY backend/sessions/gate backend/sessions/gate
 COPY backend/sessions/keeper backend/sessions/keeper

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from typing import Final
 
+from backend.confine import confine
 from backend.sessions.gate.doors import Doors
 from backend.sessions.gate.errors import GateError
 from backend.sessions.gate.probe import probe
@@ -44,6 +45,10 @@ def _serve(doors: Path, control: Path) -> None:
     server = GateServer(Doors(doors), control)
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: server.end())
+    try:
+        confine("gate")
+    except OSError as error:
+        log.warning("the gate may make all the system calls that its container may: %s", error)
     log.info("doors are in %s", doors)
     server.serve()
 

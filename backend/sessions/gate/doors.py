@@ -42,9 +42,7 @@ class Doors:
         except BlockingIOError:
             raise GateError("gate_runs", f"Another gate uses {root}.", "One gate serves a stack.") from None
         except OSError as error:
-            hint = (
-                "The volume must belong to the user that the gate runs as: remove it and start again."
-            )
+            hint = "The volume must belong to the user that the gate runs as: remove it and start again."
             raise GateError("gate_folder", f"{root} cannot be used: {error}.", hint) from error
         # Doors do not outlive their gate: the keeper has those opened again that it still needs.
         for left in root.iterdir():

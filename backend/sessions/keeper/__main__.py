@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 from typing import Final
 
+from backend.confine import confine
 from backend.sessions.keeper.docker import Docker
 from backend.sessions.keeper.errors import KeeperError
 from backend.sessions.keeper.gate import Gate
@@ -49,6 +50,10 @@ def main() -> int:
 def _serve(folder: Path) -> None:
     docker_socket = os.environ.get("BT_STUDIO_DOCKER_SOCKET") or DOCKER_SOCKET
     check_socket(docker_socket)
+    try:
+        confine("keeper")
+    except OSError as error:
+        log.warning("the keeper may make all the system calls that its container may: %s", error)
     docker = Docker(docker_socket)
     gate_folder = Path(os.environ.get("BT_STUDIO_GATE_FOLDER") or GATE_FOLDER)
     gate_source, stack = _place(docker, gate_folder)

@@ -6,6 +6,7 @@ import signal
 import socket
 import stat
 import time
+from pathlib import Path
 
 import psutil
 import pytest
@@ -172,6 +173,12 @@ def test_a_door_is_opened_again_by_the_next_gate_under_its_name(gate):
     show(caller)
     assert fetch(caller) == LISTEN
     assert door.wait(60)
+
+
+def test_the_gate_can_start_nothing_and_call_nobody(gate):
+    status = (Path("/proc") / str(gate.process.pid) / "status").read_text()
+    assert "Seccomp:\t2\n" in status
+    assert "NoNewPrivs:\t1\n" in status
 
 
 def test_one_gate_serves_a_folder(gate):

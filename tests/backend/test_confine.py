@@ -41,7 +41,7 @@ def thread():
     started.start()
     started.join()
 
-# By their numbers on x86-64: io_uring, ptrace, process_vm_readv, unshare, setns, mount, bpf, perf_event_open …
+# By their numbers on x86-64: io_uring, ptrace, process_vm_readv, unshare, setns, mount, bpf …
 NEVER = (425, 426, 427, 101, 310, 272, 308, 165, 321, 298, 323, 248, 304)
 found = {
     "unix": attempt(lambda: socket.socket(socket.AF_UNIX).close()),

@@ -12,7 +12,7 @@ RUN useradd --uid 10003 --no-create-home --home-dir /tmp --shell /usr/sbin/nolog
     install -d -o gate -g keeper -m 2750 /run/bt-studio-control
 WORKDIR /opt/bt-studio
 COPY LICENSE docker/notices.py ./
-RUN python3 notices.py > THIRD-PARTY-NOTICES && rm notices.py
+RUN python3 notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES && rm notices.py
 COPY backend/__init__.py backend/confine.py backend/
 COPY backend/sessions/__init__.py backend/sessions/__init__.py
 COPY backend/sessions/gate backend/sessions/gate

@@ -86,7 +86,7 @@ def test_a_program_becomes_a_confined_one():
     assert done.stdout.split() == ["Seccomp:", "2"]
 
 
-def test_a_machine_without_such_a_filter_is_told(monkeypatch):
+def test_a_machine_without_such_a_filter_is_named(monkeypatch):
     monkeypatch.setattr("platform.machine", lambda: "riscv64")
     with pytest.raises(OSError, match="riscv64"):
         confine("web")

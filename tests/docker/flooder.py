@@ -1,6 +1,6 @@
-"""An action that looks for the doors of other sessions, and then floods the one that it was told of.
+"""An action that looks for the doors of other sessions, and then floods one whose name it was given.
 
-It tells what it found as one line of JSON, and how many connections it has made at each step.
+It prints what it found as one line of JSON, and at each step how many connections it holds.
 """
 
 import ctypes

@@ -135,7 +135,7 @@ async def test_who_lists_guesses_and_floods_finds_nothing_and_keeps_nobody_out(s
             assert found["root"] == "refused: FileNotFoundError"
             assert found["own"] == found["guessed"] == ["refused: FileNotFoundError"]
             assert (found["named"], found["control"]) == ([], False)
-            # It was told a name, as nobody is, and floods that door.
+            # The test gives it a name, which no session ever learns, and it floods that door.
             await attacker.event("log", lambda data: data["text"] == "FLOODED 2000", timeout_s=120)
             async with started(ben, projects[ben]) as other:
                 await run(other, ben, projects[ben], "walled_room")

@@ -42,7 +42,7 @@ def test_the_notices_of_an_image_have_every_package_with_its_licence():
     said = dict(heads)
     assert said["Django"] == "BSD-3-Clause"
     assert "Redistribution and use in source and binary forms" in done.stdout
-    for name in ("web", "executor"):
+    for name in ("web", "executor", "keeper"):
         assert (
             "notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES"
             in (ROOT / f"docker/{name}.Dockerfile").read_text()

@@ -102,9 +102,9 @@ async def watched(one):
 
 
 async def test_a_stopped_manager_behind_the_gate_is_given_up(gate, quick, monkeypatch):  # noqa: F811
-    gate.expect("s1", TOKEN)
-    async with manager_process("--gate", str(gate.folder / "gate.sock"), "--session", "s1") as process:
-        one = row(f"unix:{gate.path('s1')}", monkeypatch=monkeypatch)
+    gate.door.open()
+    async with manager_process("--gate", str(gate.entrance), "--session", "s1") as process:
+        one = row(f"unix:{gate.path}", monkeypatch=monkeypatch)
         os.kill(process.pid, signal.SIGSTOP)
         try:
             async with watched(one) as task:

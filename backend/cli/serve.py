@@ -67,7 +67,8 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
 
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     settings = environment()
-    with bind(settings.host, settings.port) as listener, data_folder(settings.data_dir):
+    folder = data_folder(settings.data_dir, is_shared=settings.may_be_several)
+    with bind(settings.host, settings.port) as listener, folder:
         with ended_by_interrupt():
             migrate()
         port: int = listener.getsockname()[1]

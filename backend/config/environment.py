@@ -124,6 +124,14 @@ class Environment(TeamSettings):
         description="Bearer token for `/metrics`; without one only clients on this machine are answered.",
     )
 
+    @property
+    def may_be_several(self) -> bool:
+        """Whether several servers may be at work on one data folder, one database and one host at once.
+
+        A server with SQLite is alone with its file, and one that starts children ends with them.
+        """
+        return self.is_team and self.is_postgresql and self.launcher == "docker"
+
     @field_validator("data_dir", "frontend_dir", "templates_dir", "keeper_folder")
     @classmethod
     def _absolute(cls, value: Path) -> Path:

@@ -51,26 +51,33 @@ def ended_by_interrupt() -> Iterator[None]:
 
 
 @contextmanager
-def data_folder(folder: Path) -> Iterator[None]:
-    """Makes the folder with its secret key, and holds it: one server owns the sessions in it.
+def data_folder(folder: Path, *, is_shared: bool = False) -> Iterator[None]:
+    """Makes the folder with its secret key, and holds it against servers that cannot share it.
+
+    Args:
+        folder: the data folder.
+        is_shared: whether other servers may use it at the same time, as those on one PostgreSQL do.
 
     Raises:
-        ServeError: it cannot be written, or another server holds it.
+        ServeError: it cannot be written, or a server holds it that does not share it.
     """
     make_data_folder(folder)
     lock = (folder / "serve.lock").open("a+", encoding="utf-8")
     with lock:
         try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(lock, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except OSError as error:
             lock.seek(0)
+            holder = lock.read().strip()
+            which = f"Another server (process {holder})" if holder else "Another server"
             raise ServeError(
-                f"Another server (process {lock.read().strip() or '?'}) uses the data folder {folder}: "
-                "end it, or choose another folder with --data-dir."
+                f"{which} uses the data folder {folder}: end it, or choose another folder with --data-dir. "
+                "Only servers with accounts, PostgreSQL and containers share one."
             ) from error
         lock.truncate(0)
-        lock.write(str(os.getpid()))
-        lock.flush()
+        if not is_shared:
+            lock.write(str(os.getpid()))
+            lock.flush()
         yield
 
 
@@ -88,10 +95,18 @@ def make_data_folder(folder: Path) -> None:
 
 
 def _make_secret_key(path: Path) -> None:
-    with suppress(FileExistsError):
-        descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    """Makes the key if there is none; it appears whole, since another server may read it at once."""
+    if path.exists():
+        return
+    partial = path.with_name(f"{path.name}.{secrets.token_hex(8)}")
+    descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+    try:
         with os.fdopen(descriptor, "w", encoding="ascii") as file:
             file.write(secrets.token_urlsafe(48))
+        with suppress(FileExistsError):
+            os.link(partial, path)
+    finally:
+        partial.unlink()
 
 
 def bind(host: str, port: int) -> socket.socket:

@@ -9,6 +9,7 @@ import sqlite3
 import stat
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import psutil
@@ -17,7 +18,7 @@ import pytest
 import requests
 from websockets.sync.client import connect
 
-from backend.config.server import ServeError, await_database
+from backend.config.server import ServeError, await_database, data_folder, make_data_folder
 from tests.backend.serving import serving, start
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -112,6 +113,30 @@ def test_a_second_server_on_the_same_data_is_refused(running):
     assert status == 1
     assert str(server.process.pid) in said
     assert "--data-dir" in said
+
+
+def test_servers_that_share_a_data_folder_are_let_in_together_and_no_other_with_them(tmp_path):
+    with data_folder(tmp_path, is_shared=True), data_folder(tmp_path, is_shared=True):
+        with pytest.raises(ServeError, match="Another server uses"), data_folder(tmp_path):
+            pytest.fail("a server that shares nothing was let in")
+    with data_folder(tmp_path):
+        with pytest.raises(ServeError, match="Another server .process"), data_folder(tmp_path, is_shared=True):
+            pytest.fail("a server was let in beside one that shares nothing")
+
+
+def test_servers_that_start_together_have_one_secret_key(tmp_path):
+    folders = [tmp_path / str(number) for number in range(20)]
+    for folder in folders:
+        with ThreadPoolExecutor(4) as servers:
+
+            def started(_, folder=folder):
+                make_data_folder(folder)
+                return (folder / "secret_key").read_text()
+
+            keys = set(servers.map(started, range(4)))
+        assert len(keys) == 1
+        assert len(keys.pop()) == 64
+        assert [path.name for path in folder.iterdir()] == ["secret_key"]
 
 
 def test_a_port_in_use_is_one_sentence_with_the_remedy(tmp_path):

@@ -10,6 +10,7 @@ import stat
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from pathlib import Path
 
 import psutil
@@ -116,12 +117,16 @@ def test_a_second_server_on_the_same_data_is_refused(running):
 
 
 def test_servers_that_share_a_data_folder_are_let_in_together_and_no_other_with_them(tmp_path):
-    with data_folder(tmp_path, is_shared=True), data_folder(tmp_path, is_shared=True):
-        with pytest.raises(ServeError, match="Another server uses"), data_folder(tmp_path):
-            pytest.fail("a server that shares nothing was let in")
-    with data_folder(tmp_path):
-        with pytest.raises(ServeError, match="Another server .process"), data_folder(tmp_path, is_shared=True):
-            pytest.fail("a server was let in beside one that shares nothing")
+    def let_in(**options):
+        with ExitStack() as inner:
+            inner.enter_context(data_folder(tmp_path, **options))
+
+    with data_folder(tmp_path, is_shared=True):
+        let_in(is_shared=True)
+        with pytest.raises(ServeError, match="Another server uses"):
+            let_in()
+    with data_folder(tmp_path), pytest.raises(ServeError, match=r"Another server \(process"):
+        let_in(is_shared=True)
 
 
 def test_servers_that_start_together_have_one_secret_key(tmp_path):

@@ -22,13 +22,22 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
     ] = None,
     data_dir: Annotated[Path | None, typer.Option(help="Folder of the database and the logs.")] = None,
     launcher: Annotated[str | None, typer.Option(help="What starts executors: process.")] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes that answer requests; several on a team's server.", min=1)
+    ] = None,
     browser: Annotated[bool, typer.Option(help="Open the page in the browser.")] = True,  # noqa: FBT002
     ready_file: Annotated[
         Path | None, typer.Option(help="Write {url, port, pid} there as soon as the page can be opened.")
     ] = None,
 ) -> None:
     """Serves the IDE until Ctrl+C."""
-    options = {"HOST": host, "PORT": port, "DATA_DIR": data_dir, "LAUNCHER": launcher}
+    options = {
+        "HOST": host,
+        "PORT": port,
+        "DATA_DIR": data_dir,
+        "LAUNCHER": launcher,
+        "WORKERS": workers,
+    }
     for name, value in options.items():
         if value is not None:
             os.environ[f"BT_STUDIO_{name}"] = str(value)
@@ -36,6 +45,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
         os.environ["BT_STUDIO_TOKEN"] = secrets.token_urlsafe(24)
     from backend.config.environment import InvalidEnvironmentError, environment
     from backend.config.server import ServeError
+    from backend.config.worker_count import judge_workers
 
     try:
         settings = environment()
@@ -46,6 +56,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
                 "use --host 127.0.0.1 and an SSH tunnel to reach it from elsewhere, "
                 "or a server with accounts (BT_STUDIO_MODE=team, see docs/how-to/run-a-team-server.md)."
             )
+        judge_workers(settings)
         _serve(open_browser=browser, ready_file=ready_file)
     except InvalidEnvironmentError as error:
         raise CliError(str(error), status=2) from error
@@ -55,6 +66,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
 
 def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
     from backend.config.environment import environment
+    from backend.config.parent import serve_by_several
     from backend.config.server import (
         bind,
         data_folder,
@@ -64,6 +76,7 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
         warm_up,
         write_ready_file,
     )
+    from backend.config.worker_count import workers_of
 
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     settings = environment()
@@ -86,11 +99,17 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
             print(f"BT Studio is at {url}\nCtrl+C ends it{robots}.", flush=True)
             if ready_file:
                 write_ready_file(ready_file, url, port)
-            threading.Thread(target=warm_up, daemon=True).start()
             if open_browser:
                 threading.Thread(target=_open, args=(url,), daemon=True).start()
 
-        run(listener, on_ready=on_ready, log_level=settings.log_level)
+        def on_ready_alone() -> None:
+            on_ready()
+            threading.Thread(target=warm_up, daemon=True).start()
+
+        if (count := workers_of(settings)) > 1:
+            serve_by_several(listener, count, on_ready=on_ready)
+        else:
+            run(listener, on_ready=on_ready_alone, log_level=settings.log_level)
 
 
 def _open(url: str) -> None:

@@ -21,6 +21,7 @@ from backend.config import telling  # noqa: E402
 from backend.config.bodies import Upload  # noqa: E402
 from backend.config.handler import ThreadedHandler  # noqa: E402
 from backend.config.probes import probed  # noqa: E402
+from backend.config.siblings import beat_for_ever, siblings  # noqa: E402
 from backend.config.sockets import Route, serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
 from backend.projects import consumers as projects  # noqa: E402
@@ -33,17 +34,19 @@ from backend.sessions.care import care_for_ever  # noqa: E402
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
     """Clears up after a server that was killed, looks after sessions, and ends them when it stops."""
-    care: asyncio.Task[None] | None = None
+    tasks: list[asyncio.Task[None]] = []
     while True:
         message = await receive()
         if message["type"] == "lifespan.startup":
             telling.serve(asyncio.get_running_loop())
             await sync_to_async(end_orphans)()
-            care = asyncio.create_task(care_for_ever())
+            tasks.append(asyncio.create_task(care_for_ever()))
+            if siblings.family is not None:
+                tasks.append(asyncio.create_task(beat_for_ever(requests.threads)))
             await send({"type": "lifespan.startup.complete"})
         elif message["type"] == "lifespan.shutdown":
-            if care is not None:
-                care.cancel()
+            for task in tasks:
+                task.cancel()
             await sync_to_async(end_all_sessions)()
             telling.serve(None)
             await send({"type": "lifespan.shutdown.complete"})

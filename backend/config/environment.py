@@ -43,6 +43,13 @@ class Environment(TeamSettings):
     port: int = Field(
         default=8000, ge=0, le=65535, description="Port that `serve` listens on; 0 takes a free one."
     )
+    workers: int = Field(
+        default=0,
+        ge=0,
+        le=64,
+        description="Processes that answer requests. 0: on a server with accounts, PostgreSQL and containers "
+        "one less than there are processor cores; else 1, and more are refused.",
+    )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
         description="Further host names (a JSON list) that requests may name, besides those of loopback.",

@@ -23,6 +23,7 @@ from backend.config.bodies import BODY, Bodies, BodyRefusedError, ClientLeftErro
 from backend.config.environment import environment
 from backend.config.middleware import secured
 from backend.config.problems import problem, problem_response
+from backend.config.siblings import siblings
 from backend.config.threads import Threads
 from backend.workers.deferred import Deferred
 
@@ -37,6 +38,8 @@ if TYPE_CHECKING:
 
 THREADS: Final = {"local": 8, "team": 8}
 """By mode; each has a connection to the database."""
+THREADS_OF_SEVERAL: Final = 4
+"""The same for each of several workers."""
 HASHING: Final = ("/accounts/", "/admin/")
 """Where passwords come, each of which takes a processor a third of a second."""
 MOST_WAITING: Final = 600
@@ -67,8 +70,10 @@ class ThreadedHandler(ASGIHandler):
     def __init__(self, upload: Upload | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
-        self.threads = Threads(THREADS[environment().mode], "http")
-        self._hashing = asyncio.Semaphore(max(2, (os.cpu_count() or 1) // 2))
+        several = siblings.family
+        self.threads = Threads(THREADS_OF_SEVERAL if several else THREADS[environment().mode], "http")
+        at_once = (os.cpu_count() or 1) // (2 * (several.size if several else 1))
+        self._hashing = asyncio.Semaphore(max(1 if several else 2, at_once))
         self._waiting = 0
         self._bodies = Bodies(self.threads, upload, environment().data_dir / "uploads")
 

@@ -1,4 +1,4 @@
-"""Counters and histograms in Prometheus' text format, kept by this process.
+"""Counters and histograms in Prometheus' text format: those of this process and its siblings, in sum.
 
 Names are `bt_studio_<noun>_<unit>`. Every value of a label exists before it first happens, so that a rate
 over it is right from the start.
@@ -10,6 +10,8 @@ from bisect import bisect_left
 from threading import Lock
 from typing import Final
 
+from backend.config.numbers import numbers
+
 BUCKETS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0)
 
 
@@ -19,7 +21,8 @@ class Counter:
     def __init__(self, name: str, help_text: str, label: str, values: tuple[str, ...]) -> None:
         self._head = f"# HELP {name} {help_text}\n# TYPE {name} counter\n"
         self._name, self._label = name, label
-        self._counts = dict.fromkeys(values, 0)
+        first = numbers.take(len(values))
+        self._places = {value: first + index for index, value in enumerate(values)}
         self._lock = Lock()
 
     def add(self, value: str, amount: int = 1) -> None:
@@ -29,11 +32,14 @@ class Counter:
             KeyError: there is no such value.
         """
         with self._lock:
-            self._counts[value] += amount
+            numbers.add(self._places[value], amount)
 
     def text(self) -> str:
         """As Prometheus reads it."""
-        rows = (f'{self._name}{{{self._label}="{value}"}} {n}\n' for value, n in self._counts.items())
+        rows = (
+            f'{self._name}{{{self._label}="{value}"}} {numbers.total(place):.0f}\n'
+            for value, place in self._places.items()
+        )
         return self._head + "".join(rows)
 
 
@@ -43,20 +49,20 @@ class Histogram:
     def __init__(self, name: str, help_text: str) -> None:
         self._head = f"# HELP {name} {help_text}\n# TYPE {name} histogram\n"
         self._name = name
-        self._buckets = [0] * (len(BUCKETS_S) + 1)
-        self._sum_s = 0.0
+        self._first = numbers.take(len(BUCKETS_S) + 2)
+        self._sum_s = self._first + len(BUCKETS_S) + 1
         self._lock = Lock()
 
     def observe(self, seconds: float) -> None:
         """Adds one."""
         with self._lock:
-            self._buckets[bisect_left(BUCKETS_S, seconds)] += 1
-            self._sum_s += seconds
+            numbers.add(self._first + bisect_left(BUCKETS_S, seconds), 1)
+            numbers.add(self._sum_s, seconds)
 
     def text(self) -> str:
         """As Prometheus reads it: each bucket holds those before it, too."""
-        with self._lock:
-            buckets, total_s = list(self._buckets), self._sum_s
+        buckets = [int(numbers.total(self._first + index)) for index in range(len(BUCKETS_S) + 1)]
+        total_s = numbers.total(self._sum_s)
         rows, count = [], 0
         for bound, n in zip([*map(str, BUCKETS_S), "+Inf"], buckets, strict=True):
             count += n

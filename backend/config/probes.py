@@ -5,6 +5,9 @@
 * `/health/ready`: it answers and its database does, and a request thread was free within ten seconds.
 * `/metrics`: Prometheus' text, for programs of this machine, or those that show `BT_STUDIO_METRICS_TOKEN`.
 
+Where several workers answer for one server (`parent.py`), whichever is asked answers for all of them: the
+server is alive and ready while one of them is, and its counters are the sum of theirs.
+
 Probes name the server by its address, by a name that it answers for, or not at all: a page of another site,
 whose name was made to point here, learns nothing.
 """
@@ -26,8 +29,10 @@ from backend.config.clients import is_on_this_machine
 from backend.config.environment import environment
 from backend.config.healthcheck import READY
 from backend.config.middleware import headers_of_all
+from backend.config.numbers import FULL, STUCK
 from backend.config.problems import MEDIA_TYPE, problem
 from backend.config.scopes import headers_of
+from backend.config.siblings import least_s
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -114,9 +119,9 @@ async def _answer(scope: HTTPScope, threads: Threads) -> tuple[int, str, str]:
         document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
         return refusal.status, MEDIA_TYPE, json.dumps(document) + "\n"
     if scope["path"] == LIVE:
-        return _health(_late("has answered", threads.stuck_for_s(), NOT_LIVE_S))
+        return _health(_late("has answered", least_s(STUCK, threads.stuck_for_s()), NOT_LIVE_S))
     if scope["path"] == READY:
-        late = _late("has been free", threads.full_for_s(), NOT_READY_S)
+        late = _late("has been free", least_s(FULL, threads.full_for_s()), NOT_READY_S)
         return _health(late or await sync_to_async(_trouble)())
     if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"

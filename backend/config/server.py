@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Final
 from backend.config.clients import proxies
 from backend.config.environment import environment
 from backend.config.logs import set_up
+from backend.config.siblings import siblings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -187,7 +188,8 @@ def _alone() -> Iterator[None]:
 def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
     """Serves until SIGINT or SIGTERM; then ends every session and returns."""
     set_up(log_level, environment().log_style)
-    proxies.at_start()
+    if siblings.family is None:  # else the parent has said so
+        proxies.at_start()
     with ended_by_interrupt():
         server = _make_server(on_ready)
     with suppress(KeyboardInterrupt):

@@ -1,0 +1,266 @@
+"""The parent of several web workers: it holds the port, starts them, and replaces each that ends or hangs.
+
+It answers no request itself and runs no user's work, so there is little that could end it. Workers are
+programs of their own (a fork of a process with threads is no safe place to be) which inherit the listening
+socket: a connection that comes while one of them is replaced waits for another.
+"""
+
+from __future__ import annotations
+
+import logging
+import selectors
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from backend.config.clients import proxies
+from backend.config.environment import REPOSITORY, environment
+from backend.config.logs import set_up
+from backend.config.numbers import BEAT, STARTED, STUCK, make_page
+from backend.config.server import ServeError
+from backend.config.siblings import PAGE, PLACES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+log = logging.getLogger(__name__)
+
+TICK_S: Final = 1.0
+HUNG_S: Final = 60.0
+"""For how long a worker's event loop, or all of its request threads, may stand still."""
+SHORT_LIFE_S: Final = 10.0
+"""Who dies sooner is started again after a pause."""
+FIRST_PAUSE_S: Final = 0.5
+LONGEST_PAUSE_S: Final = 30.0
+FUTILE: Final = 5
+"""After so many starts in a row that came to nothing, of every worker, the server ends."""
+STOP_S: Final = 20.0
+"""How long workers may take to end that were asked to."""
+ENDING: Final = (signal.SIGTERM, signal.SIGINT)
+
+
+class Child:
+    """One worker, and those that take its place.
+
+    Args:
+        number: which of the workers it is.
+        command: what starts it.
+        page: its numbers; None for a helper that keeps none.
+        descriptors: what it inherits.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        command: Sequence[str],
+        page: memoryview[float] | None,
+        descriptors: Sequence[int] = (),
+    ) -> None:
+        self.name = name
+        self._command, self._page, self._descriptors = command, page, descriptors
+        self._process: subprocess.Popen[bytes] | None = None
+        self._since_s = self._due_s = 0.0
+        self._beat = (0.0, 0.0)
+        self.failures = 0
+        """Starts in a row that came to nothing."""
+
+    @property
+    def has_started(self) -> bool:
+        """Whether it answers, or did until it hung."""
+        return self._process is not None and (self._page is None or bool(self._page[STARTED]))
+
+    def start_if_due(self, now_s: float) -> None:
+        """Starts it, unless it runs or its pause is not over."""
+        if self._process is not None or now_s < self._due_s:
+            return
+        if self._page is not None:
+            self._page[STARTED] = self._page[STUCK] = self._page[BEAT] = 0
+        self._process = subprocess.Popen(
+            self._command,
+            cwd=REPOSITORY,
+            pass_fds=self._descriptors,
+            # Nothing is ever written: its end tells the worker that the parent has gone.
+            stdin=subprocess.PIPE,
+            start_new_session=True,  # Ctrl+C is for the parent, which passes it on
+        )
+        self._since_s, self._beat = now_s, (0.0, 0.0)
+
+    def ended(self, now_s: float) -> int | None:
+        """The exit status, once, when it has ended; it is then due for another start."""
+        if self._process is None or (status := self._process.poll()) is None:
+            return None
+        has_lived = self.has_started and now_s - self._since_s >= SHORT_LIFE_S
+        self.failures = 0 if has_lived else self.failures + 1
+        self._due_s = now_s if has_lived else now_s + _pause_s(self.failures)
+        self._forget()
+        return status
+
+    def hangs(self, passed_s: float) -> bool:
+        """Whether it has stood still for too long.
+
+        Args:
+            passed_s: since the last look; of a longer time the parent itself was not awake.
+        """
+        if self._process is None or self._page is None or not self._page[STARTED]:
+            return False
+        beat, silent_s = self._beat
+        silent_s = 0.0 if self._page[BEAT] != beat else silent_s + min(passed_s, TICK_S)
+        self._beat = (self._page[BEAT], silent_s)
+        return max(silent_s, self._page[STUCK]) > HUNG_S
+
+    def tell(self, number: signal.Signals) -> None:
+        """Sends it a signal."""
+        if self._process is not None:
+            with suppress(ProcessLookupError):
+                self._process.send_signal(number)
+
+    def end(self, deadline_s: float) -> None:
+        """Waits for its end, and kills it when that does not come."""
+        if self._process is None:
+            return
+        try:
+            self._process.wait(max(0.0, deadline_s - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            log.warning("%s did not end and is killed", self.name)
+            self._process.kill()
+            self._process.wait()
+        self._forget()
+
+    def _forget(self) -> None:
+        if self._process is not None and self._process.stdin is not None:
+            self._process.stdin.close()
+        self._process = None
+        if self._page is not None:
+            self._page[STARTED] = 0
+
+
+def _pause_s(failures: int) -> float:
+    return float(min(FIRST_PAUSE_S * 2 ** (failures - 1), LONGEST_PAUSE_S))
+
+
+class Parent:
+    """Keeps so many workers running until it is told to end."""
+
+    def __init__(self, listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
+        self._listener, self._count, self._on_ready = listener, count, on_ready
+        self._workers: list[Child] = []
+        self._is_ready = False
+        self._told: signal.Signals | None = None
+
+    def run(self) -> signal.Signals | None:
+        """Serves; returns the signal that ended it.
+
+        Raises:
+            ServeError: the workers do not start, or none does any more.
+        """
+        with ExitStack() as stack:
+            folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="bt-studio-")))
+            (folder / PLACES).mkdir()
+            woken = stack.enter_context(_Alarm(self._end))
+            self._workers = [self._worker(folder, number) for number in range(self._count)]
+            stack.callback(self._end_all)
+            looked_s = time.monotonic()
+            while self._told is None:
+                now_s = time.monotonic()
+                self._look(now_s, now_s - looked_s)
+                looked_s = now_s
+                woken.wait(TICK_S)
+        return self._told
+
+    def _worker(self, folder: Path, number: int) -> Child:
+        command = [sys.executable, "-m", "backend.config.web_worker", "--fd", str(self._listener.fileno())]
+        place = ["--folder", str(folder), "--count", str(self._count), "--own", str(number)]
+        page = make_page(folder / PAGE.format(number))
+        return Child(f"web worker {number}", [*command, *place], page, [self._listener.fileno()])
+
+    def _end(self, number: signal.Signals) -> None:
+        self._told = number
+
+    def _look(self, now_s: float, passed_s: float) -> None:
+        """One round: notes the dead, ends those that hang, starts what is due."""
+        for worker in self._workers:
+            if worker.hangs(passed_s):
+                log.error("%s hangs and is replaced", worker.name)
+                worker.tell(signal.SIGKILL)
+            status = worker.ended(now_s)
+            if status is not None:
+                self._note_end(worker, status)
+            worker.start_if_due(now_s)
+        if not self._is_ready and all(worker.has_started for worker in self._workers):
+            self._is_ready = True
+            self._on_ready()
+
+    def _note_end(self, worker: Child, status: int) -> None:
+        how = _how_ended(status)
+        if not self._is_ready:
+            raise ServeError(f"The {worker.name} {how} before the server was ready; what it says is above.")
+        if all(each.failures >= FUTILE and not each.has_started for each in self._workers):
+            raise ServeError(f"No web worker can start any more; the last one {how}. What they say is above.")
+        log.error("%s %s and is started again", worker.name, how)
+
+    def _end_all(self) -> None:
+        for worker in self._workers:
+            worker.tell(signal.SIGTERM)
+        deadline_s = time.monotonic() + STOP_S
+        for worker in self._workers:
+            worker.end(deadline_s)
+
+
+def _how_ended(status: int) -> str:
+    return f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with status {status}"
+
+
+class _Alarm:
+    """Wakes the parent when a child ends or it is told to end."""
+
+    def __init__(self, on_end: Callable[[signal.Signals], None]) -> None:
+        self._on_end = on_end
+
+    def __enter__(self) -> _Alarm:
+        self._ours, theirs = socket.socketpair()
+        self._ours.setblocking(False)  # noqa: FBT003 - the library's
+        theirs.setblocking(False)  # noqa: FBT003 - as above
+        self._theirs = theirs
+        self._selector = selectors.DefaultSelector()
+        self._selector.register(self._ours, selectors.EVENT_READ)
+        self._wakeup = signal.set_wakeup_fd(theirs.fileno(), warn_on_full_buffer=False)
+        self._before = {number: signal.getsignal(number) for number in (*ENDING, signal.SIGCHLD)}
+        for number in ENDING:
+            signal.signal(number, lambda which, _: self._on_end(signal.Signals(which)))
+        signal.signal(signal.SIGCHLD, lambda *_: None)  # only what is handled wakes
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        signal.set_wakeup_fd(self._wakeup)
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        self._selector.close()
+        self._ours.close()
+        self._theirs.close()
+
+    def wait(self, seconds: float) -> None:
+        """Returns at the next signal, or when the time is over."""
+        if self._selector.select(seconds):
+            with suppress(BlockingIOError):
+                while self._ours.recv(4096):
+                    pass
+
+
+def serve_by_several(listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
+    """Serves by so many workers until SIGINT or SIGTERM; ends by the latter as one server does.
+
+    Raises:
+        ServeError: the workers do not start, or none does any more.
+    """
+    set_up(environment().log_level, environment().log_style)
+    proxies.at_start()
+    told = Parent(listener, count, on_ready=on_ready).run()
+    if told is signal.SIGTERM:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        signal.raise_signal(signal.SIGTERM)

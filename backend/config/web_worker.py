@@ -1,0 +1,55 @@
+"""One web worker, `python -m backend.config.web_worker`: it serves on the socket of its parent."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import socket
+import threading
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from backend.config.environment import environment
+from backend.config.server import GRACE_S, run, warm_up
+from backend.config.siblings import Family, answering, siblings
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+STDIN: Final = 0
+ORPHAN_S: Final = 10.0
+"""How long a worker may take to end whose parent has gone."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Serves until it is told to end, or the parent has gone."""
+    parser = argparse.ArgumentParser(prog="python -m backend.config.web_worker", description=__doc__)
+    parser.add_argument("--fd", type=int, required=True, help="the socket that listens")
+    parser.add_argument("--folder", type=Path, required=True, help="what all workers of the parent share")
+    parser.add_argument("--count", type=int, required=True, help="how many workers there are")
+    parser.add_argument("--own", type=int, required=True, help="which one this is")
+    options = parser.parse_args(arguments)
+    siblings.join(Family(options.folder, options.count, options.own))
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with socket.socket(fileno=options.fd) as listener:
+        run(listener, on_ready=_ready, log_level=environment().log_level)
+
+
+def _ready() -> None:
+    answering()
+    threading.Thread(target=warm_up, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """The parent never writes; where it ends, whatever way, so does this."""
+    while os.read(STDIN, 1):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)
+    time.sleep(GRACE_S + ORPHAN_S)
+    os._exit(1)
+
+
+if __name__ == "__main__":
+    main()

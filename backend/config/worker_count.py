@@ -1,0 +1,73 @@
+"""How many web workers serve, and where there can be one only."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Final
+
+from backend.config.server import ServeError
+
+if TYPE_CHECKING:
+    from backend.config.environment import Environment
+
+CONNECTIONS: Final = 10
+"""To the database, that one worker may hold: of threads for requests and launches, and for sockets."""
+SPARE: Final = 10
+"""Connections for the parent, a backup, the command line and a console."""
+
+
+def judge_workers(settings: Environment) -> None:
+    """Refuses several workers where only one can be.
+
+    Raises:
+        ServeError: why, and what to do.
+    """
+    if settings.workers <= 1 or settings.may_be_several:
+        return
+    remedy = "or leave --workers (BT_STUDIO_WORKERS) at 1."
+    if not settings.is_team:
+        raise ServeError(
+            "Several workers are for a server with accounts: set BT_STUDIO_MODE=team "
+            f"(docs/how-to/run-a-team-server.md), {remedy}"
+        )
+    if not settings.is_postgresql:
+        raise ServeError(
+            "Several workers need PostgreSQL, since SQLite lets one process write at a time: "
+            f"set BT_STUDIO_DATABASE_URL=postgresql://…, {remedy}"
+        )
+    raise ServeError(
+        "Several workers need executors in containers, since an executor that is a child of one worker "
+        f"ends with it: set BT_STUDIO_LAUNCHER=docker, {remedy}"
+    )
+
+
+def workers_of(settings: Environment) -> int:
+    """How many workers serve: as many as are set, or as the machine and the database have room for.
+
+    Raises:
+        ServeError: the database does not admit as many connections as are needed.
+    """
+    if not settings.may_be_several or settings.workers == 1:
+        return 1
+    most = max(1, (_connections(settings.database_url.get_secret_value()) - SPARE) // CONNECTIONS)
+    if settings.workers > most:
+        raise ServeError(
+            f"{settings.workers} workers may need {settings.workers * CONNECTIONS + SPARE} connections to "
+            f"the database, which admits enough for {most}: raise max_connections of PostgreSQL, or use "
+            f"--workers {most}."
+        )
+    return settings.workers or min(max(1, cores() - 1), most)
+
+
+def _connections(url: str) -> int:
+    """How many connections the database admits."""
+    import psycopg  # noqa: PLC0415 - localhost does without
+
+    with psycopg.connect(url, connect_timeout=5) as connection:
+        row = connection.execute("SHOW max_connections").fetchone()
+    return int(row[0]) if row else 0
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0))

@@ -28,8 +28,8 @@ from backend.projects import consumers as projects  # noqa: E402
 from backend.projects.notices import watch_revisions  # noqa: E402
 from backend.projects.usage import room_for_archive  # noqa: E402
 from backend.sessions import consumers as sessions  # noqa: E402
-from backend.sessions.actions import end_all_sessions, end_orphans  # noqa: E402
-from backend.sessions.care import care_for_ever  # noqa: E402
+from backend.sessions.actions import end_all_sessions  # noqa: E402
+from backend.sessions.care import begin, care_for_ever  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
@@ -39,7 +39,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
         message = await receive()
         if message["type"] == "lifespan.startup":
             telling.serve(asyncio.get_running_loop())
-            await sync_to_async(end_orphans)()
+            await sync_to_async(begin)()
             tasks.append(asyncio.create_task(care_for_ever()))
             if siblings.family is not None:
                 tasks.append(asyncio.create_task(beat_for_ever(requests.threads)))
@@ -47,6 +47,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
         elif message["type"] == "lifespan.shutdown":
             for task in tasks:
                 task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
             await sync_to_async(end_all_sessions)()
             telling.serve(None)
             await send({"type": "lifespan.shutdown.complete"})

@@ -2,7 +2,7 @@
 
 A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, a row a line. It is read
 in one transaction, so that it is the state of one moment, also while people work. Left out is what has a
-meaning only while a server runs: sign-ins, executors, a drain, answers kept for repeated requests.
+meaning only while a server runs: sign-ins, executors, a drain, leases, answers kept for repeated requests.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ LEFT_OUT: Final = frozenset(
         "auth.permission",
         "contenttypes.contenttype",
         "executor_sessions.drain",
+        "executor_sessions.lease",
         "executor_sessions.session",
         "projects.idempotencykey",
         "sessions.session",

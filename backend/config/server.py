@@ -6,6 +6,7 @@ import errno
 import fcntl
 import gc
 import json
+import logging
 import os
 import secrets
 import signal
@@ -25,8 +26,11 @@ if TYPE_CHECKING:
 
     import uvicorn
 
+log = logging.getLogger(__name__)
+
 GRACE_S: Final = 2
 GARBAGE_EVERY_S: Final = 24 * 3600
+LOOK_FOR_GARBAGE_S: Final = 600
 DATABASE_PATIENCE_S: Final = 60.0
 MIGRATION_LOCK: Final = 0x62742D73747564
 
@@ -227,20 +231,26 @@ def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
 
 
 def warm_up() -> None:
-    """Imports what the first requests would wait for, then tidies up, now and once a day."""
+    """Imports what the first requests would wait for, then tidies up once a day, if no other server did."""
     from django.db import connection  # noqa: PLC0415
 
     import backend.config.urls  # noqa: F401, PLC0415
     import translator  # noqa: F401, PLC0415
     from backend.projects.actions import collect_garbage  # noqa: PLC0415
+    from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
     # All that was imported stays: Python need not look through it again and again for what is in no use.
     gc.collect()
     gc.freeze()
     while True:
-        collect_garbage()
+        try:
+            with holder.chore(GARBAGE, GARBAGE_EVERY_S) as is_ours:
+                if is_ours:
+                    collect_garbage()
+        except Exception:
+            log.exception("nothing was tidied up")
         connection.close()
-        time.sleep(GARBAGE_EVERY_S)
+        time.sleep(GARBAGE_EVERY_S if is_alone() else LOOK_FOR_GARBAGE_S)
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:

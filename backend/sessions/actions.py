@@ -14,10 +14,11 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, Final
 
 from django.conf import settings
-from django.db import IntegrityError, connection, transaction
+from django.db import IntegrityError, OperationalError, connection, transaction
 from django.utils import timezone
 
 from backend.config.environment import environment
+from backend.config.locks import lock_number, transaction_lock
 from backend.config.problems import NotFoundError, StudioError
 from backend.projects import queries as projects
 from backend.projects.access import Need
@@ -42,6 +43,8 @@ ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
 # What hangs does not end when it is asked to.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
+PLACES: Final = "places of sessions"
+"""The lock of those who count the places and take one."""
 _launches: Final[dict[UUID, Future[None]]] = {}
 _launches_lock: Final = Lock()
 
@@ -82,6 +85,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
     for attempt in range(DOMAIN_ATTEMPTS):
         try:
             with transaction.atomic():
+                transaction_lock(PLACES)
                 has_place = places_left(LIVE_STATES) > 0
                 session = Session.objects.create(
                     project=project,
@@ -121,13 +125,20 @@ def start_queued() -> int:
     waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("created_at")
     started = 0
     for session in waiting[: max(0, places_left())]:
-        with suppress(IntegrityError, HostFullError), transaction.atomic():
-            session.ros_domain_id, session.state = _free_domain(), SessionState.STARTING
-            changes = {"state": session.state, "ros_domain_id": session.ros_domain_id}
-            if waiting.filter(id=session.id).update(**changes):
-                _submit(session)
-                started += 1
+        if _takes_place(session):
+            _submit(session)
+            started += 1
     return started
+
+
+def _takes_place(session: Session) -> bool:
+    """Lets a session that waits have a place; False when there is none, or another server was faster."""
+    with suppress(IntegrityError, HostFullError), transaction.atomic():
+        transaction_lock(PLACES)
+        if places_left() > 0:
+            place = {"state": SessionState.STARTING, "ros_domain_id": _free_domain()}
+            return _moved(session, SessionState.QUEUED, **place)
+    return False
 
 
 def _submit(session: Session) -> None:
@@ -158,11 +169,41 @@ def end_session(session: Session, why: str = "") -> Session:
     if launch is not None and not launch.cancel():
         launch.result()
     _look_again(session)  # it may have started since it was looked up
+    ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
+    if launch is None and _moved(session, SessionState.STARTING, **ended):
+        _await_launch(session)
+        return session
+    _look_again(session)
     if session.launcher_state:
         launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
     if session.state in LIVE_STATES:
         _finish(session, SessionState.ENDED, why)
     return session
+
+
+def _await_launch(session: Session) -> None:
+    """Waits until the web server that starts this session's executor has ended it again, or has itself ended.
+
+    It sees that the session has ended when the executor is there. While it works it holds a lock of the
+    database, which goes with its connection.
+    """
+    # In a transaction of the caller nobody sees the end of the session yet.
+    if connection.vendor != "postgresql" or connection.in_atomic_block:
+        return
+    longest_s = 2 * environment().session_start_timeout_s
+    try:
+        with transaction.atomic(), connection.cursor() as cursor:
+            cursor.execute("SELECT set_config('lock_timeout', %s, true)", [f"{longest_s:.0f}s"])
+            transaction_lock(_launch_lock(session.id))
+    except OperationalError:
+        log.warning("session %s: the server that starts it does not come to an end", session.id)
+    if launcher().survives_server:
+        state = launcher().state_of(str(session.id))
+        launcher().stop(state, timeout_s=environment().session_stop_timeout_s)
+
+
+def _launch_lock(session_id: UUID) -> str:
+    return f"launch {session_id}"
 
 
 def fail_session(session_id: UUID, why: str) -> None:
@@ -241,6 +282,8 @@ def _end_and_disconnect(session: Session, why: str = "") -> None:
 def end_orphans() -> None:
     """Ends what a server that was killed left behind; called before the first session starts.
 
+    Of several servers, the one that looks after sessions does so every minute.
+
     Where executors outlive the server, those that run go on. Those are ended that the database does not know
     as running, and sessions whose start this server, or the one before it, did not see to its end.
     """
@@ -256,8 +299,9 @@ def end_orphans() -> None:
             if state:
                 launcher().stop(state, timeout_s=timeout_s)
             _finish(session, SessionState.ENDED, "The server was restarted.")
+    running = set(launcher().running())  # first, since another server may start one at this moment
     known = {str(session.id) for session in queries.live_sessions()}
-    for orphan in set(launcher().running()) - known:
+    for orphan in running - known:
         log.warning("the executor %s belongs to no session and is ended", orphan)
         launcher().stop(launcher().state_of(orphan), timeout_s=timeout_s)
 
@@ -278,6 +322,8 @@ def _launch(session: Session) -> None:
         stop_timeout_s=limits.session_stop_timeout_s,
     )
     try:
+        if not _begins(session):
+            return
         started = launcher().start(spec)
     except HostFullError as error:
         # The host knows better than our count. The session keeps its turn.
@@ -298,6 +344,14 @@ def _launch(session: Session) -> None:
         with _launches_lock:
             _launches.pop(session.id, None)
         connection.close()
+
+
+def _begins(session: Session) -> bool:
+    """Locks the launch until this thread's connection closes; False when the session was ended before."""
+    if connection.vendor == "postgresql":
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT pg_advisory_lock(%s)", [lock_number(_launch_lock(session.id))])
+    return Session.objects.filter(id=session.id, state=SessionState.STARTING).exists()
 
 
 def _look_again(session: Session) -> None:

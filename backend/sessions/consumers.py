@@ -80,13 +80,13 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     if session.state != SessionState.READY:
         return _ended(session)
     noted = _noting(session_id, receive) if is_control else receive
-    watchmen.look_after(session)
     try:
-        async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
-            if is_control:
-                read_little(manager.transport)
-                attendance.join(session_id, send)
-            closed = await _relay(manager, noted, send)
+        with watchmen.beside_page(session):
+            async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
+                if is_control:
+                    read_little(manager.transport)
+                    attendance.join(session_id, send)
+                closed = await _relay(manager, noted, send)
     except (OSError, InvalidHandshake, TimeoutError) as error:
         log.warning("session %s: no %s socket: %s", session_id, channel, error)
         closed = Closed(EXECUTOR_FAILED, "The executor does not answer.")

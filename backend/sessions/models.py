@@ -21,6 +21,14 @@ class Drain(models.Model):
     message = models.CharField(max_length=300, blank=True)
 
 
+class Lease(models.Model):
+    """Who of several web servers does something for all, and how long without a word (`lease.py`)."""
+
+    name = models.CharField(max_length=40, primary_key=True)
+    owner = models.CharField(max_length=100)
+    until = models.DateTimeField()
+
+
 class Session(models.Model):
     """One executor: a manager with its world and its application. One live one per project and user."""
 

@@ -1,8 +1,8 @@
 """Whether executors answer: each is pinged every second, and one that is silent for too long is ended.
 
-Every web server does so for every session, and all of them hear the same; the first to give one up ends
-it, and the others find it ended. So a session that no page looks at does not stay frozen, nor one whose
-server has gone.
+The web server that looks after the sessions (`care.py`) does so for all of them, and each does so for those
+that its own pages look at. All of them hear the same; the first to give one up ends it, and the others find
+it ended. So a session that no page looks at does not stay frozen, nor one whose server has gone.
 
 Silence is counted in what this server itself was awake: after a second in which it had no processor, or was
 stopped, the answer is probably there and only not yet read.
@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+from collections import Counter
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
@@ -21,7 +23,7 @@ from backend.sessions import actions
 from backend.sessions.manager_socket import manager_socket
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
     from uuid import UUID
 
     from backend.sessions.models import Session
@@ -106,10 +108,23 @@ async def _ask(session: Session, silence: Silence) -> None:
 
 
 class Watchmen:
-    """One for each session that runs."""
+    """One for each session that runs, or that a page looks at through this server."""
 
     def __init__(self) -> None:
         self._tasks: dict[UUID, asyncio.Task[None]] = {}
+        self._looked_at: Counter[UUID] = Counter()
+
+    @contextmanager
+    def beside_page(self, session: Session) -> Iterator[None]:
+        """Looks after a session at least while one of its sockets is open here."""
+        self._looked_at[session.id] += 1
+        self.look_after(session)
+        try:
+            yield
+        finally:
+            self._looked_at[session.id] -= 1
+            if not self._looked_at[session.id]:
+                del self._looked_at[session.id]
 
     def look_after(self, session: Session) -> None:
         """Begins with a session that is ready, if none looks after it yet."""
@@ -117,9 +132,9 @@ class Watchmen:
         if task is None or task.done():
             self._tasks[session.id] = asyncio.create_task(_look_after(session))
 
-    def keep_to(self, sessions: Iterable[Session]) -> None:
-        """Looks after these, and no others."""
-        ready = {session.id: session for session in sessions}
+    def keep_to(self, sessions: Iterable[Session], *, all_of_them: bool = True) -> None:
+        """Looks after these, or those of them that pages look at here, and after no others."""
+        ready = {each.id: each for each in sessions if all_of_them or each.id in self._looked_at}
         for session_id in self._tasks.keys() - ready.keys():
             self._tasks.pop(session_id).cancel()
         for session in ready.values():

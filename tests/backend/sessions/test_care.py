@@ -86,15 +86,19 @@ async def warned(session_id):
     attendance.join(session_id, send)
     await attendance.warn(session_id, "It ends in 4 min.")
     await attendance.warn(session_id, "It ends in 3 min.")
+    attendance.keep_warned([session_id])
+    await attendance.warn(session_id, "It ends in 2 min.")
     attendance.use(session_id)
     await attendance.warn(session_id, "It ends in 5 min.")
+    attendance.keep_warned([])  # it was used through another server
+    await attendance.warn(session_id, "It ends in 4 min again.")
     attendance.leave(session_id, send)
     await attendance.warn(session_id, "Nobody hears this.")
     return [message["data"]["text"] for message in told]
 
 
 async def test_browsers_are_warned_once_until_the_session_is_used():
-    assert await warned("s1") == ["It ends in 4 min.", "It ends in 5 min."]
+    assert await warned("s1") == ["It ends in 4 min.", "It ends in 5 min.", "It ends in 4 min again."]
 
 
 def test_the_idle_are_told_and_then_ended(api, start, fake_manager, settings_of):
@@ -104,12 +108,16 @@ def test_the_idle_are_told_and_then_ended(api, start, fake_manager, settings_of)
     launched(started["id"])
     session = Session.objects.get()
     now = timezone.now()
-    assert care.care({}) == {}
+    assert care.ending_soon() == {}
     Session.objects.update(used_at=now - timedelta(minutes=27))
-    assert care.care({}) == {session.id: 3}
-    assert care.care({session.id: 60.0}) == {}
+    care.care()
+    assert care.ending_soon() == {session.id: 3}
+    care.note_used({session.id: 60.0})
+    assert care.ending_soon() == {}
+    care.note_used({session.id: 27 * 60.0})  # through another server, and longer ago
+    assert care.ending_soon() == {}
     Session.objects.update(used_at=now - timedelta(minutes=31))
-    assert care.care({}) == {}
+    care.care()
     ended = api.get(f"sessions/{started['id']}")
     assert (ended["state"], ended["error"]) == ("ended", "It was ended since nobody used it.")
 
@@ -119,5 +127,5 @@ def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
     started = start("One")
     launched(started["id"])
     launcher.stop(Session.objects.get().launcher_state, timeout_s=5)
-    care.care({})
+    care.care()
     assert Session.objects.get().state in {"failed", "ended"}

@@ -69,13 +69,13 @@ def test_two_web_servers_share_one_database_and_a_killed_one_loses_nothing(tmp_p
             assert found.text == "kept"
 
 
-def signed_in(server):
+def signed_in(server, name="ada"):
     """A session of `requests` that went through the sign-in page."""
     browser = requests.Session()
     browser.headers["Origin"] = server.base
     page = browser.get(f"{server.base}/accounts/login/")
     token = page.text.partition('name="csrfmiddlewaretoken" value="')[2].partition('"')[0]
-    fields = {"login": "ada", "password": PASSWORD, "csrfmiddlewaretoken": token}
+    fields = {"login": name, "password": PASSWORD, "csrfmiddlewaretoken": token}
     answer = browser.post(f"{server.base}/accounts/login/", data=fields, allow_redirects=False)
     assert answer.status_code == 302, answer.text
     return browser

@@ -1,0 +1,283 @@
+"""Several workers of one server, as real processes on a real PostgreSQL and Redis."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+import psutil
+import psycopg
+import pytest
+import requests
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import connect
+
+from tests.backend.services import postgresql, redis
+from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
+from tests.backend.sessions.keeper.conftest import Host
+from tests.backend.test_postgresql import PASSWORD, signed_in
+from tests.fakes.docker import FakeDocker
+
+pytestmark = pytest.mark.timeout(300)
+
+
+def until(holds, *, within_s=TIMEOUT_S):
+    """Waits for something to hold, and returns it."""
+    deadline = time.monotonic() + within_s
+    while not (found := holds()):
+        assert time.monotonic() < deadline, "it never came"
+        time.sleep(0.05)
+    return found
+
+
+class Slow(FakeDocker):
+    """A Docker engine whose executors come to the gate when they may."""
+
+    may_run = threading.Event()
+
+    def _run(self, name, container):
+        assert self.may_run.wait(TIMEOUT_S)
+        super()._run(name, container)
+
+
+class Several:
+    """A server with several workers, its database, and a browser."""
+
+    def __init__(self, served, database_url, host):
+        self.served, self.host = served, host
+        self.database = psycopg.connect(database_url, autocommit=True)
+        self.browser = signed_in(served)
+        self.base = served.base
+
+    @property
+    def workers(self):
+        """The processes of the workers that run, by their numbers."""
+        children = psutil.Process(self.served.process.pid).children()
+        lines = {}
+        for child in children:
+            with suppress(psutil.Error):
+                line = child.cmdline()
+                if "backend.config.web_worker" in line:
+                    lines[int(line[line.index("--own") + 1])] = child
+        return lines
+
+    @contextmanager
+    def only(self, number):
+        """Connections that are made meanwhile come to this worker: the others are stopped."""
+        others = [process for own, process in self.workers.items() if own != number]
+        for process in others:
+            process.suspend()
+        try:
+            yield
+        finally:
+            for process in others:
+                process.resume()
+
+    def at(self, number):
+        """The browser, on a connection to this worker that stays."""
+        browser = requests.Session()
+        browser.headers.update(self.browser.headers)
+        browser.cookies.update(self.browser.cookies)
+        with self.only(number):
+            assert browser.get(f"{self.base}/api/v1/me", timeout=30).status_code == 200
+        return browser
+
+    def socket_at(self, number, path):
+        """A websocket to this worker."""
+        cookies = "; ".join(f"{cookie.name}={cookie.value}" for cookie in self.browser.cookies)
+        headers = {"Cookie": cookies, "Origin": self.base}
+        with self.only(number):
+            address = "ws" + self.base.removeprefix("http") + path
+            return connect(address, additional_headers=headers, proxy=None, open_timeout=60)
+
+    def project(self, name):
+        """A new project."""
+        made = self.browser.post(f"{self.base}/api/v1/projects", json={"name": name}, timeout=60)
+        assert made.status_code == 201, made.text
+        return made.json()["id"]
+
+    def session(self, browser, project):
+        """Starts a session through a worker."""
+        answer = browser.post(f"{self.base}/api/v1/projects/{project}/session", timeout=60)
+        assert answer.status_code == 200, answer.text
+        return answer.json()
+
+    def counted(self, browser, name):
+        """A number of `/metrics`, as this worker says it."""
+        text = browser.get(f"{self.base}/metrics", timeout=60).text
+        return float(next(row.split()[1] for row in text.splitlines() if row.startswith(name)))
+
+    def holder(self):
+        """The process that looks after the sessions."""
+        row = self.database.execute("SELECT owner FROM executor_sessions_lease WHERE name = 'care'").fetchone()
+        return int(row[0].split()[-2]) if row else None
+
+
+@pytest.fixture(scope="module")
+def several():
+    """A server with two workers that the tests of this file share."""
+    with (
+        tempfile.TemporaryDirectory() as name,
+        postgresql(fsync="off") as database_url,
+        redis() as redis_url,
+    ):
+        folder = Path(name)
+        host = Host(folder, "good", 10, engine=Slow)
+        host.docker.may_run.set()
+        team = {
+            "BT_STUDIO_MODE": "team",
+            "BT_STUDIO_PUBLIC_URL": "http://127.0.0.1:8000",
+            "BT_STUDIO_DATABASE_URL": database_url,
+            "BT_STUDIO_REDIS_URL": redis_url,
+            "BT_STUDIO_SECRET_KEY": "k" * 40,
+            "BT_STUDIO_LAUNCHER": "docker",
+            "BT_STUDIO_KEEPER_FOLDER": str(host.folder),
+        }
+        make = [sys.executable, "-m", "backend.cli.main", "admin", "create", "ada", "--password-stdin"]
+        subprocess.run(
+            make,
+            cwd=REPOSITORY,
+            env=os.environ | team | {"BT_STUDIO_DATA_DIR": name},
+            input=f"{PASSWORD}\n",
+            text=True,
+            check=True,
+        )
+        with serving(folder, "--workers", "2", **team) as served:
+            found = Several(served, database_url, host)
+            found.environment = team
+            yield found
+            found.database.close()
+        host.close()
+
+
+def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):
+    before = several.workers
+    asking = several.at(0)
+    path = "bt_studio_requests_total{status=\"2xx\"}"
+    counted = several.counted(asking, path)
+    dying = several.at(1)
+    for _ in range(3):
+        dying.get(f"{several.base}/api/v1/me", timeout=60)
+    # What one worker says is what all have counted: the one request of `at`, and three.
+    assert several.counted(asking, path) == counted + 4
+    assert several.counted(dying, path) == counted + 4
+    before[1].kill()
+    assert asking.get(f"{several.base}/api/v1/me", timeout=60).status_code == 200
+    assert several.counted(asking, path) == counted + 5
+    until(lambda: several.workers.get(1) not in {None, before[1]})
+    assert several.workers[0] == before[0]
+    again = several.at(1)
+    assert several.counted(again, path) == several.counted(asking, path) == counted + 6
+
+
+def test_a_save_through_one_worker_is_told_through_the_other(several):
+    project = several.project("Told")
+    saving = several.at(0)
+    with several.socket_at(1, f"/ws/projects/{project}/notices") as socket:
+        assert json.loads(socket.recv(timeout=60))["revision"] == 1
+        change = {"files": [{"path": "a.txt", "base_revision": 0, "content": "new"}]}
+        saved = saving.post(f"{several.base}/api/v1/projects/{project}/changes", json=change, timeout=60)
+        assert saved.status_code == 200
+        told = json.loads(socket.recv(timeout=60))
+        assert (told["revision"], told["author"]) == (2, "ada")
+
+
+def test_the_end_of_a_session_waits_for_the_launch_of_another_worker(several):
+    project = several.project("Ended early")
+    starting, ending = several.at(0), several.at(1)
+    engine = several.host.docker
+    engine.may_run.clear()
+    session = several.session(starting, project)
+    until(lambda: engine.containers)
+    answers = []
+    address = f"{several.base}/api/v1/sessions/{session['id']}"
+    thread = threading.Thread(target=lambda: answers.append(ending.delete(address, timeout=120)))
+    thread.start()
+    until(lambda: starting.get(address, timeout=60).json()["state"] == "ended")
+    assert not answers
+    engine.may_run.set()
+    thread.join(TIMEOUT_S)
+    assert [answer.status_code for answer in answers] == [204]
+    assert engine.containers == {}
+
+
+def test_a_closed_account_is_refused_by_every_worker_at_once(several):
+    make = [sys.executable, "-m", "backend.cli.main", "admin", "create", "bob", "--password-stdin", "--user"]
+    environment = os.environ | several.environment | {"BT_STUDIO_DATA_DIR": str(several.host.folder.parent)}
+    subprocess.run(make, cwd=REPOSITORY, env=environment, input=f"{PASSWORD}\n", text=True, check=True)
+    admin, several.browser = several.browser, signed_in(several.served, "bob")
+    try:
+        project = several.project("Bob's")
+        browsers = [several.at(0), several.at(1)]
+        with several.socket_at(1, f"/ws/projects/{project}/notices") as socket:
+            several.database.execute("UPDATE accounts_user SET is_active = false WHERE username = 'bob'")
+            for browser in browsers:
+                assert browser.get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
+            several.database.execute("UPDATE accounts_user SET is_active = true WHERE username = 'bob'")
+            assert browsers[1].get(f"{several.base}/api/v1/me", timeout=60).status_code == 200
+            # Signing out through one worker closes what is open at the other.
+            page = browsers[0].get(f"{several.base}/accounts/logout/", timeout=60)
+            token = page.text.partition('name="csrfmiddlewaretoken" value="')[2].partition('"')[0]
+            fields = {"csrfmiddlewaretoken": token}
+            browsers[0].post(f"{several.base}/accounts/logout/", data=fields, timeout=60)
+            with pytest.raises(ConnectionClosed) as closed:
+                while True:
+                    socket.recv(timeout=60)
+            assert closed.value.rcvd.code == 4401
+            assert browsers[1].get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
+    finally:
+        several.browser = admin
+
+
+def test_one_worker_looks_after_all_and_the_other_when_it_was_killed(several):
+    pids = {process.pid for process in several.workers.values()}
+    holder = until(several.holder)
+    assert holder in pids
+    # The garbage of both was collected by one of them: who did not must ask again a day later.
+    rows = several.database.execute("SELECT owner FROM executor_sessions_lease WHERE name = 'garbage'")
+    assert len(rows.fetchall()) == 1
+    session = several.session(several.at(0), several.project("Looked after"))
+    address = f"{several.base}/api/v1/sessions/{session['id']}"
+    browser = several.at(next(own for own, process in several.workers.items() if process.pid != holder))
+    until(lambda: browser.get(address, timeout=60).json()["state"] == "ready")
+    os.kill(holder, signal.SIGKILL)
+    until(lambda: several.holder() != holder)
+    assert several.holder() in {process.pid for process in several.workers.values()}
+    # Nobody asks for the session; who has the lease now notes its end.
+    several.host.docker.end(next(iter(several.host.docker.containers)), 3)
+    state = "SELECT state FROM executor_sessions_session WHERE id = %s"
+    until(lambda: several.database.execute(state, [session["id"]]).fetchone() == ("failed",))
+
+
+def test_workers_end_with_their_parent_whatever_way(several, tmp_path):
+    for how in (signal.SIGTERM, signal.SIGKILL):
+        with serving(tmp_path, "--workers", "2", **several.environment) as served:
+            workers = psutil.Process(served.process.pid).children()
+            assert served.end(how) == -how
+            assert psutil.wait_procs(workers, timeout=60)[1] == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"BT_STUDIO_MODE": "local"}, "BT_STUDIO_MODE=team"),
+        ({"BT_STUDIO_DATABASE_URL": "sqlite:////tmp/no/bts"}, "BT_STUDIO_DATABASE_URL=postgresql"),
+        ({"BT_STUDIO_LAUNCHER": "process"}, "BT_STUDIO_LAUNCHER=docker"),
+        ({"BT_STUDIO_WORKERS": "60"}, "max_connections"),
+    ],
+)
+def test_several_workers_are_refused_where_there_can_be_one_only(several, tmp_path, changes, says):
+    settings = several.environment | {"BT_STUDIO_WORKERS": "2"} | changes
+    refused = start(tmp_path, "--port", "0", **settings)
+    _, said = refused.communicate(timeout=60)
+    assert refused.returncode == 1
+    assert says in said
+    assert "Traceback" not in said

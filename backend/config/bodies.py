@@ -11,7 +11,6 @@ import contextlib
 import errno
 import io
 import tempfile
-from collections import Counter
 from dataclasses import dataclass
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
@@ -23,6 +22,7 @@ from backend.config import guard
 from backend.config.environment import environment
 from backend.config.problems import StudioError, database_problem, disk_full, problem
 from backend.config.scopes import cookies_of, facts_of, headers_of
+from backend.config.siblings import siblings
 from backend.config.threads import Threads
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, HTTPScope
 
     from backend.accounts.models import User
+    from backend.config.siblings import Place
 
 UNKNOWN_BYTES: Final = 1024 * 1024
 """What a client may send that is not signed in."""
@@ -116,8 +117,6 @@ class Bodies:
     def __init__(self, asking: Threads, upload: Upload | None, folder: Path) -> None:
         self._asking, self.upload, self.folder = asking, upload, folder
         self._writing = Threads(2, "bodies")
-        self.large: Counter[tuple[int | None, bool]] = Counter()
-        """How many large bodies users send, by user, and whether these are uploads."""
 
     @contextlib.asynccontextmanager
     async def read(self, scope: HTTPScope, receive: ASGIReceiveCallable) -> AsyncIterator[Body]:
@@ -163,7 +162,8 @@ class _Reading:
     def __init__(self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable) -> None:
         self._bodies, self._scope, self._receive = bodies, scope, receive
         self._headers = headers_of(scope)
-        self._slot: tuple[int | None, bool] | None = None
+        self._place: Place | None = None
+        self._is_upload = False
         self._in_memory, self._most = IN_MEMORY, UNKNOWN_BYTES
         self._pending = bytearray()
         self._file: IO[bytes] | None = None
@@ -181,10 +181,8 @@ class _Reading:
 
     def done(self) -> None:
         """Lets the user send another large one."""
-        if self._slot is not None:
-            self._bodies.large[self._slot] -= 1
-            if not self._bodies.large[self._slot]:
-                del self._bodies.large[self._slot]
+        if self._place is not None:
+            self._place.give_back()
 
     def _declared(self) -> int | None:
         text = self._headers.get("content-length", "")
@@ -206,7 +204,7 @@ class _Reading:
 
     async def _allow_more(self, size: int) -> None:
         """Called when more comes than everybody may send."""
-        if self._slot is None:
+        if self._place is None:
             user = await self._sender()
             if user is None:
                 raise _too_large(UNKNOWN_BYTES, hint="Sign in to send more.")
@@ -214,7 +212,7 @@ class _Reading:
             most = environment().max_request_bytes
             self._most = min(GUEST_BYTES, most) if user.is_guest else most
         if size > self._most:
-            hint = "That is the room that you have left." if self._slot and self._slot[1] else ""
+            hint = "That is the room that you have left." if self._is_upload else ""
             raise _too_large(self._most, hint=hint)
 
     async def _sender(self) -> User | None:
@@ -224,13 +222,13 @@ class _Reading:
         return user
 
     def _take_slot(self, user: User, *, is_upload: bool) -> None:
-        slot, most = (user.pk, is_upload), UPLOADS_AT_ONCE if is_upload else LARGE_AT_ONCE
-        if self._bodies.large[slot] >= most:
+        most = UPLOADS_AT_ONCE if is_upload else LARGE_AT_ONCE
+        self._place = siblings.take(f"{'upload' if is_upload else 'body'} of {user.pk}", most)
+        if self._place is None:
             sentence = f"You send {most} large file{'s' if most > 1 else ''} already."
             hint = "Wait until it has arrived."
             raise BodyRefusedError(problem(429, "throttled", detail=sentence, hint=hint), RETRY_S)
-        self._bodies.large[slot] += 1
-        self._slot = slot
+        self._is_upload = is_upload
 
     async def _stored(self) -> IO[bytes]:
         loop = asyncio.get_running_loop()

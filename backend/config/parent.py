@@ -24,7 +24,7 @@ from backend.config.environment import REPOSITORY, environment
 from backend.config.logs import set_up
 from backend.config.numbers import BEAT, STARTED, STUCK, make_page
 from backend.config.server import ServeError
-from backend.config.siblings import PAGE, PLACES
+from backend.config.siblings import PAGE, PLACES, POOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -120,6 +120,11 @@ class Child:
             with suppress(ProcessLookupError):
                 self._process.send_signal(number)
 
+    def close_input(self) -> None:
+        """Tells it that the parent ends."""
+        if self._process is not None and self._process.stdin is not None:
+            self._process.stdin.close()
+
     def end(self, deadline_s: float) -> None:
         """Waits for its end, and kills it when that does not come."""
         if self._process is None:
@@ -127,14 +132,13 @@ class Child:
         try:
             self._process.wait(max(0.0, deadline_s - time.monotonic()))
         except subprocess.TimeoutExpired:
-            log.warning("%s did not end and is killed", self.name)
+            log.warning("the %s did not end and is killed", self.name)
             self._process.kill()
             self._process.wait()
         self._forget()
 
     def _forget(self) -> None:
-        if self._process is not None and self._process.stdin is not None:
-            self._process.stdin.close()
+        self.close_input()
         self._process = None
         if self._page is not None:
             self._page[STARTED] = 0
@@ -163,6 +167,7 @@ class Parent:
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="bt-studio-")))
             (folder / PLACES).mkdir()
             woken = stack.enter_context(_Alarm(self._end))
+            self._pool = self._make_pool(folder)
             self._workers = [self._worker(folder, number) for number in range(self._count)]
             stack.callback(self._end_all)
             looked_s = time.monotonic()
@@ -172,6 +177,11 @@ class Parent:
                 looked_s = now_s
                 woken.wait(TICK_S)
         return self._told
+
+    @staticmethod
+    def _make_pool(folder: Path) -> Child:
+        command = [sys.executable, "-m", "backend.workers.service", "--socket", str(folder / POOL)]
+        return Child("pool of processes", command, None)
 
     def _worker(self, folder: Path, number: int) -> Child:
         command = [sys.executable, "-m", "backend.config.web_worker", "--fd", str(self._listener.fileno())]
@@ -184,9 +194,9 @@ class Parent:
 
     def _look(self, now_s: float, passed_s: float) -> None:
         """One round: notes the dead, ends those that hang, starts what is due."""
-        for worker in self._workers:
+        for worker in (self._pool, *self._workers):
             if worker.hangs(passed_s):
-                log.error("%s hangs and is replaced", worker.name)
+                log.error("the %s hangs and is replaced", worker.name)
                 worker.tell(signal.SIGKILL)
             status = worker.ended(now_s)
             if status is not None:
@@ -202,7 +212,7 @@ class Parent:
             raise ServeError(f"The {worker.name} {how} before the server was ready; what it says is above.")
         if all(each.failures >= FUTILE and not each.has_started for each in self._workers):
             raise ServeError(f"No web worker can start any more; the last one {how}. What they say is above.")
-        log.error("%s %s and is started again", worker.name, how)
+        log.error("the %s %s and is started again", worker.name, how)
 
     def _end_all(self) -> None:
         for worker in self._workers:
@@ -210,6 +220,8 @@ class Parent:
         deadline_s = time.monotonic() + STOP_S
         for worker in self._workers:
             worker.end(deadline_s)
+        self._pool.close_input()  # last, since workers that end may wait for it
+        self._pool.end(deadline_s)
 
 
 def _how_ended(status: int) -> str:

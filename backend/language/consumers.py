@@ -24,6 +24,7 @@ from asgiref.sync import sync_to_async
 
 from backend.config.environment import environment
 from backend.config.problems import NotFoundError
+from backend.config.siblings import siblings
 from backend.config.sockets import ID, Call, Closed
 from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
 from backend.language.errors import UnavailableError
@@ -55,15 +56,13 @@ ENDED: Final = 4500
 UNAVAILABLE: Final = 4503
 
 Following = Callable[[], Awaitable[dict[str, Any]]]
-_served: Final[set[object]] = set()
 
 
 async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Serves one page until a side ends."""
-    if len(_served) >= environment().max_language_servers:
+    place = siblings.take("language server", environment().max_language_servers)
+    if place is None:
         return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
-    mark = object()
-    _served.add(mark)
     try:
         async with notices_of(UUID(call.address[1])) as following:
             return await _serve(Page(UUID(call.address[1]), call.user, receive, send), following)
@@ -72,7 +71,7 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
     except UnavailableError as error:
         return Closed(UNAVAILABLE, str(error))
     finally:
-        _served.discard(mark)
+        place.give_back()
 
 
 async def _serve(page: Page, following: Following) -> Closed | None:

@@ -21,9 +21,11 @@ from typing import Any, Final
 import msgspec
 
 from backend.config.environment import REPOSITORY, environment
+from backend.config.siblings import POOL, siblings
 from backend.workers import frames
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 from backend.workers.fair import FairQueue, QueueFullError
+from backend.workers.remote import RemotePool
 
 log = logging.getLogger(__name__)
 
@@ -292,8 +294,14 @@ class _Kept:
 
 
 @lru_cache(maxsize=1)
-def pool() -> Pool:
-    """The pool of this web server."""
+def pool() -> Pool | RemotePool:
+    """The pool of this web server, which several workers share."""
+    family = siblings.family
+    return make_pool() if family is None else RemotePool(family.folder / POOL)
+
+
+def make_pool() -> Pool:
+    """A pool with the limits of this server."""
     workers = WORKERS[environment().mode]
     return Pool(
         Limits(

@@ -15,6 +15,7 @@ import pytest
 from backend.config import bodies, guard, handler
 from backend.config.bodies import UNKNOWN_BYTES, Upload
 from backend.config.handler import ThreadedHandler
+from backend.config.siblings import siblings
 from backend.projects.models import Project
 from backend.projects.usage import room_for_archive
 from tests.backend.accounts.conftest import PUBLIC, Person
@@ -128,7 +129,7 @@ def test_a_user_sends_only_a_few_large_bodies_at_a_time(person, monkeypatch):
         heard = asyncio.Queue()
         open_ended = asyncio.create_task(handling(dict(scope), asyncio.Queue().get, heard.put))
         async with asyncio.timeout(60):
-            while not handling._bodies.large:  # noqa: ASYNC110 - until the first is being read
+            while not siblings._taken:  # noqa: ASYNC110 - until the first is being read
                 await asyncio.sleep(0.01)
             rest = asyncio.Queue()
             rest.put_nowait({"type": "http.disconnect"})
@@ -140,7 +141,7 @@ def test_a_user_sends_only_a_few_large_bodies_at_a_time(person, monkeypatch):
     answer = asyncio.run(both())
     assert answer["status"] == 429
     assert b"Retry-After" in dict(answer["headers"])
-    assert not handling._bodies.large
+    assert not siblings._taken
 
 
 def test_a_body_that_comes_too_slowly_is_given_up(monkeypatch):

@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import textwrap
 import threading
 import time
 from contextlib import contextmanager, suppress
@@ -117,7 +118,9 @@ class Several:
 
     def holder(self):
         """The process that looks after the sessions."""
-        row = self.database.execute("SELECT owner FROM executor_sessions_lease WHERE name = 'care'").fetchone()
+        row = self.database.execute(
+            "SELECT owner FROM executor_sessions_lease WHERE name = 'care'"
+        ).fetchone()
         return int(row[0].split()[-2]) if row else None
 
 
@@ -155,13 +158,16 @@ def several():
             found.environment = team
             yield found
             found.database.close()
+            children = psutil.Process(served.process.pid).children(recursive=True)
+            assert served.end() == -signal.SIGTERM
+            assert psutil.wait_procs(children, timeout=60)[1] == []
         host.close()
 
 
 def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):
     before = several.workers
     asking = several.at(0)
-    path = "bt_studio_requests_total{status=\"2xx\"}"
+    path = 'bt_studio_requests_total{status="2xx"}'
     counted = several.counted(asking, path)
     dying = several.at(1)
     for _ in range(3):
@@ -202,6 +208,8 @@ def test_the_end_of_a_session_waits_for_the_launch_of_another_worker(several):
     thread = threading.Thread(target=lambda: answers.append(ending.delete(address, timeout=120)))
     thread.start()
     until(lambda: starting.get(address, timeout=60).json()["state"] == "ended")
+    waiting = "SELECT 1 FROM pg_locks WHERE locktype = 'advisory' AND NOT granted"
+    until(lambda: several.database.execute(waiting).fetchone())
     assert not answers
     engine.may_run.set()
     thread.join(TIMEOUT_S)
@@ -229,8 +237,7 @@ def test_a_closed_account_is_refused_by_every_worker_at_once(several):
             fields = {"csrfmiddlewaretoken": token}
             browsers[0].post(f"{several.base}/accounts/logout/", data=fields, timeout=60)
             with pytest.raises(ConnectionClosed) as closed:
-                while True:
-                    socket.recv(timeout=60)
+                until(lambda: socket.recv(timeout=60) is None)
             assert closed.value.rcvd.code == 4401
             assert browsers[1].get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
     finally:
@@ -257,12 +264,60 @@ def test_one_worker_looks_after_all_and_the_other_when_it_was_killed(several):
     until(lambda: several.database.execute(state, [session["id"]]).fetchone() == ("failed",))
 
 
-def test_workers_end_with_their_parent_whatever_way(several, tmp_path):
-    for how in (signal.SIGTERM, signal.SIGKILL):
-        with serving(tmp_path, "--workers", "2", **several.environment) as served:
-            workers = psutil.Process(served.process.pid).children()
-            assert served.end(how) == -how
-            assert psutil.wait_procs(workers, timeout=60)[1] == []
+def test_a_lease_has_one_holder_until_it_runs_out_or_is_given_back(several):
+    script = """
+        import django
+        django.setup()
+        from backend.sessions.lease import Holder
+        one, two = Holder(), Holder()
+        assert one.hold("x", 60) and not two.hold("x", 60) and one.hold("x", 0)
+        assert two.hold("x", 60) and not one.hold("x", 60)
+        two.give_back("x")
+        assert one.hold("x", 60)
+        try:
+            with one.chore("y", 60) as is_ours, two.chore("y", 60) as is_theirs:
+                assert is_ours and not is_theirs
+                raise OSError("the disk is full")
+        except OSError:
+            pass
+        with two.chore("y", 60) as is_theirs:
+            assert is_theirs
+        with one.chore("y", 60) as is_ours:
+            assert not is_ours
+    """
+    run = [sys.executable, "-c", textwrap.dedent(script)]
+    settings = {"DJANGO_SETTINGS_MODULE": "backend.config.settings"} | several.environment
+    subprocess.run(run, cwd=REPOSITORY, env=os.environ | settings, check=True)
+
+
+def test_all_workers_ask_one_pool_of_processes(several):
+    project = several.project("Translated")
+    parent = psutil.Process(several.served.process.pid)
+
+    def translate(number):
+        address = f"{several.base}/api/v1/projects/{project}/xml"
+        return several.at(number).get(address, timeout=60).status_code
+
+    def pool():
+        return next(child for child in parent.children() if "backend.workers.service" in child.cmdline())
+
+    assert [translate(0), translate(1)] == [200, 200]
+    at_work = [
+        child for child in parent.children(recursive=True) if "backend.workers.worker" in child.cmdline()
+    ]
+    assert {process.ppid() for process in at_work} == {pool().pid}
+    before = pool()
+    before.kill()
+    until(lambda: [translate(0), translate(1)] == [200, 200])
+    assert pool() != before
+
+
+def test_workers_end_with_a_parent_that_was_killed(several, tmp_path):
+    with serving(tmp_path, "--workers", "3", **several.environment) as served:
+        children = psutil.Process(served.process.pid).children()
+        assert len(children) == 4
+        assert served.end(signal.SIGKILL) == -signal.SIGKILL
+        assert psutil.wait_procs(children, timeout=60)[1] == []
 
 
 @pytest.mark.parametrize(

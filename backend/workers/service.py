@@ -1,0 +1,118 @@
+"""One pool for all web workers of a server, `python -m backend.workers.service`: each asks it over a socket.
+
+So users have their share of the server, not of each worker, and the number of processes does not grow with
+that of the workers. It ends when the parent does, and with it all of the pool.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import signal
+import socket
+import threading
+from contextlib import suppress
+from pathlib import Path
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, Final
+
+import msgspec
+
+from backend.config.environment import environment
+from backend.config.logs import set_up
+from backend.config.problems import StudioError
+from backend.workers import frames
+from backend.workers.pool import make_pool
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from concurrent.futures import Future
+
+    from backend.workers.pool import Pool
+
+log = logging.getLogger(__name__)
+
+STDIN: Final = 0
+BACKLOG: Final = 64
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Works until the parent ends."""
+    parser = argparse.ArgumentParser(prog="python -m backend.workers.service", description=__doc__)
+    parser.add_argument("--socket", type=Path, required=True, help="where web workers ask")
+    options = parser.parse_args(arguments)
+    set_up(environment().log_level, environment().log_style)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # the end of its input comes when nobody asks any more
+    threading.Thread(target=serve, args=(listening(options.socket), make_pool()), daemon=True).start()
+    while os.read(STDIN, 1):
+        pass
+
+
+def listening(path: Path) -> socket.socket:
+    """The socket at this path, in a folder that is ours alone."""
+    path.unlink(missing_ok=True)  # that of one before us, which was killed
+    listener = socket.socket(socket.AF_UNIX)
+    listener.bind(str(path))
+    listener.listen(BACKLOG)
+    return listener
+
+
+def serve(listener: socket.socket, pool: Pool) -> None:
+    """Answers everyone who connects, until the socket closes."""
+    with suppress(OSError):
+        while True:
+            connection, _ = listener.accept()
+            threading.Thread(target=_Asker(connection, pool).serve, daemon=True).start()
+
+
+class _Asker:
+    """One web worker: a thread reads what it asks for, another writes answers as they come."""
+
+    def __init__(self, connection: socket.socket, pool: Pool) -> None:
+        self._connection, self._pool = connection, pool
+        self._answers: SimpleQueue[bytes | None] = SimpleQueue()
+
+    def serve(self) -> None:
+        """Until the other side ends."""
+        threading.Thread(target=self._write, daemon=True).start()
+        try:
+            with suppress(frames.FrameError):
+                while True:
+                    self._take(msgspec.msgpack.decode(frames.receive(self._connection)))
+        finally:
+            self._answers.put(None)
+
+    def _take(self, message: dict[str, Any]) -> None:
+        number = message["number"]
+        if "job" not in message:
+            self._answers.put(frames.pack({"number": number, "result": self._pool.waiting}))
+            return
+        try:
+            future = self._pool.ask(message["owner"], message["job"], **message["arguments"])
+        except StudioError as error:
+            self._answers.put(frames.pack({"number": number} | _told(error)))
+        else:
+            future.add_done_callback(lambda done: self._answers.put(_answer(number, done)))
+
+    def _write(self) -> None:
+        with self._connection, suppress(frames.FrameError):
+            while (answer := self._answers.get()) is not None:
+                frames.send(self._connection, answer)
+
+
+def _answer(number: int, done: Future[Any]) -> bytes:
+    error = done.exception()
+    return frames.pack({"number": number} | ({"result": done.result()} if error is None else _told(error)))
+
+
+def _told(error: BaseException) -> dict[str, Any]:
+    """An error as its answer names it; those of ours the other side raises again."""
+    if isinstance(error, StudioError):
+        return {"error": error.code, "detail": error.detail, "hint": error.hint}
+    log.error("a job failed", exc_info=error)
+    return {"error": "", "detail": "The work could not be done; this is a fault of BT Studio.", "hint": ""}
+
+
+if __name__ == "__main__":
+    main()

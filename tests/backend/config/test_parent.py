@@ -1,0 +1,108 @@
+"""A parent and its workers, which are small programs here: who dies or hangs is replaced, and nobody else."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import sys
+import textwrap
+
+import pytest
+
+from backend.config import parent
+from backend.config.server import ServeError
+from backend.config.siblings import PAGE
+
+WORKER = """
+    import mmap, os, struct, sys, time
+    folder, own = sys.argv[1:3]
+    page = mmap.mmap(os.open(f"{folder}/worker-{own}.numbers", os.O_RDWR), 2048)
+    life = os.open(f"{folder}/lives", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+    os.write(life, own.encode())
+    lives = open(f"{folder}/lives").read().count(own)
+    def put(place, value):
+        page[8 * place : 8 * place + 8] = struct.pack("d", value)
+    def serve():
+        put(0, 1)
+        while True:
+            put(1, time.monotonic())
+            time.sleep(0.01)
+"""
+
+
+class Small(parent.Parent):
+    """A parent of workers that do what a few lines say."""
+
+    def __init__(self, *lines, until=""):
+        self.ready, self.log, self._lines, self._until = 0, "", lines, until
+        with socket.socket() as listener:
+            super().__init__(listener, len(lines), on_ready=self._note_ready)
+            self._fd = listener
+
+    def _note_ready(self):
+        self.ready += 1
+
+    def _make_pool(self, folder):
+        return parent.Child("pool", [sys.executable, "-c", "input()"], None)
+
+    def _worker(self, folder, number):
+        self.folder = folder
+        page = parent.make_page(folder / PAGE.format(number))
+        script = textwrap.dedent(WORKER) + textwrap.dedent(self._lines[number])
+        command = [sys.executable, "-S", "-c", script, str(folder), str(number)]
+        return parent.Child(f"web worker {number}", command, page)
+
+    def _look(self, now_s, passed_s):
+        super()._look(now_s, passed_s)
+        lives = self.folder / "lives"
+        self.log = lives.read_text() if lives.exists() else ""
+        if self._until and all(self.log.count(own) >= self._until.count(own) for own in set(self._until)):
+            os.kill(os.getpid(), signal.SIGTERM)
+
+
+@pytest.fixture(autouse=True)
+def _quick(monkeypatch):
+    monkeypatch.setattr(parent, "TICK_S", 0.05)
+    monkeypatch.setattr(parent, "FIRST_PAUSE_S", 0.01)
+    monkeypatch.setattr(parent, "LONGEST_PAUSE_S", 0.02)
+
+
+def test_who_dies_is_started_again_and_nobody_else(caplog):
+    dies_twice = "put(0, 1); time.sleep(0.2); lives < 3 and sys.exit(4); serve()"
+    family = Small("serve()", dies_twice, until="0111")
+    assert family.run() is signal.SIGTERM
+    assert (family.ready, family.log.count("0"), family.log.count("1")) == (1, 1, 3)
+    assert "web worker 1 ended with status 4 and is started again" in caplog.text
+
+
+@pytest.mark.parametrize("how", ["time.sleep(1000)", "put(3, 1000); serve()"])
+def test_who_hangs_is_replaced(monkeypatch, caplog, how):
+    monkeypatch.setattr(parent, "HUNG_S", 0.5)
+    family = Small("serve()", f"put(0, 1)\nif lives < 2:\n    {how}\nserve()", until="011")
+    family.run()
+    assert family.log.count("0") == 1
+    assert "the web worker 1 hangs and is replaced" in caplog.text
+
+
+def test_a_worker_that_cannot_start_ends_the_start(caplog):
+    family = Small("serve()", "sys.exit(3)")
+    with pytest.raises(ServeError, match="web worker 1 ended with status 3 before the server was ready"):
+        family.run()
+    assert family.ready == 0
+
+
+def test_a_server_of_which_no_worker_starts_any_more_ends(caplog):
+    once = "lives > 1 and sys.exit(3)\nput(0, 1)\ntime.sleep(0.5)"
+    with pytest.raises(
+        ServeError, match="No web worker can start any more; the last one ended with status 3"
+    ):
+        Small(once, once).run()
+
+
+def test_pauses_grow_to_a_bound(monkeypatch):
+    monkeypatch.undo()
+    pauses = [parent._pause_s(failures) for failures in range(1, 12)]
+    assert pauses[:3] == [0.5, 1.0, 2.0]
+    assert pauses == sorted(pauses)
+    assert pauses[-1] == 30.0

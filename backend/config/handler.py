@@ -70,11 +70,11 @@ class ThreadedHandler(ASGIHandler):
     def __init__(self, upload: Upload | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
-        several = siblings.family
-        self.threads = Threads(THREADS_OF_SEVERAL if several else THREADS[environment().mode], "http")
-        at_once = (os.cpu_count() or 1) // (2 * (several.size if several else 1))
-        self._hashing = asyncio.Semaphore(max(1 if several else 2, at_once))
-        self._waiting = 0
+        family = siblings.family
+        size = family.size if family else 1
+        self.threads = Threads(THREADS_OF_SEVERAL if family else THREADS[environment().mode], "http")
+        self._hashing = asyncio.Semaphore(max(1 if family else 2, (os.cpu_count() or 1) // (2 * size)))
+        self._waiting, self._most_waiting = 0, MOST_WAITING // size
         self._bodies = Bodies(self.threads, upload, environment().data_dir / "uploads")
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
@@ -102,7 +102,7 @@ class ThreadedHandler(ASGIHandler):
         if scope["method"] != "POST" or not scope["path"].startswith(HASHING):
             yield
             return
-        if self._waiting >= MOST_WAITING:
+        if self._waiting >= self._most_waiting:
             sentence = "Too many people sign in at this moment."
             document = problem(503, "busy", detail=sentence, hint="Try again in a minute.")
             raise BodyRefusedError(document, retry_s=RETRY_S)

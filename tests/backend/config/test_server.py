@@ -163,6 +163,13 @@ def test_other_machines_are_not_served_without_accounts(tmp_path, host):
     assert said.count("\n") == 1
 
 
+def test_several_workers_are_refused_on_localhost(tmp_path):
+    status, said = failed(start(tmp_path, "--port", "0", "--workers", "2"))
+    assert status == 1
+    assert "BT_STUDIO_MODE=team" in said
+    assert said.count("\n") == 1
+
+
 def test_a_wrong_setting_is_named(tmp_path):
     status, said = failed(start(tmp_path, BT_STUDIO_SESSION_START_TIMEOUT_S="soon"))
     assert status == 2

@@ -49,9 +49,9 @@ class Child:
     """One worker, and those that take its place.
 
     Args:
-        number: which of the workers it is.
+        name: what it is called in the log.
         command: what starts it.
-        page: its numbers; None for a helper that keeps none.
+        sign: its page of numbers, or the file that is there once it answers.
         descriptors: what it inherits.
     """
 
@@ -59,11 +59,13 @@ class Child:
         self,
         name: str,
         command: Sequence[str],
-        page: memoryview[float] | None,
+        sign: memoryview[float] | Path,
         descriptors: Sequence[int] = (),
     ) -> None:
         self.name = name
-        self._command, self._page, self._descriptors = command, page, descriptors
+        self._command, self._descriptors = command, descriptors
+        self._page = sign if isinstance(sign, memoryview) else None
+        self._file = sign if isinstance(sign, Path) else None
         self._process: subprocess.Popen[bytes] | None = None
         self._since_s = self._due_s = 0.0
         self._beat = (0.0, 0.0)
@@ -73,7 +75,11 @@ class Child:
     @property
     def has_started(self) -> bool:
         """Whether it answers, or did until it hung."""
-        return self._process is not None and (self._page is None or bool(self._page[STARTED]))
+        if self._process is None:
+            return False
+        if self._page is not None:
+            return bool(self._page[STARTED])
+        return self._file is not None and self._file.exists()
 
     def start_if_due(self, now_s: float) -> None:
         """Starts it, unless it runs or its pause is not over."""
@@ -181,7 +187,7 @@ class Parent:
     @staticmethod
     def _make_pool(folder: Path) -> Child:
         command = [sys.executable, "-m", "backend.workers.service", "--socket", str(folder / POOL)]
-        return Child("pool of processes", command, None)
+        return Child("pool of processes", command, folder / POOL)
 
     def _worker(self, folder: Path, number: int) -> Child:
         command = [sys.executable, "-m", "backend.config.web_worker", "--fd", str(self._listener.fileno())]
@@ -202,7 +208,7 @@ class Parent:
             if status is not None:
                 self._note_end(worker, status)
             worker.start_if_due(now_s)
-        if not self._is_ready and all(worker.has_started for worker in self._workers):
+        if not self._is_ready and all(each.has_started for each in (self._pool, *self._workers)):
             self._is_ready = True
             self._on_ready()
 

@@ -188,16 +188,15 @@ def _await_launch(session: Session) -> None:
     database, which goes with its connection.
     """
     # In a transaction of the caller nobody sees the end of the session yet.
-    if connection.vendor != "postgresql" or connection.in_atomic_block:
-        return
-    longest_s = 2 * environment().session_start_timeout_s
-    try:
-        with transaction.atomic(), connection.cursor() as cursor:
-            cursor.execute("SELECT set_config('lock_timeout', %s, true)", [f"{longest_s:.0f}s"])
-            transaction_lock(_launch_lock(session.id))
-    except OperationalError:
-        log.warning("session %s: the server that starts it does not come to an end", session.id)
-    if launcher().survives_server:
+    if connection.vendor == "postgresql" and not connection.in_atomic_block:
+        longest_s = 2 * environment().session_start_timeout_s
+        try:
+            with transaction.atomic(), connection.cursor() as cursor:
+                cursor.execute("SELECT set_config('lock_timeout', %s, true)", [f"{longest_s:.0f}s"])
+                transaction_lock(_launch_lock(session.id))
+        except OperationalError:
+            log.warning("session %s: the server that starts it does not come to an end", session.id)
+    if launcher().survives_server:  # what a server started that was killed is there still
         state = launcher().state_of(str(session.id))
         launcher().stop(state, timeout_s=environment().session_stop_timeout_s)
 

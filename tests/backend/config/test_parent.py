@@ -44,7 +44,7 @@ class Small(parent.Parent):
         self.ready += 1
 
     def _make_pool(self, folder):
-        return parent.Child("pool", [sys.executable, "-c", "input()"], None)
+        return parent.Child("pool", [sys.executable, "-c", "input()"], folder)
 
     def _worker(self, folder, number):
         self.folder = folder

@@ -69,6 +69,7 @@ class Child:
         self._process: subprocess.Popen[bytes] | None = None
         self._since_s = self._due_s = 0.0
         self._beat = (0.0, 0.0)
+        self._is_given_up = False
         self.failures = 0
         """Starts in a row that came to nothing."""
 
@@ -95,7 +96,7 @@ class Child:
             stdin=subprocess.PIPE,
             start_new_session=True,  # Ctrl+C is for the parent, which passes it on
         )
-        self._since_s, self._beat = now_s, (0.0, 0.0)
+        self._since_s, self._beat, self._is_given_up = now_s, (0.0, 0.0), False
 
     def ended(self, now_s: float) -> int | None:
         """The exit status, once, when it has ended; it is then due for another start."""
@@ -108,17 +109,18 @@ class Child:
         return status
 
     def hangs(self, passed_s: float) -> bool:
-        """Whether it has stood still for too long.
+        """Whether it has stood still for too long; said once.
 
         Args:
             passed_s: since the last look; of a longer time the parent itself was not awake.
         """
-        if self._process is None or self._page is None or not self._page[STARTED]:
+        if self._process is None or self._page is None or not self._page[STARTED] or self._is_given_up:
             return False
         beat, silent_s = self._beat
         silent_s = 0.0 if self._page[BEAT] != beat else silent_s + min(passed_s, TICK_S)
         self._beat = (self._page[BEAT], silent_s)
-        return max(silent_s, self._page[STUCK]) > HUNG_S
+        self._is_given_up = max(silent_s, self._page[STUCK]) > HUNG_S
+        return self._is_given_up
 
     def tell(self, number: signal.Signals) -> None:
         """Sends it a signal."""

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 GRACE_S: Final = 2
+QUEUE: Final = 2048
+"""Connections that may wait to be accepted."""
 GARBAGE_EVERY_S: Final = 24 * 3600
 LOOK_FOR_GARBAGE_S: Final = 600
 DATABASE_PATIENCE_S: Final = 60.0
@@ -125,7 +127,7 @@ def bind(host: str, port: int) -> socket.socket:
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listener.bind((host, port))
-        listener.listen(128)
+        listener.listen(QUEUE)
     except OSError as error:
         listener.close()
         if error.errno == errno.EADDRINUSE:
@@ -189,18 +191,32 @@ def _alone() -> Iterator[None]:
             cursor.execute("SELECT pg_advisory_unlock(%s)", [MIGRATION_LOCK])
 
 
-def run(listener: socket.socket, *, on_ready: Callable[[], None], log_level: str) -> None:
-    """Serves until SIGINT or SIGTERM; then ends every session and returns."""
+def run(
+    listener: socket.socket,
+    *,
+    on_ready: Callable[[], None],
+    log_level: str,
+    accepts_at_once: int = QUEUE,
+) -> None:
+    """Serves until SIGINT or SIGTERM; then ends every session and returns.
+
+    Args:
+        listener: the socket.
+        on_ready: called once requests are answered.
+        log_level: the least severe line that is printed.
+        accepts_at_once: how many connections the event loop takes before it does something else. Who shares
+            the socket takes few, or the first to wake takes all.
+    """
     set_up(log_level, environment().log_style)
     if siblings.family is None:  # else the parent has said so
         proxies.at_start()
     with ended_by_interrupt():
-        server = _make_server(on_ready)
+        server = _make_server(on_ready, accepts_at_once)
     with suppress(KeyboardInterrupt):
         server.run(sockets=[listener])
 
 
-def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
+def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.Server:
     import uvicorn  # noqa: PLC0415 - slow to load
 
     from backend.config.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
@@ -215,6 +231,7 @@ def _make_server(on_ready: Callable[[], None]) -> uvicorn.Server:
     config = uvicorn.Config(
         "backend.config.asgi:application",
         log_config=None,
+        backlog=accepts_at_once,
         access_log=False,
         http=PatientProtocol,
         lifespan="on",

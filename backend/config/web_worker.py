@@ -33,8 +33,15 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     siblings.join(Family(options.folder, options.count, options.own))
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    with socket.socket(fileno=options.fd) as listener:
-        run(listener, on_ready=_ready, log_level=environment().log_level)
+    with Inherited(fileno=options.fd) as listener:
+        run(listener, on_ready=_ready, log_level=environment().log_level, accepts_at_once=1)
+
+
+class Inherited(socket.socket):
+    """A socket that listens already, with a queue as long as the parent has chosen."""
+
+    def listen(self, *_: object) -> None:
+        """The event loop would make the queue as short as what it accepts at once."""
 
 
 def _ready() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -21,12 +22,16 @@ import requests
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from backend.config.metrics import requests as counted
+from backend.config.numbers import BEAT, read_page
+from backend.config.siblings import Family
 from tests.backend.services import postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
 from tests.backend.sessions.keeper.conftest import Host
 from tests.backend.test_postgresql import PASSWORD, signed_in
 from tests.fakes.docker import FakeDocker
 
+FIRST_COUNT = counted._places["1xx"]
 pytestmark = pytest.mark.timeout(300)
 
 
@@ -184,15 +189,34 @@ def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):
     assert several.counted(again, path) == several.counted(asking, path) == counted + 6
 
 
+def test_a_burst_of_connections_is_shared_and_the_idle_say_that_they_are_awake(several):
+    folder = several.workers[0].cmdline()
+    pages = Family(Path(folder[folder.index("--folder") + 1]), 2, 0).pages()
+    counts, beats = [read_page(page) for page in pages], [read_page(page)[BEAT] for page in pages]
+    before = [sum(page[FIRST_COUNT : FIRST_COUNT + 5]) for page in counts]
+    sockets = [socket.create_connection(("127.0.0.1", several.served.port)) for _ in range(60)]
+    for each in sockets:
+        each.sendall(b"GET /accounts/login/ HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n")
+    for each in sockets:
+        with each:
+            assert each.recv(20).startswith(b"HTTP/1.1 200")
+    until(
+        lambda: all(
+            sum(page[FIRST_COUNT : FIRST_COUNT + 5]) > n for page, n in zip(counts, before, strict=True)
+        )
+    )
+    until(lambda: all(page[BEAT] > beat for page, beat in zip(counts, beats, strict=True)))
+
+
 def test_a_save_through_one_worker_is_told_through_the_other(several):
     project = several.project("Told")
     saving = several.at(0)
-    with several.socket_at(1, f"/ws/projects/{project}/notices") as socket:
-        assert json.loads(socket.recv(timeout=60))["revision"] == 1
+    with several.socket_at(1, f"/ws/projects/{project}/notices") as notices:
+        assert json.loads(notices.recv(timeout=60))["revision"] == 1
         change = {"files": [{"path": "a.txt", "base_revision": 0, "content": "new"}]}
         saved = saving.post(f"{several.base}/api/v1/projects/{project}/changes", json=change, timeout=60)
         assert saved.status_code == 200
-        told = json.loads(socket.recv(timeout=60))
+        told = json.loads(notices.recv(timeout=60))
         assert (told["revision"], told["author"]) == (2, "ada")
 
 
@@ -225,7 +249,7 @@ def test_a_closed_account_is_refused_by_every_worker_at_once(several):
     try:
         project = several.project("Bob's")
         browsers = [several.at(0), several.at(1)]
-        with several.socket_at(1, f"/ws/projects/{project}/notices") as socket:
+        with several.socket_at(1, f"/ws/projects/{project}/notices") as notices:
             several.database.execute("UPDATE accounts_user SET is_active = false WHERE username = 'bob'")
             for browser in browsers:
                 assert browser.get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
@@ -237,7 +261,7 @@ def test_a_closed_account_is_refused_by_every_worker_at_once(several):
             fields = {"csrfmiddlewaretoken": token}
             browsers[0].post(f"{several.base}/accounts/logout/", data=fields, timeout=60)
             with pytest.raises(ConnectionClosed) as closed:
-                until(lambda: socket.recv(timeout=60) is None)
+                until(lambda: notices.recv(timeout=60) is None)
             assert closed.value.rcvd.code == 4401
             assert browsers[1].get(f"{several.base}/api/v1/me", timeout=60).status_code == 401
     finally:

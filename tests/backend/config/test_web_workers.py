@@ -29,7 +29,6 @@ from tests.backend.services import postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
 from tests.backend.sessions.keeper.conftest import Host
 from tests.backend.test_postgresql import PASSWORD, signed_in
-from tests.fakes.docker import FakeDocker
 
 FIRST_COUNT = counted._places["1xx"]
 pytestmark = pytest.mark.timeout(300)
@@ -44,14 +43,17 @@ def until(holds, *, within_s=TIMEOUT_S):
     return found
 
 
-class Slow(FakeDocker):
-    """A Docker engine whose executors come to the gate when they may."""
+def made_to_wait(docker):
+    """Makes executors of a fake engine come to the gate when they may: when this event is set."""
+    may_run, run = threading.Event(), docker._run
 
-    may_run = threading.Event()
+    def run_when_it_may(name, container):
+        assert may_run.wait(TIMEOUT_S)
+        run(name, container)
 
-    def _run(self, name, container):
-        assert self.may_run.wait(TIMEOUT_S)
-        super()._run(name, container)
+    docker._run = run_when_it_may
+    may_run.set()
+    return may_run
 
 
 class Several:
@@ -138,8 +140,7 @@ def several():
         redis() as redis_url,
     ):
         folder = Path(name)
-        host = Host(folder, "good", 10, engine=Slow)
-        host.docker.may_run.set()
+        host = Host(folder, "good", 10, patience_s=60)
         team = {
             "BT_STUDIO_MODE": "team",
             "BT_STUDIO_PUBLIC_URL": "http://127.0.0.1:8000",
@@ -160,7 +161,7 @@ def several():
         )
         with serving(folder, "--workers", "2", **team) as served:
             found = Several(served, database_url, host)
-            found.environment = team
+            found.environment, found.may_run = team, made_to_wait(host.docker)
             yield found
             found.database.close()
             children = psutil.Process(served.process.pid).children(recursive=True)
@@ -224,7 +225,7 @@ def test_the_end_of_a_session_waits_for_the_launch_of_another_worker(several):
     project = several.project("Ended early")
     starting, ending = several.at(0), several.at(1)
     engine = several.host.docker
-    engine.may_run.clear()
+    several.may_run.clear()
     session = several.session(starting, project)
     until(lambda: engine.containers)
     answers = []
@@ -235,7 +236,7 @@ def test_the_end_of_a_session_waits_for_the_launch_of_another_worker(several):
     waiting = "SELECT 1 FROM pg_locks WHERE locktype = 'advisory' AND NOT granted"
     until(lambda: several.database.execute(waiting).fetchone())
     assert not answers
-    engine.may_run.set()
+    several.may_run.set()
     thread.join(TIMEOUT_S)
     assert [answer.status_code for answer in answers] == [204]
     assert engine.containers == {}

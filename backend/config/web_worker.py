@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import signal
 import socket
 import threading
@@ -32,7 +33,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--own", type=int, required=True, help="which one this is")
     options = parser.parse_args(arguments)
     siblings.join(Family(options.folder, options.count, options.own))
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=_end_with_parent, args=(options.folder,), daemon=True).start()
     with Inherited(fileno=options.fd) as listener:
         run(listener, on_ready=_ready, log_level=environment().log_level, accepts_at_once=1)
 
@@ -49,10 +50,11 @@ def _ready() -> None:
     threading.Thread(target=warm_up, daemon=True).start()
 
 
-def _end_with_parent() -> None:
+def _end_with_parent(folder: Path) -> None:
     """The parent never writes; where it ends, whatever way, so does this."""
     while os.read(STDIN, 1):
         pass
+    shutil.rmtree(folder, ignore_errors=True)  # a parent that was killed could not
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(GRACE_S + ORPHAN_S)
     os._exit(1)

@@ -43,6 +43,12 @@ def until(holds, *, within_s=TIMEOUT_S):
     return found
 
 
+def folder_of(worker):
+    """What a worker shares with its siblings."""
+    line = worker.cmdline()
+    return Path(line[line.index("--folder") + 1])
+
+
 def made_to_wait(docker):
     """Makes executors of a fake engine come to the gate when they may: when this event is set."""
     may_run, run = threading.Event(), docker._run
@@ -191,8 +197,7 @@ def test_a_killed_worker_alone_is_replaced_and_its_counts_stay(several):
 
 
 def test_a_burst_of_connections_is_shared_and_the_idle_say_that_they_are_awake(several):
-    folder = several.workers[0].cmdline()
-    pages = Family(Path(folder[folder.index("--folder") + 1]), 2, 0).pages()
+    pages = Family(folder_of(several.workers[0]), 2, 0).pages()
     counts, beats = [read_page(page) for page in pages], [read_page(page)[BEAT] for page in pages]
     before = [sum(page[FIRST_COUNT : FIRST_COUNT + 5]) for page in counts]
     sockets = [socket.create_connection(("127.0.0.1", several.served.port)) for _ in range(60)]
@@ -341,8 +346,11 @@ def test_workers_end_with_a_parent_that_was_killed(several, tmp_path):
     with serving(tmp_path, "--workers", "3", **several.environment) as served:
         children = psutil.Process(served.process.pid).children()
         assert len(children) == 4
+        pages = folder_of(children[-1])
+        assert pages.is_dir()
         assert served.end(signal.SIGKILL) == -signal.SIGKILL
         assert psutil.wait_procs(children, timeout=60)[1] == []
+        assert not pages.exists()
 
 
 def test_more_workers_than_the_database_admits_are_refused(several, tmp_path):

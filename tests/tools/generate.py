@@ -21,6 +21,7 @@ GENERATORS: Final = (
     [sys.executable, "-m", "executor.generate.typescript"],
     [sys.executable, "-m", "backend.config.reference"],
     ["npm", "run", "--silent", "--prefix", "frontend", "generate"],
+    [sys.executable, "-m", "tests.contracts.public_names"],
 )
 
 

@@ -40,10 +40,11 @@ test-frontend:
 test-python:
 	@$(BIN)/python -m tests.tools.lanes --durations 25 --durations-min 3 $(PYTEST_ARGS)
 
-lint: ## style, types and the direction of imports, in Python and TypeScript
+lint: ## style, types, the direction of imports and the list of words, in Python and TypeScript
 	@$(BIN)/ruff check . && $(BIN)/ruff format --check .
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
+	@$(BIN)/python -m tests.tools.words
 	@cd frontend && npm run --silent lint
 
 format: ## rewrites the sources in the project's style

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 MAX_BYTES = 2 * 1024 * 1024
 KEPT_BYTES = 16 * 1024
-"""Longer sources are read anew each time, so that what is kept stays small."""
+"""Longer sources are not cached, which bounds the memory of the cache."""
 KINDS = {"Action": "action", "SyncAction": "action", "Condition": "condition"}
 
 
@@ -33,7 +33,7 @@ class Import:
 
 @dataclass(frozen=True, slots=True)
 class ActionModel:
-    """What the source of an action says about it. `open` actions accept any port."""
+    """An action as its source declares it. `open` actions accept any port."""
 
     name: str
     doc: str = ""
@@ -47,7 +47,7 @@ class ActionModel:
     path: str = ""
 
     def to_json(self) -> dict[str, Any]:
-        """Returns what the editor and `--json` show."""
+        """Returns the document that the editor and `--json` show."""
         return {
             "name": self.name,
             "path": self.path,
@@ -72,8 +72,8 @@ class ActionModel:
 
 
 def inspect_action(source: str, filename: str) -> ActionModel:
-    """Reads the source of an action; whatever it holds, a model comes back, with diagnostics."""
-    # Most projects are read again and again while one of their files changes.
+    """Reads the source of an action; returns a model for any source, with diagnostics."""
+    # A project is read again after each save, and mostly one of its files has changed.
     return (_inspected if len(source) <= KEPT_BYTES else _inspect)(source, filename)
 
 
@@ -108,7 +108,7 @@ def _with(model: ActionModel, found: Diagnostic) -> ActionModel:
 
 
 def source_text(action: ActionModel) -> str:
-    """Returns the source as XML can hold it: line feeds alone end its lines, form feeds are left out."""
+    """Returns the source as XML can hold it: only line feeds end its lines, form feeds are removed."""
     return action.source.replace("\r\n", "\n").replace("\r", "\n").replace("\f", "")
 
 
@@ -162,7 +162,7 @@ class _Inspector:
         )
 
     def is_local(self) -> bool:
-        """Whether the name is not brought in by an import or an assignment of the module."""
+        """Whether no import or assignment of the module defines the name."""
         for node in self.module.body:
             if isinstance(node, ast.Import | ast.ImportFrom):
                 if any((alias.asname or alias.name) == self.name for alias in node.names):
@@ -172,7 +172,7 @@ class _Inspector:
         return True
 
     def lineage(self, cls: ast.ClassDef) -> list[ast.ClassDef]:
-        """Returns the class and those of its bases that stand in the same file, nearest first."""
+        """Returns the class and those of its bases that are in the same file, nearest first."""
         line: list[ast.ClassDef] = []
         stack = [cls]
         while stack:
@@ -188,7 +188,7 @@ class _Inspector:
         return line
 
     def is_behaviour(self, cls: ast.ClassDef) -> bool:
-        """Whether some base may be a behaviour; of an imported base that cannot be known, so it may."""
+        """Whether some base may be a behaviour; an imported base may always be one."""
         local = self.lineage(cls)
         foreign = [
             base

@@ -2,7 +2,7 @@
 
 Declared are the class attributes `INPUT_PORTS`, `OUTPUT_PORTS` and `INOUT_PORTS`, a dict of name to
 `Port(…)` of tree_gardener or `PortInformation(…)` of py_trees. Of a class without them, the ports
-that its code visibly asks for are listed, so that the editor can offer them.
+that its code uses by a literal name are listed, so that the editor can offer them.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Declarations:
 
 
 def declared_ports(declarations: Declarations, report: Report) -> tuple[PortModel, ...]:
-    """Returns the declared ports; what cannot be read without running the code is reported."""
+    """Returns the declared ports; reports those that cannot be read without running the code."""
     ports: dict[str, PortModel] = {}
     for attribute, value in declarations.values:
         if not isinstance(value, ast.Dict):
@@ -101,7 +101,7 @@ def _port(name: str, direction: str, value: ast.expr, report: Report) -> PortMod
 
 
 def _type(node: ast.expr | None) -> str | None:
-    """Returns the catalogue's name of a type, `any` where none is given, None where it cannot be told."""
+    """Returns the catalogue's name of a type, `any` where none is given, None where it is unknown."""
     if node is None:
         return "any"
     if isinstance(node, ast.Constant):
@@ -120,12 +120,12 @@ def _type_name(text: str) -> str | None:
     if text.startswith("list[") and text.endswith("]"):
         inner = TYPES.get(text[5:-1].strip())
         return f"list[{inner}]" if inner and inner != "any" else "any"
-    # A class of the action's own: its values travel over the blackboard as they are.
+    # A class that the action defines: its values are passed over the blackboard by reference.
     return "any" if text.replace(".", "").replace("_", "").isalnum() else None
 
 
 def _default(node: ast.expr | None) -> str | None:
-    """Returns the text of a default as it would stand in the XML."""
+    """Returns the text of a default as XML would have it."""
     if node is None:
         return None
     try:
@@ -151,7 +151,7 @@ def _as_port_text(value: object) -> str | None:
 
 
 def last_name(node: ast.expr) -> str:
-    """Returns `c` of `a.b.c`, and nothing for what is no name."""
+    """Returns `c` of `a.b.c`, and "" for an expression that is not a name."""
     if isinstance(node, ast.Attribute):
         return node.attr
     return node.id if isinstance(node, ast.Name) else ""
@@ -174,7 +174,7 @@ def _is_empty_call(value: ast.expr) -> bool:
 
 
 def ports_used(cls: ast.ClassDef) -> tuple[PortModel, ...]:
-    """Returns the ports that the code of a class without declarations asks for by name."""
+    """Returns the ports that the code of a class without declarations uses by name."""
     written: set[str] = set()
     names: dict[str, None] = {}
     for node in ast.walk(cls):

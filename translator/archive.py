@@ -1,4 +1,4 @@
-"""Reading folders and zips from outside into memory: bounded, and never a path that leads elsewhere."""
+"""Reads foreign folders and zips into memory: bounded, and without paths that leave the project."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_FILES = 5_000
 MAX_FILE_BYTES = 64 * 1024 * 1024
 MAX_TOTAL_BYTES = 256 * 1024 * 1024
 SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules"}
-# zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
+# zipfile raises NotImplementedError for an unknown compression, RuntimeError for encryption.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
 _CHUNK = 1024 * 1024
 
@@ -31,7 +31,7 @@ def _error(code: str, file: str, **values: object) -> TranslatorError:
 
 
 def safe_path(name: str) -> str | None:
-    """Returns the path of an entry in normal form, or None if it leads out of the project."""
+    """Returns the path of an entry in normal form, or None if it leaves the project."""
     if "\\" in name or "\0" in name or name.startswith("/") or (len(name) > 1 and name[1] == ":"):
         return None
     parts = PurePosixPath(name).parts
@@ -45,10 +45,10 @@ def safe_path(name: str) -> str | None:
 
 
 def read_zip(raw: bytes, *, file: str = "project.zip") -> dict[str, bytes]:
-    """Returns the files of a zip, by path; a single folder round all of them is left out.
+    """Returns the files of a zip, by path; a single folder that holds all of them is removed.
 
     Raises:
-        TranslatorError: If it is no zip, holds paths that lead elsewhere or links, or unpacks to too much.
+        TranslatorError: If it is not a zip, holds links or paths that leave the project, or is too large.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(raw)) as archive:
@@ -77,7 +77,7 @@ def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]
 
 
 def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: int) -> bytes:
-    """Reads an entry in pieces, since the size that it states may be a lie."""
+    """Reads an entry in pieces, since the size in its header may be wrong on purpose."""
     parts: list[bytes] = []
     size = 0
     with archive.open(entry) as stream:
@@ -90,7 +90,7 @@ def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: 
 
 
 def without_top_folder(files: dict[str, bytes]) -> dict[str, bytes]:
-    """Leaves out a folder that holds all files, as zips made of a folder have it."""
+    """Removes the folder that holds all files, which zips of a folder have."""
     tops = {path.partition("/")[0] for path in files}
     if len(tops) != 1 or any("/" not in path for path in files):
         return files

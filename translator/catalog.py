@@ -36,7 +36,7 @@ class PortModel:
 
 @dataclass(frozen=True, slots=True)
 class NodeModel:
-    """What a kind of node is: control, decorator, action, condition or subtree; ports and child counts."""
+    """A kind of node: control, decorator, action, condition or subtree; its ports and child counts."""
 
     type: str
     kind: str
@@ -86,7 +86,7 @@ def did_you_mean(name: str, known: Iterable[str], *, otherwise: str = "") -> str
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """Returns the known name that is most like this one, or an empty text."""
-    # Only here, since the engine brings py_trees, which reading and writing trees does without.
+    # Imported here, since the engine imports py_trees, which reading and writing trees do not need.
     from tree_gardener.spelling import nearest as nearest_name  # noqa: PLC0415
 
     return nearest_name(name, known)

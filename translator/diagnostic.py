@@ -20,7 +20,7 @@ TABLE_PATH = Path(__file__).with_name("diagnostics.json")
 
 
 class Severity(StrEnum):
-    """How bad it is: an error keeps the tree from running."""
+    """The severity: a tree with an error does not run."""
 
     ERROR = "error"
     WARNING = "warning"
@@ -29,7 +29,7 @@ class Severity(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a diagnostic points: the file, and as far as known the node, port, line and column."""
+    """The place of a diagnostic: the file, and as far as known the node, port, line and column."""
 
     file: str = ""
     tree: str = ""
@@ -54,8 +54,7 @@ class Rule:
 class Diagnostic:
     """One finding. `str()` gives the line that the command line prints.
 
-    `values` is what message and hint were filled with: who tells it in another language needs the code
-    and these.
+    `values` are the values in message and hint: a translation is made from the code and these.
     """
 
     code: str
@@ -67,7 +66,7 @@ class Diagnostic:
 
     @property
     def is_error(self) -> bool:
-        """Whether the tree cannot run as it is."""
+        """Whether the finding keeps the tree from running."""
         return self.severity is Severity.ERROR
 
     def to_json(self) -> dict[str, Any]:
@@ -100,7 +99,7 @@ class Diagnostic:
 
 
 class TranslatorError(Exception):
-    """The work could not be done; `diagnostics` say why, each with a place and a hint."""
+    """The work failed; `diagnostics` hold the reasons, each with a place and a hint."""
 
     def __init__(self, diagnostics: tuple[Diagnostic, ...] | list[Diagnostic]) -> None:
         self.diagnostics = tuple(diagnostics)

@@ -1,7 +1,7 @@
 """Diagram JSON: one function that reads and repairs it, one that writes it.
 
-`restore` repairs what can be repaired, and says what, so that no diagram is lost over a slip;
-`to_diagram` and `diagram_text` are dull: the same tree gives the same bytes.
+`restore` repairs what it can and reports each repair, so that no diagram is lost to a small error;
+`to_diagram` and `diagram_text` are deterministic: the same tree gives the same bytes.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ DIRECTIONS = ("input", "output", "inout")
 
 
 def restore(raw: bytes | str, *, file: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    """Reads a diagram; returns the tree, or None where nothing can be saved, and what was found."""
+    """Reads a diagram; returns the tree, or None where nothing can be restored, and the findings."""
     document, problem = parse_json(raw, file=file)
     if problem is not None:
         return None, (problem,)
@@ -96,7 +96,7 @@ class _Reader:
         attributes = self.texts(node_id, row, "attributes")
         if (
             row["type"] == SUBTREE and AUTOREMAP in ports
-        ):  # where editors may put it, since it is set like a port
+        ):  # editors may put it there, since it is set like a port
             attributes = {**attributes, AUTOREMAP: ports[AUTOREMAP]}
             ports = {name: text for name, text in ports.items() if name != AUTOREMAP}
         return Node(
@@ -263,7 +263,7 @@ class _Reader:
             cleared |= trail
 
     def lost(self, nodes: dict[str, Node], starts: list[str | None]) -> list[str]:
-        """Finds pieces that neither the root nor a draft holds; they become drafts."""
+        """Turns pieces that belong to neither the root nor a draft into drafts."""
         parented = {child for node in nodes.values() for child in node.children}
         known = set(starts)
         lost = [key for key in nodes if key not in parented and key not in known]
@@ -298,7 +298,7 @@ class _Reader:
 
 
 def to_diagram(tree: Tree) -> dict[str, Any]:
-    """Returns the tree as a diagram document; nothing that is at its default is written."""
+    """Returns the tree as a diagram document; defaults are not written."""
     document: dict[str, Any] = {
         "format": FORMAT,
         "version": CURRENT_VERSION,

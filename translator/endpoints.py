@@ -1,4 +1,4 @@
-"""What the Python of a project says to ROS: topics, services, actions and parameters, read by syntax alone.
+"""ROS endpoints in the Python of a project: topics, services, actions, parameters, read by syntax alone.
 
 A name or type is known where the source states it: as text, as a constant of the module or class, or put
 together from those. What is made while the program runs is given as the expression that makes it.
@@ -25,7 +25,7 @@ class Endpoint:
     """One end of a topic, service or action, or a parameter.
 
     Attributes:
-        name: what the source calls it; the expression where `known` is false.
+        name: its name in the source; the expression where `known` is false.
         kind: `publisher`, `subscription`, `client`, `service`, `action client`, `action server`, `parameter`.
         type: such as `geometry_msgs/msg/Twist`; "" where the source does not state it.
         known: whether the name is certain.
@@ -42,7 +42,7 @@ class Endpoint:
 
 @dataclass(frozen=True, slots=True)
 class _Call:
-    """Where a call that makes an endpoint has type and name: position, and keyword."""
+    """The position and keyword of type and name in a call that makes an endpoint."""
 
     kind: str
     type: tuple[int, str]
@@ -67,7 +67,7 @@ _TF_CLASSES = {
 
 
 def endpoints(source: str, path: str) -> list[Endpoint]:
-    """Returns what a Python file opens, in order of the file; nothing where it is no Python."""
+    """Returns the endpoints that a Python file opens, in its order; none where it cannot be parsed."""
     try:
         return list(_Reader(parse(source, path), path).found())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -137,7 +137,7 @@ class _Reader:
         return Endpoint(name, kind, type_, known, self.path, call.lineno)
 
     def text_of(self, node: ast.expr) -> str | None:
-        """The text that an expression is certain to be."""
+        """Returns the text that an expression certainly has."""
         if isinstance(node, ast.Constant):
             return node.value if isinstance(node.value, str) else None
         if isinstance(node, ast.Name):
@@ -158,7 +158,7 @@ class _Reader:
         return self.text_of(part)
 
     def dotted(self, node: ast.expr) -> str:
-        """What a name means by the imports; "" where it is no name."""
+        """Returns the full name by the imports; "" for an expression that is not a name."""
         if isinstance(node, ast.Attribute):
             before = self.dotted(node.value)
             return f"{before}.{node.attr}" if before else node.attr
@@ -185,7 +185,7 @@ def _as_type(dotted: str) -> str:
 
 
 def _constants(module: ast.Module) -> dict[str, str]:
-    """Texts that names of the module, and attributes (`.name`) of its classes, hold and never change."""
+    """Returns the constant texts of the module's names and of its classes' attributes (`.name`)."""
     values: dict[str, list[object]] = {}
     for node in ast.walk(module):
         for target, value in _assigned(node):
@@ -199,7 +199,7 @@ def _constants(module: ast.Module) -> dict[str, str]:
 
 
 def _assigned(node: ast.AST) -> Iterator[tuple[str, ast.expr | None]]:
-    """Names that a statement gives a value; `None` where that is not stated there."""
+    """Yields the names that a statement assigns, with the value; `None` where the value is unknown."""
     if isinstance(node, ast.Assign):
         targets, value = node.targets, node.value
     elif isinstance(node, ast.AnnAssign) and node.value is not None:

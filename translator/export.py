@@ -28,7 +28,7 @@ def to_xml(project: Project) -> str:
     """Returns the project's trees as one BehaviorTree.CPP v4 document.
 
     A project that was imported from one XML file gives back that file, byte for byte where nothing
-    was changed; what only keeps it from running here does not keep it from being exported.
+    was changed; errors that only keep it from running here do not keep it from being exported.
 
     Raises:
         TranslatorError: If the project has errors; its `diagnostics` name them.

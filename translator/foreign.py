@@ -1,8 +1,7 @@
-"""Which files belong to a tool rather than to a project: `.git/`, `.vscode/` and the like.
+"""Recognises files that belong to a tool rather than to a project, such as `.git/` and `.vscode/`.
 
-Tools run what such folders say (hooks, tasks, settings) as soon as somebody opens the project with them, so
-they are neither taken in nor handed on: imports, exports and packages leave them out, and nobody saves them.
-This is the one place that says which they are.
+Tools execute the hooks, tasks and settings in such folders as soon as a user opens the project with them. So
+imports, exports and packages leave them out, and they cannot be saved. Only this module defines them.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["is_of_tool", "without_tools"]
 
 _SHORT_NAME = re.compile(r"git~\d+")
-"""How Windows calls `.git` in eight letters."""
+"""The short name of `.git` on Windows, of eight letters."""
 
 
 def is_of_tool(path: str) -> bool:
@@ -28,11 +27,11 @@ def is_of_tool(path: str) -> bool:
 
 
 def without_tools(files: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The files of the project alone."""
+    """Returns only the files of the project."""
     return {path: content for path, content in files.items() if not is_of_tool(path)}
 
 
 def _as_disks_see_it(name: str) -> str:
-    """Some disks know neither letters of two sizes nor characters that have no shape."""
+    """Folds a path as disks do that ignore the case of letters and invisible characters."""
     shown = "".join(char for char in name if unicodedata.category(char) != "Cf")
     return unicodedata.normalize("NFKC", shown).casefold().rstrip(" .")

@@ -1,4 +1,4 @@
-"""Bringing BehaviorTree.CPP XML into a project: includes, Groot2 projects, stubs for actions."""
+"""Imports BehaviorTree.CPP XML into a project: includes, Groot2 projects, stubs for actions."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ MAX_INCLUDES = 200
 
 @dataclass(slots=True)
 class _Import:
-    """Documents read so far, by path, and what was found on the way."""
+    """Documents read so far, by path, and the findings in them."""
 
     files: Mapping[str, bytes]
     documents: dict[str, Document] = field(default_factory=dict)
     found: list[Diagnostic] = field(default_factory=list)
 
     def read(self, path: str) -> None:
-        """Reads a file and all that it includes, each once."""
+        """Reads a file and all files that it includes, each once."""
         waiting = [path]
         while waiting:
             current = waiting.pop()
@@ -47,7 +47,7 @@ class _Import:
             waiting.extend(reversed(list(self.included(document))))
 
     def included(self, document: Document) -> Iterable[str]:
-        """Yields the files that a document includes; those that cannot be had are reported."""
+        """Yields the files that a document includes; reports those that cannot be read."""
         folder = posixpath.dirname(document.file)
         for element in document.includes:
             place = Place(document.file, line=element.line, column=element.column)
@@ -77,7 +77,7 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
     stubs: bool = True,
     places: str = IMPORTS,
 ) -> Project:
-    """Makes a project of a BehaviorTree.CPP document, v3 or v4, or of a Groot2 project.
+    """Makes a project from a BehaviorTree.CPP document, v3 or v4, or from a Groot2 project.
 
     Args:
         xml: The document.
@@ -85,11 +85,11 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         included: The files that it may include, by path.
         actions: Sources of actions by file name, such as `Forward.py`.
         stubs: Whether actions that are missing get a stub.
-        places: What stands before the path of a file in places of findings. Without it, findings of
-            checks point into the diagrams of the project that is made, else into the XML.
+        places: The prefix of a file's path in places of findings. Without it, findings of checks point into
+            the diagrams of the new project, else into the XML.
 
     Raises:
-        TranslatorError: If the text is no behaviour tree that can be read.
+        TranslatorError: If the text is not a readable behaviour tree.
     """
     raw = xml.encode("utf-8", "surrogatepass") if isinstance(xml, str) else xml
     work = _Import({**(included or {}), file: raw})
@@ -114,7 +114,7 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
 
 
 def _placed(tree: Tree, places: str) -> Tree:
-    """Says where the nodes of a tree stand from now on: in the XML, or in the diagram made of it."""
+    """Sets the places of a tree's nodes: in the XML, or in the diagram made from it."""
     if places != IMPORTS:
         return replace(tree, file=f"{places}{tree.file}")
     nodes = {key: replace(node, span=None) for key, node in tree.nodes.items()}
@@ -150,7 +150,7 @@ def project_files(settings: Settings, trees: Iterable[Tree]) -> dict[str, bytes]
 
 
 def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
-    """Joins the trees of all documents; of two with one id the first is taken."""
+    """Joins the trees of all documents; of two with one id the first is used."""
     trees: dict[str, Tree] = {}
     for document in work.documents.values():
         for item in document.trees:
@@ -173,7 +173,7 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
 
 
 def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
-    """Returns the main tree that the documents name, and the one to take: the same, if it is there."""
+    """Returns the main tree that the documents name, and the one to use: the same, if it exists."""
     documents = list(documents)
     trees = {item.tree.id: item.tree for document in documents for item in document.trees}
     named = next((document.main for document in documents if document.main), "")

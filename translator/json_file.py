@@ -1,4 +1,4 @@
-"""Reading JSON from outside: whatever the bytes are, a value or a located diagnostic comes back."""
+"""Reads foreign JSON: any bytes give a value or a located diagnostic."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MAX_BYTES = 32 * 1024 * 1024
 
 
 def parse_json(raw: bytes | str, *, file: str) -> tuple[Any, Diagnostic | None]:
-    """Returns the parsed value, or None and what is wrong with the text."""
+    """Returns the parsed value, or None and the diagnostic."""
     if len(raw) > MAX_BYTES:
         size = f"{len(raw) / 1e6:.0f} MB"
         return None, diagnostic("BT0003", Place(file), size=size, limit=f"{MAX_BYTES // 1_000_000} MB")

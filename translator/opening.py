@@ -1,4 +1,4 @@
-"""Opening whatever a user names: a project folder or zip, a diagram, an XML file, a project of JdeRobot."""
+"""Opens any input: a project folder or zip, a diagram, an XML file, a project of JdeRobot."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def _read_actions(folder: Path) -> dict[str, bytes]:
 
 
 def _open_diagram(path: Path, raw: bytes, sources: Mapping[str, bytes]) -> Project:
-    """Opens a diagram: inside a project folder with all that is there, else alone."""
+    """Opens a diagram: together with its project folder if it is in one, else alone."""
     if looks_like_graph(raw):
         return import_jderobot({"graph.json": raw} | _beside(path), name=path.stem)
     tree, found = restore(raw, file=str(path))

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
 class Project:
-    """Everything that a translation needs. `diagnostics` are those of reading; `check` adds its own."""
+    """The input of a translation. `diagnostics` are those of reading; `check` adds its own."""
 
     settings: Settings
     trees: Mapping[str, Tree]
@@ -37,11 +37,11 @@ class Project:
 
     @property
     def main(self) -> Tree | None:
-        """The tree that runs first, if the project has it."""
+        """The main tree, if the project has it."""
         return self.trees.get(self.settings.main_tree)
 
     def model(self, type_: str) -> NodeModel | None:
-        """Returns what a type of node is, built in or an action of the project; None where it cannot run."""
+        """Returns the model of a type of node, built in or an action; None if it cannot run."""
         if (model := builtins().get(type_)) is not None:
             return model
         if (action := self.actions.get(type_)) is not None:
@@ -49,7 +49,7 @@ class Project:
         return None
 
     def imported_model(self, type_: str) -> NodeModel | None:
-        """Returns what an imported file says about a type of node that cannot run here."""
+        """Returns the model in an imported file of a type of node that cannot run here."""
         if self not in _imported:
             _imported[self] = _imported_models(self.files)
         return _imported[self].get(type_)
@@ -77,10 +77,10 @@ def action_node_model(action: ActionModel) -> NodeModel:
 def load(files: Mapping[str, bytes]) -> Project:
     """Reads a project from its files, by path from its folder.
 
-    Content that is wrong never raises: it is repaired or left out, and told in `diagnostics`.
+    Invalid content never raises: it is repaired or left out, and reported in `diagnostics`.
 
     Raises:
-        TranslatorError: If the files hold no project at all: neither `project.json` nor a diagram.
+        TranslatorError: If the files are not a project: they hold neither `project.json` nor a diagram.
     """
     files = without_tools(files)
     found: list[Diagnostic] = []
@@ -98,7 +98,7 @@ def load(files: Mapping[str, bytes]) -> Project:
 
 
 def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, bytes]) -> Project:
-    """Makes the project that `load` would read from `files`, of settings and trees that are known already."""
+    """Makes the project that `load` would read from `files`, from known settings and trees."""
     files = without_tools(files)
     found: list[Diagnostic] = []
     placed = {tree.id: tree for tree in trees}
@@ -107,7 +107,7 @@ def assemble(settings: Settings, trees: Iterable[Tree], files: Mapping[str, byte
 
 
 def _restore(raw: bytes, path: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    # As with actions: most projects are read again and again while one of their files changes.
+    # As with actions: a project is read again after each save, and mostly one of its files has changed.
     return _restored(raw, path) if len(raw) <= KEPT_BYTES else restore(raw, file=path)
 
 
@@ -156,7 +156,7 @@ def action_paths(files: Mapping[str, bytes]) -> Iterator[tuple[str, str]]:
 
 
 def _is_shared_module(model: ActionModel) -> bool:
-    """Whether a file is no action but what actions import: named as modules are, and without such a class."""
+    """Whether a file is a module that actions import: named as modules are, and without such a class."""
     return model.name[:1].islower() and any(item.code in {"BT0602", "BT0607"} for item in model.diagnostics)
 
 
@@ -185,7 +185,7 @@ def _load_actions(
 
 
 def _imported_models(files: Mapping[str, bytes]) -> dict[str, NodeModel]:
-    """Returns what the models of imported files say about nodes that nobody else knows."""
+    """Returns the models in imported files of nodes that are neither built in nor actions."""
     models: dict[str, NodeModel] = {}
     for path in sorted(files):
         if not path.startswith("imports/"):

@@ -1,4 +1,4 @@
-"""Which universe and robot fit the actions of an imported project, by the topics that they use."""
+"""Proposes a universe and a robot for the actions of an imported project, by the topics that they use."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _PAN_TOPIC: Final = "/camera/pan/command"
 
 @dataclass(frozen=True, slots=True)
 class TopicUse:
-    """A topic that an action names, with the message type as far as its source says."""
+    """A topic that an action names, with the message type if its source states it."""
 
     topic: str
     type: str
@@ -38,7 +38,7 @@ class TopicUse:
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """A universe, a robot where the universe's own does not do, and why."""
+    """A universe, a robot where the universe's own does not fit, and the reason."""
 
     universe: str
     robot: str | None = None
@@ -46,7 +46,7 @@ class Proposal:
 
 
 def topics_used(source: str) -> list[TopicUse]:
-    """Returns the topics that the source of an action publishes and subscribes; a wrong source has none."""
+    """Returns the topics that an action publishes and subscribes; source that cannot be parsed has none."""
     try:
         module = parse(source, "proposal.py")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
@@ -55,11 +55,11 @@ def topics_used(source: str) -> list[TopicUse]:
 
 
 def propose(actions: Mapping[str, bytes], *, hints: Iterable[str] = ()) -> Proposal | None:
-    """Returns what fits, or None where the actions use no topic that says anything.
+    """Returns the proposal, or None where the topics of the actions do not decide.
 
     Args:
         actions: sources by path.
-        hints: names that tell one camera's world from another: of the project, of its trees.
+        hints: names that distinguish worlds with cameras: of the project, of its trees.
     """
     texts = {path: raw.decode("utf-8", "replace") for path, raw in sorted(actions.items())}
     uses = [use for text in texts.values() for use in topics_used(text)]
@@ -94,7 +94,7 @@ def _uses(module: ast.Module) -> Iterator[TopicUse]:
 
 
 def _named_texts(module: ast.Module) -> dict[str, str]:
-    """Returns the texts that names of the module or of a class stand for, such as `TOPIC = "/scan"`."""
+    """Returns the constant texts of names of the module or of a class, such as `TOPIC = "/scan"`."""
     return {
         last_name(target): node.value.value
         for node in ast.walk(module)

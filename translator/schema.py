@@ -1,4 +1,4 @@
-"""The diagram format as Pydantic models, from which its JSON Schema is made.
+"""The diagram format as Pydantic models, the source of its JSON Schema.
 
 Reading goes through `diagram.restore`, which repairs; a document that these models accept needs no repair
 but for links between nodes, which a schema cannot say.
@@ -21,7 +21,7 @@ class _Document(BaseModel):
 
 
 class PortDocument(_Document):
-    """A port of the tree, for those who call it as a SubTree."""
+    """A port of the tree, for callers of it as a SubTree."""
 
     name: str
     direction: Literal["input", "output", "inout"] = "input"

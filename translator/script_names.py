@@ -1,4 +1,4 @@
-"""What a script reads and writes, and what is wrong with it, by the engine's own parser."""
+"""The names that a script reads and writes, and its errors, by the engine's own parser."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_INTEGER = 2**63 - 1
 
 
 class Problem(NamedTuple):
-    """Why a script cannot be read, and where in it."""
+    """The reason why a script cannot be read, and the position."""
 
     offset: int
     message: str
@@ -30,8 +30,8 @@ class ScriptNames(NamedTuple):
 
 @lru_cache(maxsize=32768)
 def script_names(code: str) -> ScriptNames:
-    """Returns what is to be known about a script without running it."""
-    # Only here, since the engine brings py_trees, which reading and writing trees does without.
+    """Returns names and errors of a script, without running it."""
+    # Imported here, since the engine imports py_trees, which reading and writing trees do not need.
     from tree_gardener.script import ScriptError, parse  # noqa: PLC0415
 
     if len(code) > MAX_LENGTH:

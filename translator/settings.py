@@ -18,7 +18,7 @@ NO_UNIVERSE = "none"
 
 
 class Maintainer(BaseModel):
-    """Who answers for an exported package."""
+    """The maintainer of an exported package."""
 
     model_config = ConfigDict(frozen=True, extra="ignore")
 
@@ -55,7 +55,7 @@ class Settings(BaseModel):
 
 
 def read_settings(raw: bytes | str) -> tuple[Settings, tuple[Diagnostic, ...]]:
-    """Reads `project.json`; a setting that is wrong is reported and put at its default."""
+    """Reads `project.json`; an invalid setting is reported and gets its default."""
     document, problem = parse_json(raw, file=PROJECT_FILE)
     if problem is not None:
         return Settings(), (problem,)

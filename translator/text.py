@@ -1,4 +1,4 @@
-"""Text that every format of ours can hold: no control characters, no lone surrogates."""
+"""Text that all our formats can hold: no control characters, no lone surrogates."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ def is_clean(text: str) -> bool:
 
 
 def clean(text: str) -> str:
-    """Returns the text with what XML cannot hold replaced by U+FFFD."""
+    """Returns the text with characters that XML cannot hold replaced by U+FFFD."""
     return _FORBIDDEN.sub("\ufffd", text)
 
 
 def bad_character(identifier: str) -> str | None:
-    """Returns the first character that may not stand in the ID of a tree or a node."""
+    """Returns the first character that the ID of a tree or a node must not have."""
     found = _BAD_IN_ID.search(identifier) or _FORBIDDEN.search(identifier)
     return found.group() if found else None
 

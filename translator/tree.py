@@ -20,12 +20,12 @@ PRE_CONDITIONS = ("_failureIf", "_successIf", "_skipIf", "_while")
 POST_CONDITIONS = ("_onSuccess", "_onFailure", "_post", "_onHalted")
 CONDITIONS = PRE_CONDITIONS + POST_CONDITIONS
 EMPTY: Mapping[str, str] = {}
-BLANKS = " \t\r\n"  # those of XML; others belong to the text that they stand in
+BLANKS = " \t\r\n"  # those of XML; other whitespace belongs to the text
 
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Line and column (both from 1) where a node stands in its file."""
+    """Line and column (both from 1) of a node in its file."""
 
     line: int
     column: int
@@ -33,9 +33,9 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs know.
+    """One node. `tree` is the target of a SubTree; `attributes` are those that only other programs use.
 
-    A name may be there and be empty, which is another path than that of a node without a name.
+    A name may be empty, which gives another path than no name.
     """
 
     id: str
@@ -66,7 +66,7 @@ class Node:
 
     @property
     def label(self) -> str:
-        """What a message calls the node."""
+        """The node's name in messages."""
         return self.name or self.tree or self.type
 
 
@@ -123,7 +123,7 @@ class Tree:
         return f"n{number}"
 
     def with_node(self, node: Node) -> Tree:
-        """Returns the tree with the node added or replaced; where it hangs is not changed."""
+        """Returns the tree with the node added or replaced; its parent is not changed."""
         return replace(self, nodes={**self.nodes, node.id: node})
 
     def edited(self, node_id: str, **changes: Any) -> Tree:
@@ -137,7 +137,7 @@ class Tree:
         return self.with_node(node).edited(parent, children=tuple(siblings))
 
     def removed(self, node_id: str) -> Tree:
-        """Returns the tree without the node and all that hangs below it."""
+        """Returns the tree without the node and its descendants."""
         gone = {node.id for node in self.walk(node_id)}
         nodes = {
             key: replace(node, children=tuple(child for child in node.children if child not in gone))
@@ -154,7 +154,7 @@ class Tree:
         )
 
     def moved(self, node_id: str, *, parent: str, index: int | None = None) -> Tree:
-        """Returns the tree with a branch hung below another parent.
+        """Returns the tree with a branch moved to another parent.
 
         Raises:
             ValueError: If the new parent is inside the branch.
@@ -172,11 +172,11 @@ class Tree:
         return tree.inserted(tree.nodes[node_id], parent=parent, index=index)
 
     def renamed_type(self, old: str, new: str) -> Tree:
-        """Returns the tree with all nodes of one type given another, as when an action is renamed."""
+        """Returns the tree with the type of all its nodes replaced, as when an action is renamed."""
         return self._mapped(lambda node: replace(node, type=new) if node.type == old else node)
 
     def retargeted(self, old: str, new: str) -> Tree:
-        """Returns the tree with all calls of one tree turned to another, as when a tree is renamed."""
+        """Returns the tree with all calls of one tree redirected to another, as when a tree is renamed."""
         return self._mapped(
             lambda node: replace(node, tree=new) if node.is_subtree and node.tree == old else node
         )

@@ -1,7 +1,7 @@
 """One tree as an XML document of its own, for an editor that shows text and drawing side by side.
 
-The text stays its author's: a tree that was changed elsewhere is patched into it, and a text that was
-changed gives its nodes the ids that they had, also where it carries none.
+The text keeps its author's comments and blanks: a tree that was changed elsewhere is patched into it. Nodes
+of a changed text keep their ids, also where the text carries none.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class NodeRange:
-    """Where a node stands in a text: its start tag, and all of it; offsets in UTF-16, as editors count."""
+    """The range of a node in a text: its start tag, and all of it; offsets in UTF-16, as editors count."""
 
     node: str
     start: int
@@ -51,7 +51,7 @@ class TreeText:
 
 @dataclass(frozen=True, slots=True)
 class ReadTree:
-    """What a text says of a tree, where its nodes stand, and what is to be said of it."""
+    """A text that was read: its tree, the ranges of the nodes, and the findings."""
 
     tree: Tree
     text: TreeText
@@ -88,10 +88,10 @@ def read_tree_text(xml: str, now: Tree) -> ReadTree:
 
     Args:
         xml: A document with one tree, v4 or v3.
-        now: The tree as it was before; what the text does not hold (drafts, ports) is taken from it.
+        now: The tree as it was before; parts that the text does not hold (drafts, ports) are copied from it.
 
     Raises:
-        TranslatorError: If the text is no XML, or no single tree of this ID.
+        TranslatorError: If the text is not XML, or not a single tree of this ID.
     """
     document = _read(xml, now)
     source = document.trees[0]
@@ -122,7 +122,7 @@ def _project_of(tree: Tree) -> Project:
 
 def _read(xml: str, tree: Tree) -> Document:
     """Reads a text of one tree of this ID."""
-    # A text has no encoding, whatever its first line says.
+    # A text has no encoding, even if its first line names one.
     document = read_document(codecs.BOM_UTF8 + xml.encode("utf-8", "replace"), file=f"{tree.id}.xml")
     place = Place(document.file, tree=tree.id, line=1, column=1)
     if len(document.trees) != 1:
@@ -189,7 +189,7 @@ def _matched(source: TreeSource, now: Tree) -> list[str]:
 
 
 def _pair(old: list[Node], new: list[Node], ids: dict[str, str], free: set[str]) -> None:
-    """Pairs children of one parent: first those that say the same, last those of one kind."""
+    """Pairs children of one parent: first equal ones, last those of the same kind."""
     for key_of in _KEYS:
         candidates: dict[tuple[object, ...], deque[str]] = defaultdict(deque)
         for node in old:
@@ -202,7 +202,7 @@ def _pair(old: list[Node], new: list[Node], ids: dict[str, str], free: set[str])
 
 
 def _ranges(document: Document) -> Iterator[NodeRange]:
-    """Yields where the nodes stand."""
+    """Yields the ranges of the nodes."""
     elements = document.trees[0].elements
     offsets = {at for each in elements.values() for at in (each.start, each.open_end, each.end)}
     data = document.source.data

@@ -27,9 +27,9 @@ DESCRIPTIONS = {
 
 
 class Fit(Enum):
-    """How a literal suits a type.
+    """The fit of a literal to a type.
 
-    `LOOSE` is taken, but not as it reads (`12abc` as 12); `RANGE` is a number that the type cannot hold.
+    `LOOSE` is accepted, but not as written (`12abc` as 12); `RANGE` is a number that the type cannot hold.
     """
 
     GOOD = "good"
@@ -39,7 +39,7 @@ class Fit(Enum):
 
 
 def fit(type_: str, text: str) -> Fit:
-    """Tells how the literal suits the port's type; types without a check suit everything."""
+    """Returns the literal's fit to the port's type; types without a check accept everything."""
     if type_.startswith("list["):
         return _fit_list(type_[5:-1], text)
     if type_ in {"int", "uint"}:
@@ -54,7 +54,7 @@ def fit(type_: str, text: str) -> Fit:
 
 
 def describe(type_: str) -> str:
-    """Returns what a message calls the values of a type."""
+    """Returns the description of a type's values in messages."""
     if type_.startswith("list["):
         return f"a list such as 1;2;3, each {describe(type_[5:-1])}"
     return DESCRIPTIONS.get(type_, "a text")

@@ -19,7 +19,7 @@ from tree_gardener.views import describe_changes
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the command line; gives the exit status."""
+    """Runs the command line; returns the exit status."""
     options = _parser().parse_args(arguments)
     try:
         nodes = load_actions(options.actions) if options.actions else {}
@@ -45,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--actions", type=pathlib.Path, help="folder of the actions, one <Name>.py each")
     run.add_argument("--main-tree", help="the tree to run, if not the document's own choice")
     run.add_argument("--tick-hz", type=float, default=20.0, help="ticks a second (default 20)")
-    run.add_argument("--repeat", action="store_true", help="go on after the root succeeded or failed")
+    run.add_argument("--repeat", action="store_true", help="continue after the root succeeded or failed")
     run.add_argument("--max-ticks", type=int, default=0, help="end after so many ticks")
     run.add_argument("--trace", action="store_true", help="print what changes at each tick")
     run.add_argument("--ros", action="store_true", help="give the actions an rclpy node and tick by ROS time")
@@ -83,7 +83,7 @@ def _run(tree: Tree, options: argparse.Namespace) -> int:
 
 
 def _run_on_ros(tree: Tree, options: argparse.Namespace) -> int:
-    import rclpy  # noqa: PLC0415 - only where ROS is wanted
+    import rclpy  # noqa: PLC0415 - only with --ros
 
     from tree_gardener.ros import RosClock, RosRunner  # noqa: PLC0415
 

@@ -1,4 +1,4 @@
-"""Makes classes of the sources of actions, from a folder or from a document's ``<Code>``."""
+"""Compiles the sources of actions into classes, from a folder or from a document's ``<Code>``."""
 
 import importlib.abc
 import importlib.machinery
@@ -16,9 +16,9 @@ PACKAGE: Final = "actions"
 
 
 def load_actions(sources: Mapping[str, str] | str | pathlib.Path) -> dict[str, type[Any]]:
-    """Runs the sources of actions and gives their classes by name.
+    """Runs the sources of actions and returns their classes by name.
 
-    Each source is compiled as ``actions/<Name>.py``, whatever it came from, so that tracebacks name the file
+    Each source is compiled as ``actions/<Name>.py``, wherever it came from, so that tracebacks name the file
     that the user knows. A source of a folder may import its neighbours as ``actions.<Name>`` or by their bare
     name.
 
@@ -71,7 +71,7 @@ class _Loader(importlib.abc.MetaPathFinder, importlib.abc.Loader):
         return importlib.machinery.ModuleSpec(fullname, self) if name in self.sources else None
 
     def create_module(self, spec: importlib.machinery.ModuleSpec) -> types.ModuleType:
-        """Gives the module of an action, for imports; it is the same by either name."""
+        """Returns the module of an action, for imports; both names give the same module."""
         name = spec.name.removeprefix(f"{PACKAGE}.")
         return sys.modules.get(f"{PACKAGE}.{name}") or self.execute(name)
 

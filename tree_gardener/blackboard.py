@@ -72,7 +72,7 @@ Journal = Callable[[Entry, int], None]
 
 
 class Blackboard(MutableMapping[str, Any]):
-    """The entries of one scope, and the way to those of the scopes round it.
+    """The entries of one scope, and the way to those of the enclosing scopes.
 
     As a mapping it reads and writes by name, through all remappings.
     """
@@ -91,7 +91,7 @@ class Blackboard(MutableMapping[str, Any]):
 
     @property
     def path(self) -> str:
-        """Path of the SubTree that the scope belongs to; "" for the root's."""
+        """The path of the SubTree that the scope belongs to; "" for the root's."""
         return self.locate()
 
     def scope(self, path: str) -> "Blackboard":
@@ -111,7 +111,7 @@ class Blackboard(MutableMapping[str, Any]):
         return type(self)(self)
 
     def find(self, key: str) -> Entry | None:
-        """The entry that a name in this scope stands for, or None."""
+        """Returns the entry that a name in this scope stands for, or None."""
         board = self
         while True:
             if key[:1] == "@":
@@ -130,7 +130,7 @@ class Blackboard(MutableMapping[str, Any]):
             board = parent
 
     def create(self, key: str, kind: ValueType | None) -> Entry:
-        """Declares an entry, where the remapping says; gives the existing one if there is one.
+        """Declares an entry, where the remapping leads; returns the existing one if there is one.
 
         Raises:
             PortError: it exists with another type.
@@ -175,7 +175,7 @@ class Blackboard(MutableMapping[str, Any]):
             _assign(entry, value, kind, writer)
 
     def unset(self, key: str, writer: int = 0) -> None:
-        """Removes an entry of this very scope, if there is one; remapped names are not followed."""
+        """Removes an entry of this scope itself, if there is one; remapped names are not followed."""
         entry = self.entries.pop(key, None)
         if entry is not None and self.journal is not None:
             self.journal(entry, writer)
@@ -216,7 +216,7 @@ class Blackboard(MutableMapping[str, Any]):
 
 
 def _kept_kind(entry: Entry, value: Any) -> Any:
-    """A value as the kind of number that the entry holds; BT.CPP's ``Any::copyInto``."""
+    """Converts a value to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
     old, number = as_number(entry.value), as_number(value)
     if old is None or isinstance(entry.value, bool):
         return value
@@ -227,12 +227,12 @@ def _kept_kind(entry: Entry, value: Any) -> Any:
     if isinstance(old, float):
         return float(number)
     if isinstance(number, float) and not number.is_integer():
-        raise PortError(f"entry '{entry.key}' holds an integer, and {number} is none")
+        raise PortError(f"entry '{entry.key}' holds an integer, and {number} is not one")
     return value if isinstance(value, bool) else int(number)
 
 
 def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> None:
-    """Writes to an entry that exists in the very scope, as `kind`."""
+    """Writes to an entry that exists in this scope itself, as `kind`."""
     declared = entry.type
     if declared is None or not declared.is_strong:
         entry.type = ANY if kind is None else kind
@@ -240,7 +240,7 @@ def _assign(entry: Entry, value: Any, kind: ValueType | None, writer: int) -> No
         return
     if kind is not None and kind.is_strong and kind is not declared:
         try:
-            # Numbers convert to numbers when nothing is lost, and a string is parsed; the rest is a mistake.
+            # Numbers convert to numbers without loss, and a string is parsed; anything else is an error.
             if kind is not STRING and (declared is STRING or isinstance(entry.value, str)):
                 raise ConversionError(f"a value of type {kind.name} is not a string")
             value = declared.parse(value) if kind is STRING else declared.convert(value)

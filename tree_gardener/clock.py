@@ -8,7 +8,7 @@ from typing import Protocol
 
 
 class Clock(Protocol):
-    """Tells the time and waits."""
+    """A source of time that can also wait."""
 
     def now(self) -> float:
         """Seconds since some fixed moment; never goes back."""
@@ -30,7 +30,7 @@ class SystemClock:
 
 
 class ManualClock:
-    """Time that passes only when told, for tests and lock-step runs."""
+    """Time that passes only in `sleep`, for tests and lock-step runs."""
 
     def __init__(self, now_s: float = 0.0) -> None:
         self._now_s = now_s
@@ -40,7 +40,7 @@ class ManualClock:
         return self._now_s
 
     def sleep(self, duration_s: float) -> None:
-        """Lets the time pass at once."""
+        """Advances the time without waiting."""
         self._now_s += duration_s
 
     advance = sleep
@@ -56,23 +56,23 @@ class Timer:
         self.callback: Callable[[], None] | None = callback
 
     def cancel(self) -> None:
-        """Makes the call not happen."""
+        """Cancels the call."""
         self.callback = None
 
 
 class Timers:
-    """The timers of one tree. They fire when it looks at them: before each tick, and while it sleeps."""
+    """The timers of one tree. The tree fires those that are due before each tick, and while it sleeps."""
 
     __slots__ = ("_order", "clock", "heap")
 
     def __init__(self, clock: Clock) -> None:
         self.clock = clock
-        # Public, so that a tree can see in no time that there is nothing to do.
+        # Public, so that every tick can test without a call that nothing is due.
         self.heap: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
 
     def start(self, delay_s: float, callback: Callable[[], None]) -> Timer:
-        """Lets `callback` be called when `delay_s` is over."""
+        """Schedules `callback` for when `delay_s` is over."""
         timer = Timer(self.clock.now() + delay_s, callback)
         heapq.heappush(self.heap, (timer.deadline_s, next(self._order), timer))
         return timer

@@ -1,6 +1,6 @@
 """Pre- and post-conditions: the scripts that any node can have as attributes.
 
-Before a tick, in this order whatever that of the attributes: ``_failureIf``, ``_successIf`` and ``_skipIf``
+Before a tick, in this order and not in that of the attributes: ``_failureIf``, ``_successIf`` and ``_skipIf``
 are tested while the node is IDLE, and a true one decides without ticking it; ``_while`` is tested at every
 tick, and when it is false the node is SKIPPED, after it was halted if it was RUNNING.
 
@@ -40,7 +40,7 @@ class Guard:
         self.on_halted = scripts.get("_onHalted")
 
     def before(self, node: Node) -> Status | None:
-        """Tests the pre-conditions; gives the result that they decide, or None to tick the node."""
+        """Tests the pre-conditions; returns the result that they decide, or None to tick the node."""
         status = node.status
         if status is IDLE:
             for script, result in self.deciding:

@@ -20,7 +20,7 @@ T = TypeVar("T")
 def call_deep(function: Callable[[], T], depth: int) -> T:
     """Calls a function that recurses once or more for each level of a tree.
 
-    From Python 3.11 on, calls between Python functions take no room on the machine's stack, so that a higher
+    From Python 3.11 on, calls between Python functions take no room on the C stack, so that a higher
     limit is enough; before, the call is made on a thread with a large stack.
     """
     before = sys.getrecursionlimit()

@@ -48,7 +48,7 @@ class Element:
         self.offset = offset
 
     def walk(self) -> Iterator["Element"]:
-        """The element and all in it, in the order of the document."""
+        """Yields the element and all in it, in the order of the document."""
         stack = [self]
         while stack:
             element = stack.pop()
@@ -71,19 +71,19 @@ class Document:
     root: Element
 
     def locate(self, offset: int) -> tuple[int, int]:
-        """Line and column, from 1, of a byte."""
+        """Returns line and column, from 1, of a byte."""
         line = self.data.count(b"\n", 0, offset) + 1
         start = self.data.rfind(b"\n", 0, offset) + 1
         return line, len(self.data[start:offset].decode("utf-8", "replace")) + 1
 
     def locate_value(self, element: Element, attribute: str) -> int:
-        """Offset of the first character of an attribute's value, or that of the element."""
+        """Returns the offset of the first character of an attribute's value, or that of the element."""
         pattern = re.compile(rb"""\s""" + re.escape(attribute.encode()) + rb"""\s*=\s*["']""")
         match = pattern.search(self.data, element.offset)
         return element.offset if match is None else match.end()
 
     def skip(self, offset: int, characters: int) -> int:
-        """The offset behind a number of characters; one such as ``&lt;`` counts as one."""
+        """Returns the offset behind a number of characters; a reference such as ``&lt;`` is one."""
         text = self.data[offset:].decode("utf-8", "replace") if characters else ""
         position = 0
         for _ in range(characters):
@@ -102,7 +102,7 @@ class Document:
         span_start: int = 0,
         tree: str = "",
     ) -> Diagnostic:
-        """A diagnostic at an element, at one of its attributes, or inside that attribute's value."""
+        """Makes a diagnostic at an element, at one of its attributes, or inside that attribute's value."""
         offset = element.offset
         if attribute in element.attributes:
             offset = self.skip(self.locate_value(element, attribute), span_start)

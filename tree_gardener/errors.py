@@ -1,4 +1,4 @@
-"""What can go wrong, located.
+"""Errors, each with its place.
 
 ```
 TreeGardenerError
@@ -103,7 +103,7 @@ class TickError(TreeGardenerError):
         node_id: its ``_bts_id``, or "".
         node_type: its tag.
         tree_id: the BehaviorTree that it belongs to.
-        file: where the exception was raised, as near to the user's own code as can be told, or "".
+        file: where the exception was raised, as near to the user's own code as the traceback shows, or "".
         line: the line in that file, or 0.
         message: type and text of the exception.
         traceback_text: the whole traceback, without the engine's own frames.
@@ -128,7 +128,7 @@ _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
 
 
 def _locate(trace: TracebackType | None) -> tuple[str, int]:
-    """The innermost line that belongs to an action, else to anything outside the engine."""
+    """Returns the innermost line that belongs to an action, else to anything outside the engine."""
     outside = [
         (frame.filename, frame.lineno or 0)
         for frame in traceback.extract_tb(trace)
@@ -149,7 +149,7 @@ def _format(cause: BaseException | None) -> str:
 
 
 def describe(error: BaseException) -> str:
-    """Type and text of an exception, in one line."""
+    """Returns type and text of an exception, in one line."""
     if isinstance(error, SystemExit):
         return f"the action called sys.exit({error.code!r})"
     text = str(error)

@@ -84,10 +84,10 @@ class Forest:
         return problems
 
     def main_tree(self, wanted: str | None) -> Definition:
-        """The tree to run: the one asked for, that of ``main_tree_to_execute``, or the only one.
+        """Returns the tree to run: the given one, that of ``main_tree_to_execute``, or the only one.
 
         Raises:
-            LoadError: none is named and there are several, or there is none of that name.
+            LoadError: none is named and there are several, or no tree has that name.
         """
         assert self.main is not None
         named = wanted or self.main.root.attributes.get("main_tree_to_execute")

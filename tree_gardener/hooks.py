@@ -1,4 +1,4 @@
-"""Hooks before and after the ticks of nodes: for debuggers, tests and time keeping.
+"""Hooks before and after the ticks of nodes: for debuggers, tests and timing.
 
 A hook before a node may return a result, which then stands for the tick: the node is not ticked. A hook after
 it may return another result. Nodes without hooks are ticked exactly as if there were none in the tree.
@@ -21,7 +21,7 @@ After = Callable[[Node, Status], Status | None]
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Hook:
-    """Functions to call round the ticks of one node, or of all (`uid` None)."""
+    """Functions to call before and after the ticks of one node, or of all (`uid` None)."""
 
     uid: int | None
     before: Before | None
@@ -37,13 +37,13 @@ class Hooks:
         self.times_leaves = False
 
     def applies(self, node: Node) -> bool:
-        """Whether a node must take the way through the hooks."""
+        """Whether a node must be ticked through the hooks."""
         if self.tree.node_times_s is not None or (self.times_leaves and isinstance(node, Leaf)):
             return True
         return any(hook.uid in (None, node.uid) for hook in self.hooks)
 
     def add(self, hook: Hook) -> Callable[[], None]:
-        """Installs a hook; gives the function that removes it."""
+        """Installs a hook; returns the function that removes it."""
         self.hooks.append(hook)
         self.tree.link()
 
@@ -69,7 +69,7 @@ class Hooks:
         return status
 
     def timed(self, node: Node, inner: Execute) -> Status:
-        """Ticks a node and keeps the time if somebody asked."""
+        """Ticks a node, and measures it if an observer asked for times."""
         tree = self.tree
         times = tree.node_times_s
         is_leaf = self.times_leaves and isinstance(node, Leaf)
@@ -90,7 +90,7 @@ class Hooks:
 
 
 def _take(node: Node, status: Status) -> Status:
-    """Gives a node a result that it did not come to itself."""
+    """Sets a result that a hook decided instead of the node."""
     if status is IDLE:
         raise ValueError("a hook must not return IDLE")
     if status is SKIPPED:
@@ -100,6 +100,6 @@ def _take(node: Node, status: Status) -> Status:
             node.start()
         return RUNNING
     if node.status is RUNNING:
-        # What is below it must not stay RUNNING under a node that is done.
+        # Nodes below it must not stay RUNNING under a node that is done.
         node.halt()
     return node.complete(status)

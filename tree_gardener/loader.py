@@ -86,7 +86,7 @@ class Builder:
         )
 
     def build(self, main: Definition) -> list[Node]:
-        """Makes all nodes of the tree, in pre-order; `problems` says what is wrong."""
+        """Makes all nodes of the tree, in pre-order; `problems` holds what is wrong."""
         instance = Instance(main.tree_id, self.tree.blackboard, None)
         stack: list[tuple[Definition, Element, Instance, Node | None, int]] = [
             (main, main.body, instance, None, 1)
@@ -152,7 +152,7 @@ class Builder:
     def substituted(
         self, element: Element, kind: NodeType, name: str, instance: Instance, uid: int
     ) -> tuple[NodeType, TestConfig | None]:
-        """The type that a node really gets, with the config of a TestNode."""
+        """Returns the type that a node gets after substitution, with the config of a TestNode."""
         prefix = instance.path()
         local = name if "name" in element.attributes else f"{type_of(element)}::{uid}"
         path = f"{prefix}/{local}" if prefix else local
@@ -169,7 +169,7 @@ class Builder:
         return kind, None
 
     def ports(self, element: Element, kind: NodeType) -> Mapping[str, str]:
-        """The ports that a node was given, and the textual defaults of the others."""
+        """Returns the ports that a node was given, and the textual defaults of the others."""
         manifest = kind.manifest
         if manifest is None:
             return {
@@ -228,12 +228,12 @@ class Builder:
             self.script_problem(element, attribute, error)
 
     def script_problem(self, element: Element, attribute: str, error: ScriptError) -> None:
-        """Reports a script that does not parse, at the very place."""
+        """Reports a script that does not parse, at the position of the error."""
         message = f"in the script of '{attribute}': {error.message}"
         self.report(element, "TG401", message, error.hint, attribute, error.span[0])
 
     def construct(self, node: Node) -> None:
-        """Looks for what BehaviorTree.CPP's constructor of the node would miss."""
+        """Reports what BehaviorTree.CPP's constructor of the node would miss."""
         port, element = node.NEEDS, node.element
         given = node.ports.get(port)
         if given is None or (not given and not node.CODE and not isinstance(node, Loop)):
@@ -255,7 +255,7 @@ class Builder:
                     self.report(element, "TG401", message, error.hint, port)
 
     def declare(self, element: Element, kind: NodeType, board: Blackboard) -> None:
-        """Makes the entries that the ports lead to, and compares their types."""
+        """Declares the entries that the ports lead to, and compares their types."""
         manifest: Manifest | None = kind.manifest
         if manifest is None:
             return
@@ -353,7 +353,7 @@ class Builder:
             return False
 
     def remapping(self, element: Element, *, autoremap: bool) -> dict[str, str]:
-        """The SubTree's ports, with the defaults of its model."""
+        """Returns the SubTree's ports, with the defaults of its model."""
         given = {
             name: text
             for name, text in element.attributes.items()
@@ -376,7 +376,7 @@ class Builder:
 
 
 def constant(text: str) -> tuple[Any, ValueType | None]:
-    """The value of a constant that a SubTree is given; a text makes an entry without a type."""
+    """Returns the value of a constant that a SubTree is given; a text makes an entry without a type."""
     if _INTEGER.match(text):
         number = int(text)
         if INT64[0] <= number <= INT64[1]:
@@ -387,7 +387,7 @@ def constant(text: str) -> tuple[Any, ValueType | None]:
 
 
 class PortText(str):
-    """The text of a port, as the older contract hands it to an action; it knows the scope it belongs to."""
+    """The text of a port, as the older contract passes it to an action; it keeps the scope it belongs to."""
 
     __slots__ = ("board", "port", "writer")
 
@@ -397,7 +397,7 @@ class PortText(str):
 
 
 def bound_ports(node: Node) -> dict[str, str]:
-    """What the constructor of an action gets as ``ports``: port name to text."""
+    """Returns the ``ports`` argument of an action's constructor: port name to text."""
     texts = {
         spec.name: str(spec.default)
         for spec in (node.manifest or {}).values()

@@ -4,9 +4,9 @@ A node's `execute` is its whole tick: it applies the node's rule, sets the node'
 result. Parents call their children's `entry` directly, through tuples that are made once (`link`), so that a
 plain node costs one call, and only nodes with conditions or hooks take a longer way.
 
-While somebody observes the tree, `journal` is the recorder. A node tells it when it starts (`touched`), and
-its results, each as one of its `marks`, which are made once (`results`); who resets a node tells of it where
-that is a change. When nobody observes, `journal` is None, and to test that is all it costs.
+While the tree is observed, `journal` is the recorder. A node reports to it when it starts (`touched`), and
+reports its results, each as one of its `marks`, which are made once (`results`). The code that resets a node
+reports that where it is a change. Without observers, `journal` is None, and that test is the whole cost.
 """
 
 import enum
@@ -51,7 +51,7 @@ class Instance:
         self.subtree = subtree
 
     def path(self) -> str:
-        """Path of the SubTree node, or "" for the main tree."""
+        """Returns the path of the SubTree node, or "" for the main tree."""
         return "" if self.subtree is None else self.subtree.path
 
 
@@ -125,7 +125,7 @@ class Node:
 
     @property
     def path(self) -> str:
-        """Names of the SubTrees round the node and its own, joined by ``/``."""
+        """The names of the SubTrees that contain the node and its own, joined by ``/``."""
         parts = [self.local_path]
         around = self.instance.subtree
         while around is not None:
@@ -155,7 +155,7 @@ class Node:
 
     @property
     def behaviour(self) -> Any:
-        """What py_trees sees of it: the user's own behaviour for an action, a view for all else."""
+        """The py_trees object of the node: the user's own behaviour for an action, a view for all else."""
         from tree_gardener.views import view_of  # noqa: PLC0415 - views need nodes
 
         return view_of(self)
@@ -174,20 +174,20 @@ class Node:
         raise NotImplementedError
 
     def entry(self) -> Execute:
-        """What the parent calls to tick this node."""
+        """Returns the function that the parent calls to tick this node."""
         if self.tree.has_hooks(self):
             return self._execute_hooked
         return self.execute if self.guard is None else self._execute_guarded
 
     def link(self) -> None:
-        """Looks up how the children are ticked; again after hooks came or went."""
+        """Looks up how the children are ticked; called again after hooks were added or removed."""
         self.ticks = tuple([child.entry() for child in self.children])
 
     def prepare(self) -> None:
-        """Sets what the node remembers to its start; once, when the tree is complete."""
+        """Sets the node's state to its start; called once, when the tree is complete."""
 
     def stop(self) -> None:
-        """Halts the node as its parent does: afterwards its ``_onHalted`` runs."""
+        """Halts the node as its parent does: its ``_onHalted`` runs afterwards."""
         self.halt()
         if self.guard is not None:
             self.guard.halted(self)
@@ -235,7 +235,7 @@ class Node:
         return self.complete(forced)
 
     def status_within(self, before: Status) -> Status:
-        """The status that the node had while it was ticked, before it took its result."""
+        """Returns the status that the node had while it was ticked, before its result was set."""
         return RUNNING if before in self.MARKS_RUNNING else before
 
     def _execute_hooked(self) -> Status:
@@ -294,7 +294,7 @@ class Control(Node):
         child.status = IDLE
 
     def finish(self, status: Status) -> Status:
-        """Resets all children and takes a result for the node's own status."""
+        """Resets all children and sets the node's own status to a result."""
         if self.journal is not None:
             self.journal.reset(self.children)
             self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
@@ -307,7 +307,7 @@ class Control(Node):
         return status
 
     def finish_all(self, status: Status) -> Status:
-        """As `finish`, when every child has just succeeded or failed, so that none can be RUNNING."""
+        """As `finish`, but faster: every child has just succeeded or failed, so none has to be halted."""
         if self.journal is not None:
             self.journal.reset_done(self.children)
             self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
@@ -323,7 +323,7 @@ class Control(Node):
         return self.skipped()
 
     def halt(self) -> None:
-        """Halts all children and makes itself IDLE."""
+        """Halts all children; the node becomes IDLE."""
         self.reset_children()
         self.status = IDLE
 
@@ -350,7 +350,7 @@ class Decorator(Control):
         child.status = IDLE
 
     def finish(self, status: Status) -> Status:
-        """Resets the child and takes a result."""
+        """Resets the child and sets the node's own status to a result."""
         if self.journal is not None:
             self.journal.reset(self.children)
             self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])
@@ -371,7 +371,7 @@ class Leaf(Node):
     MARKS_RUNNING = ()
 
     def halt(self) -> None:
-        """Makes itself IDLE."""
+        """Makes the node IDLE."""
         self.status = IDLE
 
 
@@ -381,9 +381,9 @@ class SyncLeaf(Leaf):
     __slots__ = ()
 
     def execute(self) -> Status:
-        """Does the work and takes its result."""
+        """Runs the leaf's work and sets the status to its result."""
         return self.complete(self.run())
 
     def run(self) -> Status:
-        """Does the work."""
+        """Runs the leaf's work and returns its result."""
         return SUCCESS

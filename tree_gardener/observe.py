@@ -1,4 +1,4 @@
-"""What an observer is told after each tick."""
+"""Observation: the changes that observers receive after each tick."""
 
 import dataclasses
 import time
@@ -24,7 +24,7 @@ class BlackboardChange:
         key: its name there.
         type: its type by name; ``empty`` if it has no value.
         value: by reference; None if it has none.
-        removed: whether it is gone.
+        removed: whether it was removed.
         writer_uid: the node that wrote last; 0 if it was written from outside.
     """
 
@@ -37,13 +37,14 @@ class BlackboardChange:
 
 
 class TickChanges:
-    """What changed in one tick.
+    """The changes of one tick.
 
-    Attributes: tick: number of the tick, from 1. changed: nodes whose status differs from that after the tick
-        before, with the new one. flashed: nodes that returned a status within the tick and do not have it any
-        more after it: a SUCCESS or
-            FAILURE that the parent reset, or SKIPPED. A node that was ticked again may be here again.
-        blackboard: entries that were written, also since the tick before.
+    Attributes:
+        tick: number of the tick, from 1.
+        changed: nodes whose status differs from that after the tick before, with the new one.
+        flashed: nodes that returned a status within the tick and no longer have it after the tick: a SUCCESS
+            or FAILURE that the parent reset, or SKIPPED. A node that was ticked twice may be here twice.
+        blackboard: entries that were written, also between the tick before and this one.
         duration_s: of the tick.
         node_times_s: seconds that each node took, with all below it, by uid; empty unless asked for.
     """
@@ -77,7 +78,7 @@ class Recorder:
 
     Attributes:
         touched: nodes that started, or were reset from what was reported.
-        results: what nodes returned in this tick, RUNNING left out, in order.
+        results: what nodes returned in this tick, except RUNNING, in order.
     """
 
     __slots__ = ("entries", "observers", "results", "touched", "tree")
@@ -90,7 +91,7 @@ class Recorder:
         self.entries: dict[int, tuple[Entry, int]] = {}
 
     def attach(self) -> None:
-        """Begins to record. All that is not IDLE, and all entries, count as changed."""
+        """Starts recording. All nodes that are not IDLE, and all entries, count as changed."""
         self.results = []
         for node in self.tree.nodes:
             uid = node.uid
@@ -104,7 +105,7 @@ class Recorder:
                 self.written(entry, 0)
 
     def detach(self) -> None:
-        """Ends recording."""
+        """Stops recording."""
         for node in self.tree.nodes:
             node.journal = None
         for board in self.tree.boards:
@@ -129,16 +130,16 @@ class Recorder:
                 self.touched.append(child)
 
     def written(self, entry: Entry, writer: int) -> None:
-        """An entry was written or removed."""
+        """Records that an entry was written or removed."""
         self.entries[id(entry)] = (entry, writer)
 
     def tick(self, function: Callable[[], T]) -> T:
-        """Ticks the tree and tells the observers, also when the tick raises."""
+        """Ticks the tree and notifies the observers, also when the tick raises."""
         start_s = time.perf_counter()
         try:
             status = function()
         except BaseException:
-            # Nodes on the way up did not come to tell of themselves.
+            # The exception kept the nodes above the failed one from reporting their results.
             self.touched += self.tree.nodes
             self.tell(time.perf_counter() - start_s)
             raise
@@ -146,13 +147,13 @@ class Recorder:
         return status
 
     def tell(self, duration_s: float) -> None:
-        """Tells the observers what changed since the last time."""
+        """Notifies the observers of the changes since the last call."""
         changes = self.collect(duration_s)
         for observer in tuple(self.observers):
             observer(changes)
 
     def collect(self, duration_s: float) -> TickChanges:
-        """Makes the changes of what was recorded."""
+        """Returns the changes in what was recorded."""
         nodes = self.tree.nodes
         touched, results = self.touched, self.results
         self.touched, self.results = [], []
@@ -179,7 +180,7 @@ class Recorder:
 
 
 def change(entry: Entry, writer: int) -> BlackboardChange:
-    """What an observer is told of an entry."""
+    """Returns an entry as observers receive it."""
     board: Blackboard = entry.board
     value = None if entry.value is EMPTY else entry.value
     removed = board.entries.get(entry.key) is not entry

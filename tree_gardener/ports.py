@@ -34,7 +34,7 @@ class Port:
     """A port of an action, as declared in ``INPUT_PORTS``, ``OUTPUT_PORTS`` or ``INOUT_PORTS``.
 
     Attributes:
-        type: a Python type; ``Any`` lets everything pass.
+        type: a Python type; ``Any`` accepts everything.
         default: a value, ``"{key}"``, or ``"{=}"`` for the entry named like the port.
         required: whether a tree must give it a value.
         description: one sentence for users.
@@ -84,7 +84,7 @@ Manifest = Mapping[str, PortSpec]
 
 
 def pointer_key(text: str, port: str) -> str | None:
-    """The name of the entry that ``{key}`` or ``{=}`` stands for, or None if the text is a literal."""
+    """Returns the name of the entry that ``{key}`` or ``{=}`` names, or None if the text is a literal."""
     if "{" not in text:
         return None
     match = _POINTER.match(text)
@@ -95,7 +95,7 @@ def pointer_key(text: str, port: str) -> str | None:
 
 
 def manifest_of(cls: type) -> dict[str, PortSpec] | None:
-    """The ports that a behaviour class declares; None if it is *open*: it declares none and accepts any."""
+    """Returns the ports that a class declares; None if it is *open*: it declares none and accepts any."""
     specs: dict[str, PortSpec] = {}
     is_open = True
     for attribute, direction in (("INPUT_PORTS", INPUT), ("OUTPUT_PORTS", OUTPUT), ("INOUT_PORTS", INOUT)):
@@ -119,7 +119,7 @@ def _spec(name: str, direction: str, port: Any) -> PortSpec:
 
 
 class InputBinding:
-    """Where a node's input port gets its value: a literal that was parsed once, or an entry."""
+    """The source of an input port's value: a literal that was parsed once, or an entry."""
 
     __slots__ = ("key", "name", "type", "value")
 
@@ -132,7 +132,7 @@ class InputBinding:
             self.value = spec.type.parse(given) if isinstance(given, str) else given
 
     def read(self, node: "Node") -> Any:
-        """The port's value now.
+        """Returns the port's value now.
 
         Raises:
             PortError: the entry is missing, empty, or of a type that does not convert.
@@ -211,7 +211,7 @@ def write_port(node: "Node", name: str, value: Any) -> None:
 
 
 def node_of(behaviour: Any) -> "Node":
-    """The engine's node of a behaviour that is in a tree.
+    """Returns the engine's node of a behaviour that is in a tree.
 
     Raises:
         PortError: it is in no tree, as during ``__init__``.

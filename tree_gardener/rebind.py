@@ -1,4 +1,4 @@
-"""Classes written for ``py_trees.ports``: their access to ports is led to ours."""
+"""Redirects the port access of classes written for ``py_trees.ports`` to our ports."""
 
 from typing import Any
 
@@ -7,7 +7,7 @@ from tree_gardener.ports import get_input, set_output
 
 
 def rebind(behaviour: Any) -> None:
-    """Lets a behaviour with py_trees' ``PortsMixin`` use the tree's ports; others are left alone."""
+    """Redirects a behaviour with py_trees' ``PortsMixin`` to the tree's ports; others stay unchanged."""
     if not hasattr(behaviour, "setup_ports") or not hasattr(behaviour, "_set_output"):
         return
 

@@ -1,4 +1,4 @@
-"""What a tag stands for: the built-in nodes, and the classes that a tree was given."""
+"""The node types by tag: the built-in nodes, and the classes that a tree was given."""
 
 import dataclasses
 import functools
@@ -70,16 +70,16 @@ OLD_NAMES: Final = {
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class NodeType:
-    """What is known of a tag.
+    """A node type: the meaning of a tag.
 
     Attributes:
         name: the tag.
         node_class: the engine's class.
         manifest: its ports; None if it accepts any.
-        min_children: of any.
-        max_children: None for any number.
+        min_children: the least number of children.
+        max_children: the largest number; None for any.
         behaviour_class: the py_trees class of an action, or None.
-        takes_ports: whether that class wants the ports in its constructor.
+        takes_ports: whether that class takes the ports in its constructor.
     """
 
     name: str
@@ -108,10 +108,10 @@ def built_in_types() -> dict[str, NodeType]:
 
 
 def build_registry(nodes: Mapping[str, Any]) -> dict[str, NodeType]:
-    """The built-in nodes and those given by the user.
+    """Returns the built-in nodes and those given by the user.
 
     Raises:
-        LoadError: something given is no class of a node, or has the name of a built-in one.
+        LoadError: something given is not a class of nodes, or has the name of a built-in one.
     """
     registry = dict(built_in_types())
     problems = []
@@ -143,13 +143,13 @@ def _user_type(name: str, cls: Any) -> NodeType:
         )
     kind = getattr(cls, "NODE_KIND", "Action")
     if kind not in LEAF_KINDS:
-        raise ValueError(f"its NODE_KIND is {kind!r}, which is none of {', '.join(LEAF_KINDS)}")
+        raise ValueError(f"its NODE_KIND is {kind!r}, which is not one of {', '.join(LEAF_KINDS)}")
     parameters = inspect.signature(cls.__init__).parameters
     return NodeType(name, LEAF_KINDS[kind], manifest_of(cls), 0, 0, cls, "ports" in parameters)
 
 
 def _engine_type(name: str, cls: type[Node]) -> NodeType:
-    """A node that is written against the engine itself, such as a control node of one's own."""
+    """Returns the type of a node that is written against the engine itself, such as a custom control node."""
     manifest = manifest_of(cls) or {}
     if issubclass(cls, Decorator):
         return NodeType(name, cls, manifest, 1, 1)

@@ -29,7 +29,7 @@ from tree_gardener.tree import Tree
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-# Many actions use `geometry_msgs.msg` after a mere `import geometry_msgs`: someone must have imported it.
+# Many actions use `geometry_msgs.msg` after a mere `import geometry_msgs`: so the submodule is imported here.
 _MESSAGES = (
     "builtin_interfaces",
     "geometry_msgs",
@@ -52,7 +52,7 @@ def run_tree(  # noqa: PLR0913 - what main.py states of one package
     on_error: str = "stop",
     args: "Sequence[str] | None" = None,
 ) -> int:
-    """Ticks a tree by ROS time until it ends, or the process is asked to.
+    """Ticks a tree by ROS time until it ends, or the process receives a signal.
 
     The node has the parameters ``tick_hz``, ``tree`` (path of the file), ``on_finish`` and ``on_error``, and
     ROS 2's own ``use_sim_time``. The arguments of this function are their defaults; ``--tick_hz=5.0`` and the
@@ -115,7 +115,7 @@ def _made(name: str, words: "list[str]") -> Any:
 
 
 def _in_one_line(error: Exception) -> str:
-    """The message of an error of rclpy; the C library adds where in its own sources it arose."""
+    """Returns the message of an rclpy error without the place in the C library's sources."""
     text = re.sub(r", at \S+:\d+", "", " ".join(str(error).split()))
     return text or type(error).__name__
 
@@ -148,7 +148,7 @@ def _run(node: Any, settings: RunParameters, actions: "str | pathlib.Path | None
 
 
 class _ClockPatience:
-    """Says once that simulated time does not come, without which a tree would wait in silence."""
+    """Warns once that no simulated time arrives; the tree would wait silently otherwise."""
 
     def __init__(self, node: Any) -> None:
         self._node = node
@@ -156,7 +156,7 @@ class _ClockPatience:
         self._end_s = time.monotonic() + _CLOCK_S
 
     def look(self) -> None:
-        """Looks at the clock, from time to time."""
+        """Checks the clock from time to time."""
         if not self._waits:
             return
         if self._node.get_clock().now().nanoseconds > 0:
@@ -198,13 +198,13 @@ def _load(
     except LoadError as error:
         for problem in error.diagnostics:
             log.error(str(problem))
-    except TickError as error:  # the `setup` of an action; its traceback is for who wrote it
+    except TickError as error:  # the `setup` of an action; its traceback is for its author
         log.error(f"{error}\n{error.traceback_text}")
     return None
 
 
 def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":
-    """The sources of the actions of a document; a file in the folder goes before the copy in the document."""
+    """Returns the sources of a document's actions; a file in the folder goes before the document's copy."""
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))  # modules that the actions share
     sources = {}
@@ -220,9 +220,9 @@ def _sources(text: bytes, folder: pathlib.Path, log: Any) -> "dict[str, str]":
 
 
 def _embedded(text: bytes) -> "Iterator[tuple[str, str]]":
-    """Names and digests of the actions that a document brings."""
+    """Returns names and digests of the actions that a document contains."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
-    with contextlib.suppress(etree.XMLSyntaxError):  # which loading the tree will tell better
+    with contextlib.suppress(etree.XMLSyntaxError):  # loading the tree reports it with a better place
         for action in etree.fromstring(text, parser).iterfind("Code/Action"):
             yield str(action.get("name", "")), str(action.get("sha256", ""))
 
@@ -235,7 +235,7 @@ def _import_messages() -> None:
 
 @contextlib.contextmanager
 def _handled_signals(stop: threading.Event) -> "Iterator[None]":
-    """Lets SIGINT and SIGTERM end the run in order."""
+    """Ends the run in order on SIGINT and SIGTERM."""
     numbers = (signal.SIGINT, signal.SIGTERM)
     before = [signal.signal(number, lambda *_: stop.set()) for number in numbers]
     try:

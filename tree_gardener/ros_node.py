@@ -1,7 +1,8 @@
 """The rclpy that actions find: a node that they share, and a default context that the run has opened.
 
-Tutorials say `rclpy.init()`, `rclpy.spin_once(node)` and `rclpy.ok()`; in an action these work as there. What
-would take ROS away from the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raises a sentence.
+Tutorials use `rclpy.init()`, `rclpy.spin_once(node)` and `rclpy.ok()`; these work in an action too. Calls
+that would end ROS for the rest of the tree (`rclpy.shutdown()`, `node.destroy_node()`) raise an error that
+says so.
 """
 
 import contextlib
@@ -27,7 +28,7 @@ NO_DESTROY: Final = (
 
 
 class ActionNode(Node):
-    """A node that stays with the executor that it was added to first, whoever else spins it.
+    """A node that stays with the executor that it was added to first, even if another one spins it.
 
     `rclpy.spin_once(node)` adds a node to another executor for a moment and would leave it without any.
     """
@@ -74,7 +75,7 @@ class ActionNode(Node):
 
     @contextlib.contextmanager
     def _other_type_named(self, msg_type: Any, topic: str) -> Iterator[None]:
-        """Says what rcl means by "invalid allocator": one participant cannot have a topic in two types."""
+        """Explains rcl's "invalid allocator": one participant cannot have a topic in two types."""
         try:
             yield
         except RuntimeError:  # RCLError
@@ -87,7 +88,7 @@ class ActionNode(Node):
             raise TypeError(text) from None
 
     def destroy_node(self) -> None:
-        """Refuses: it is not an action's to destroy.
+        """Refuses: an action must not destroy the shared node.
 
         Raises:
             RuntimeError: always, before `close`.
@@ -97,21 +98,21 @@ class ActionNode(Node):
         super().destroy_node()
 
     def close(self) -> None:
-        """Leaves the graph: the run is over."""
+        """Leaves the ROS graph at the end of the run."""
         self._is_over = True
         self.destroy_node()
 
 
 class MainThreadGroup(MutuallyExclusiveCallbackGroup):
-    """Callbacks of the main thread alone: no tick runs in a thread in which an action spins its node."""
+    """Runs callbacks on the main thread only: no tick runs in a thread where an action spins its node."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether the callback may run now, and here."""
+        """Whether the callback may run now, in this thread."""
         return threading.current_thread() is threading.main_thread() and bool(super().can_execute(entity))
 
 
 def guard_rclpy() -> Callable[[], None]:
-    """Makes rclpy's default context that of the run, which is open; gives the function that ends that.
+    """Makes the run's open context rclpy's default one; returns the function that reverts this.
 
     `rclpy.init()` does nothing then, and `rclpy.shutdown()` raises.
     """

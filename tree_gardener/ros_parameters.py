@@ -1,4 +1,4 @@
-"""The parameters of the node that ticks a tree: read once and checked; a wrong one is said with its place.
+"""The parameters of the node that ticks a tree: read once and checked; errors name the place.
 
 An argument (`--tick_hz=5.0`, outside of `--ros-args`) goes before every file of parameters. Among files, and
 with ROS 2's own `-p`, the last does not always win: rcl keeps the whole number of one file beside the decimal
@@ -18,12 +18,12 @@ SIM_TIME = "use_sim_time"
 
 
 class ParameterError(Exception):
-    """A parameter that the node cannot use; the text says which, why and where."""
+    """A parameter that the node cannot use; the text names it, the reason and the place."""
 
 
 @dataclasses.dataclass(frozen=True)
 class RunParameters:
-    """How a tree is run.
+    """The parameters of a run.
 
     Attributes:
         tree: the tree's XML.
@@ -66,15 +66,15 @@ def read_arguments(words: Sequence[str]) -> dict[str, Any]:
 def declare_parameters(node: Any, defaults: RunParameters, words: Sequence[str]) -> RunParameters:
     """Declares the parameters on a node and returns their values.
 
-    They are read-only: they are looked at when the run begins, and ``ros2 param set`` says so.
+    They are read-only, since they are read once when the run begins; ``ros2 param set`` reports that.
 
     Args:
         node: the rclpy node.
-        defaults: what holds for those that are not given.
-        words: the command line, to find where a wrong value stands.
+        defaults: the values of those that are not given.
+        words: the command line, to find the place of a wrong value.
 
     Raises:
-        ParameterError: A value has the wrong type, or is none that the run knows.
+        ParameterError: A value has the wrong type, or is not one of those that a run has.
     """
     values = {
         field.name: _declared(node, field.name, getattr(defaults, field.name))
@@ -92,14 +92,14 @@ def declare_parameters(node: Any, defaults: RunParameters, words: Sequence[str])
 
 
 def sim_time_problem(words: Sequence[str]) -> str:
-    """What is wrong where rclpy refuses to make a node for its ``use_sim_time``."""
+    """Returns the reason why rclpy refuses a node for its ``use_sim_time``."""
     return f"the parameter {SIM_TIME} has to be true or false, without quotes{_place(SIM_TIME, words)}"
 
 
 def _declared(node: Any, name: str, default: Any) -> Any:
     from rcl_interfaces.msg import ParameterDescriptor  # noqa: PLC0415 - the engine works without ROS
 
-    # Any type is let in, so that it is this module that judges it: a whole number is a number too.
+    # Any type is accepted here, so that this module judges it and not rclpy: a whole number is a number too.
     descriptor = ParameterDescriptor(name=name, read_only=True, dynamic_typing=True)
     value = str(default) if isinstance(default, pathlib.Path) else default
     return node.declare_parameter(name, value, descriptor).value
@@ -130,7 +130,7 @@ def _shown(value: Any) -> str:
 
 
 def _place(name: str, words: Sequence[str]) -> str:
-    """Where the command line gives it: an argument, or the last file of parameters, with the line."""
+    """Returns the place on the command line: an argument, or the last file of parameters, with the line."""
     if any(word.startswith(f"--{name}=") for word in words):
         return " (an argument)"
     files = [words[i + 1] for i, word in enumerate(words[:-1]) if word == "--params-file"]

@@ -1,7 +1,7 @@
 """Ticks a tree at a fixed rate.
 
-The runner owns no thread and no clock: whoever drives it calls `tick_due` with the time, as often as he
-likes. All commands take effect at the boundary between two ticks.
+The runner owns no thread and no clock: its caller passes the time to `tick_due`, as often as it likes. All
+commands take effect at the boundary between two ticks.
 """
 
 import dataclasses
@@ -16,7 +16,7 @@ from tree_gardener.tree import Tree
 
 
 class RunnerState(enum.Enum):
-    """What a runner does."""
+    """The states of a runner."""
 
     RUNNING = "running"
     PAUSED = "paused"
@@ -31,7 +31,7 @@ class Overrun:
         tick: its number.
         duration_s: how long it took.
         period_s: how long it may take.
-        missed: ticks that were left out because of it.
+        missed: ticks that were skipped because of it.
         slow_uid: the action that took most of the time; 0 if none was ticked.
         slow_s: how long that took.
     """
@@ -46,7 +46,7 @@ class Overrun:
 
 @dataclasses.dataclass
 class RunStatistics:
-    """What a runner counted: ticks, overruns, ticks left out, and the longest tick."""
+    """A runner's counts: ticks, overruns, skipped ticks, and the longest tick."""
 
     ticks: int = 0
     overruns: int = 0
@@ -69,7 +69,7 @@ class Runner:
     Args:
         tree: set up already.
         tick_hz: ticks a second.
-        on_finish: ``stop`` ends the run when the root succeeds, fails or is skipped; ``repeat`` ticks on.
+        on_finish: ``stop`` ends the run when the root succeeds, fails or is skipped; ``repeat`` continues.
         on_error: ``stop`` ends the run when an action raises; ``failure`` makes that node fail.
         finished: called once with the root's last status when the run ends by itself.
         fault: called with each error.
@@ -121,17 +121,17 @@ class Runner:
     # -- commands -----------------------------------------------------------------------------------
 
     def pause(self) -> None:
-        """Ticks no more until `resume` or `step`."""
+        """Pauses until `resume` or `step`."""
         self._wanted_state = RunnerState.PAUSED
         self._settle()
 
     def resume(self) -> None:
-        """Ticks again, one period from the next call of `tick_due` at the earliest if it was paused."""
+        """Continues; after a pause, at the earliest one period after the next call of `tick_due`."""
         self._wanted_state = RunnerState.RUNNING
         self._settle()
 
     def step(self, count: int = 1) -> None:
-        """Lets a paused runner tick `count` times."""
+        """Requests `count` ticks of a paused runner."""
         self._steps += count
 
     def set_tick_rate(self, tick_hz: float) -> None:
@@ -147,10 +147,11 @@ class Runner:
     # -- driving ------------------------------------------------------------------------------------
 
     def tick_due(self, now_s: float) -> Status | None:
-        """Ticks the tree once if a tick is due; gives the root's status, or None if there was no tick.
+        """Ticks the tree once if a tick is due; returns the root's status, or None if there was no tick.
 
         Args:
-            now_s: the time; simulated time where there is one. If it went back, the next tick is due at once.
+            now_s: the time; simulated time where there is one. After a jump back, the next tick is due
+                immediately.
         """
         self._settle()
         if self.state is RunnerState.FINISHED or not self._is_due(now_s):
@@ -188,7 +189,7 @@ class Runner:
             return False
         if due_s is None or now_s < due_s:
             due_s = now_s
-        # Ticks that were missed are left out, and those that follow keep to the grid.
+        # Missed ticks are skipped, not caught up: a burst of ticks would command the robot with old data.
         late = int((now_s - due_s) / self.period_s + 1e-9)
         self.statistics.missed += late
         self._due_s = due_s + (late + 1) * self.period_s
@@ -209,7 +210,7 @@ class Runner:
                 )
 
     def _settle(self) -> None:
-        """Carries out the commands, unless a tick is going on."""
+        """Executes the commands, unless a tick is in progress."""
         if self._in_tick or self.state is RunnerState.FINISHED:
             return
         if self._wanted_period_s is not None:

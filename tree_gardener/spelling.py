@@ -1,4 +1,4 @@
-"""Names that one may have meant: those that are a few slips of a finger away."""
+"""Suggestions for misspelt names, by Damerau-Levenshtein distance."""
 
 from collections.abc import Iterable
 from typing import Final
@@ -8,7 +8,7 @@ _LONGEST: Final = 100
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """The known name that differs least, or "": near is a third of the letters, and 3 at most."""
+    """Returns the nearest known name, or "" where none is within a third of the letters and 3 edits."""
     wanted = name.lower()[:_LONGEST]
     allowed = min(MAX_SLIPS, max(1, len(wanted) // 3))
     found = [
@@ -20,7 +20,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
 
 
 def distance(first: str, second: str) -> int:
-    """Letters to leave out, put in, exchange or swap with their neighbour."""
+    """Counts the letters to delete, insert, replace or swap with their neighbour."""
     before: list[int] = []
     last = list(range(len(second) + 1))
     for i, letter in enumerate(first, start=1):

@@ -6,7 +6,7 @@ from py_trees.common import Status as PyTreesStatus
 
 
 class Status(enum.Enum):
-    """What a node is, or what its tick returned.
+    """The status of a node, or the result of its tick.
 
     A node *is* IDLE, RUNNING, SUCCESS or FAILURE; SKIPPED is only ever returned.
     """
@@ -17,7 +17,7 @@ class Status(enum.Enum):
     FAILURE = "FAILURE"
     SKIPPED = "SKIPPED"
 
-    # Enum hashes by name in Python code, which is ten times slower than identity.
+    # Enum's own hash runs Python code on the name, which is ten times slower than identity.
     __hash__ = object.__hash__
 
     @property
@@ -49,5 +49,5 @@ _TO_PY_TREES = {
 
 
 def to_py_trees(status: Status) -> PyTreesStatus:
-    """The nearest status of py_trees, whose tools know neither IDLE nor SKIPPED: both are INVALID there."""
+    """Returns the nearest status of py_trees; it has neither IDLE nor SKIPPED, so both are INVALID."""
     return _TO_PY_TREES[status]

@@ -1,4 +1,4 @@
-"""What BT.CPP checks of a document before it builds anything: tags, IDs, numbers of children, depth.
+"""Checks a document as BT.CPP does before it builds anything: tags, IDs, numbers of children, depth.
 
 All trees of the document are checked, whether they are used or not.
 """
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
 EXPLICIT: Final = frozenset(("Action", "Condition", "Control", "Decorator"))
 MAX_DEPTH: Final = 256
 _FORBIDDEN = re.compile(r"""[\s/\\:*?|.<>&"']""")
-_RESERVED: Final = frozenset(("name", "ID"))  # names that begin with "_" are no ports anyway
+_RESERVED: Final = frozenset(("name", "ID"))  # names that begin with "_" are never ports
 _ASYNC_IN_REACTIVE: Final = "AsyncSequence"
 
 
 @dataclasses.dataclass(frozen=True)
 class SubTreeModel:
-    """The ports of a SubTree as its ``TreeNodesModel`` says; a default of None makes a port mandatory."""
+    """The ports of a SubTree by its ``TreeNodesModel``; a default of None makes a port mandatory."""
 
     ports: Mapping[str, str | None]
 
@@ -45,12 +45,12 @@ class Definition:
 
 
 def type_of(element: Element) -> str:
-    """What a node's element stands for: its tag, or the ID of the explicit form."""
+    """Returns the node type of an element: its tag, or the ID of the explicit form."""
     return element.attributes.get("ID", "") if element.tag in EXPLICIT else element.tag
 
 
 def name_problem(name: str) -> str:
-    """What is wrong with an ID, or ""."""
+    """Returns the reason why an ID is invalid, or ""."""
     match = _FORBIDDEN.search(name)
     if not name:
         return "is empty"
@@ -157,7 +157,7 @@ class StructureCheck:
             self.check_reactive(element)
 
     def suggest(self, name: str) -> str:
-        """What the author of an unknown name may have meant."""
+        """Returns a hint with the nearest known name."""
         if name in OLD_NAMES:
             return f"in version 4 it is {OLD_NAMES[name]}"
         near = nearest(name, self.registry)
@@ -165,7 +165,7 @@ class StructureCheck:
         return f"did you mean {near}?" if near else f"the actions known are: {known or 'none'}"
 
     def check_count(self, element: Element, name: str, kind: NodeType) -> None:
-        """Checks the number of children; Switch and the like check theirs when they are ticked."""
+        """Checks the number of children; Switch, IfThenElse and others check theirs when they are ticked."""
         count = len(element.children)
         if kind.kind is Kind.CONTROL:
             least = 2 if name == "TryCatch" else 1
@@ -196,7 +196,7 @@ class StructureCheck:
             )
 
     def check_reactive(self, element: Element) -> None:
-        """BT.CPP looks at the children of a ReactiveSequence by their tags."""
+        """Checks the children of a ReactiveSequence by their tags, as BT.CPP does."""
         asynchronous = 0
         for child in element.children:
             if child.tag in EXPLICIT:
@@ -223,7 +223,7 @@ class StructureCheck:
             self.models[tree_id] = SubTreeModel(ports)
 
     def model_ports(self, element: Element) -> Iterator[Element]:
-        """The ports of a model that are named well."""
+        """Returns the ports of a model that have valid names."""
         for port in element.children:
             if port.tag not in ("input_port", "output_port", "inout_port"):
                 continue

@@ -14,12 +14,12 @@ STUB_UPDATE: Final = "    def update(self):\n        return py_trees.common.Stat
 
 
 def is_stub(source: str) -> bool:
-    """Whether the source of an action is as the importer left it."""
+    """Whether the source of an action is an unchanged stub of the importer."""
     return STUB_MARK in source and STUB_UPDATE in source.replace("\r\n", "\n")
 
 
 def unwritten(tree: "Tree") -> list[str]:
-    """Names the actions of a tree that are stubs."""
+    """Returns the names of a tree's actions that are stubs."""
     found = set()
     for node in tree.nodes:
         if node.type not in found and node.behaviour is not None and is_stub(_source_of(node.behaviour)):
@@ -28,7 +28,7 @@ def unwritten(tree: "Tree") -> list[str]:
 
 
 def stubs_sentence(names: "Sequence[str]") -> str:
-    """Says which actions are stubs, and what to do."""
+    """Returns a sentence that names the stubs, and what to do."""
     one = len(names) == 1
     listed = names[0] if one else f"{', '.join(names[:-1])} and {names[-1]}"
     is_are = "is an unwritten stub, which always fails" if one else "are unwritten stubs, which always fail"

@@ -33,18 +33,21 @@ class Tree:
     Make one with `from_xml` or `from_file`; call `setup` once, then one of the tick functions again and
     again, and `shutdown` at the end.
 
-    Attributes: nodes: all nodes in pre-order; ``nodes[0]`` is the root node. blackboard: the root blackboard.
-        boards: all scopes of the blackboard. clock: tells the time to Delay, Timeout and Sleep. enums:
-        constants that scripts and Switch know by name. wake_up: set by nodes that want the tree to be ticked
-        again soon. on_error: called with the error when an action raises, which then counts as FAILURE of its
-        node; if None, the
-            error is raised out of the tick.
-        on_warning: called with a node and a sentence where something is tolerated, once a node and sentence;
-            if None, the sentence goes to the logger ``tree_gardener``.
-        tick_number: how many ticks there were.
-        current: holds `current_uid` at its start; it may be memory that another process sees.
+    Attributes:
+        nodes: all nodes in pre-order; ``nodes[0]`` is the root node.
+        blackboard: the root blackboard.
+        boards: all scopes of the blackboard.
+        clock: the time for Delay, Timeout and Sleep.
+        enums: constants for scripts and Switch, by name.
+        wake_up: set by nodes that need another tick soon.
+        on_error: called with the error when an action raises, which then counts as FAILURE of its node; if
+            None, the error is raised out of the tick.
+        on_warning: called with a node and a sentence where something is tolerated, once for each node and
+            sentence; if None, the sentence goes to the logger ``tree_gardener``.
+        tick_number: the number of ticks so far.
+        current: holds `current_uid` at its start; it may be memory that is shared with another process.
         slowest: duration and uid of the slowest action of the last tick, while leaves are timed.
-        node_times_s: time of each node in the tick, while an observer asked for it; else None.
+        node_times_s: time of each node in the tick, while an observer asked for them; else None.
     """
 
     def __init__(self, clock: Clock | None, blackboard: Blackboard | None, enums: Mapping[str, int]) -> None:
@@ -102,7 +105,7 @@ class Tree:
             substitutions: rules that replace nodes, as BehaviorTree.CPP's JSON.
 
         Raises:
-            LoadError: the document is refused; all that is wrong is in `diagnostics`.
+            LoadError: the document is refused; `diagnostics` holds every error.
         """
         forest = Forest()
         base = pathlib.Path(base_path) if base_path is not None else None
@@ -144,7 +147,7 @@ class Tree:
         return cls.from_xml(path.read_bytes(), nodes, clock, **more)
 
     def _adopt(self, builder: Builder) -> None:
-        """Takes the nodes that a builder made."""
+        """Installs the nodes that a builder made."""
         self.boards = builder.boards
         self.blackboard.scopes = self._scope
         self.depth = max(builder.depths)
@@ -170,7 +173,7 @@ class Tree:
         return self.current[0]
 
     def use_clock(self, clock: Clock) -> None:
-        """Takes another clock, before the first tick: one that needs an rclpy node, say."""
+        """Replaces the clock before the first tick, for example by one that needs an rclpy node."""
         self.clock = self.timers.clock = clock
 
     # -- life ---------------------------------------------------------------------------------------
@@ -180,7 +183,7 @@ class Tree:
 
         Args:
             node: the rclpy node, or None.
-            kwargs: handed on as they are.
+            kwargs: passed on unchanged.
 
         Raises:
             TickError: a behaviour raised.
@@ -205,10 +208,10 @@ class Tree:
         root.status = IDLE
 
     def shutdown(self) -> None:
-        """Halts the tree and calls ``shutdown()`` of each behaviour, whatever goes wrong on the way.
+        """Halts the tree and calls ``shutdown()`` of each behaviour, even if some of them raise.
 
         Raises:
-            TickError: the first thing that went wrong.
+            TickError: the first error.
         """
         first: TickError | None = None
         try:
@@ -313,7 +316,7 @@ class Tree:
         self._signal.set()
 
     def fire_timers(self) -> None:
-        """Lets what is due happen now; otherwise it happens at the next tick."""
+        """Fires the timers that are due now; otherwise they fire at the next tick."""
         self._guarded_without_telling(self.timers.fire)
 
     def _begin(self) -> None:
@@ -336,7 +339,7 @@ class Tree:
         return status
 
     def _guarded(self, function: Callable[[], T]) -> T:
-        """Calls what ticks or halts nodes, with room for deep trees, and tells the observers."""
+        """Calls a function that ticks or halts nodes, with stack for deep trees; notifies observers."""
         if self._recorder.observers:
             return self._recorder.tick(lambda: self._guarded_without_telling(function))
         return self._guarded_without_telling(function)
@@ -345,7 +348,7 @@ class Tree:
         return call_deep(function, self.depth) if self.depth > DEEP else function()
 
     def warn(self, node: Node, message: str) -> None:
-        """Says once what is tolerated of a node."""
+        """Reports once a fault of a node that is tolerated."""
         if (node.uid, message) in self._warned:
             return
         self._warned.add((node.uid, message))
@@ -357,11 +360,11 @@ class Tree:
     # -- observation and hooks ----------------------------------------------------------------------
 
     def observe(self, callback: Observer, *, node_times: bool = False) -> Callable[[], None]:
-        """Lets `callback` be called after each tick with what changed; gives the function that ends it.
+        """Calls `callback` after each tick with what changed; returns the function that unsubscribes it.
 
-        Args: callback: is called with a `TickChanges`, also when the tick raised. The first one has all nodes
-            that are
-                not IDLE and all entries.
+        Args:
+            callback: called with a `TickChanges`, also when the tick raised. The first one has all nodes
+                that are not IDLE and all entries.
             node_times: also measure each node.
         """
         recorder = self._recorder
@@ -386,7 +389,7 @@ class Tree:
     def add_hook(
         self, *, before: Before | None = None, after: After | None = None, node: Node | int | None = None
     ) -> Callable[[], None]:
-        """Lets functions be called round the ticks of one node, or of all; gives the function that ends it.
+        """Calls functions before and after the ticks of one node, or of all; returns what removes them.
 
         Args:
             before: called with the node; a status that it returns is taken instead of ticking the node.
@@ -397,7 +400,7 @@ class Tree:
         return self._hooks.add(Hook(uid, before, after))
 
     def time_leaves(self, *, on: bool = True) -> None:
-        """Keeps `current` and `slowest` up to date, so that a slow action can be named."""
+        """Updates `current` and `slowest` at each leaf, so that a slow action can be named."""
         self._hooks.times_leaves = on
         self.link()
 
@@ -410,7 +413,7 @@ class Tree:
         return self._hooks.run(node, inner)
 
     def link(self) -> None:
-        """Looks up anew how each node is ticked."""
+        """Looks up again how each node is ticked, after hooks or observers changed."""
         for node in self.nodes:
             node.link()
         self._tick_root = self.nodes[0].entry()

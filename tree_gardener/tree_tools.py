@@ -1,4 +1,4 @@
-"""How actions of JdeRobot BT Studio use their ports; importable as top-level ``tree_tools`` too.
+"""The port functions of JdeRobot BT Studio's actions; importable as top-level ``tree_tools`` too.
 
 New actions use `tree_gardener.ports` instead.
 """
@@ -14,7 +14,7 @@ _state: dict[str, Blackboard] = {}
 
 
 def use_blackboard(board: Blackboard) -> None:
-    """Says which blackboard plain texts belong to: that of the tree made last."""
+    """Sets the blackboard that plain texts belong to: that of the tree made last."""
     _state["board"] = board
 
 
@@ -32,7 +32,7 @@ def _entry_of(text: str) -> tuple[Blackboard, str] | None:
 
 
 def get_port_content(port_value: str) -> Any:
-    """The text itself, or for ``{key}`` the entry's value; ``""`` when that was never written."""
+    """Returns the text itself, or for ``{key}`` the entry's value; ``""`` if that was never written."""
     place = _entry_of(port_value)
     if place is None:
         return str(port_value)

@@ -32,7 +32,7 @@ _FALSE = frozenset(("0", "false", "FALSE", "False"))
 
 
 class ConversionError(ValueError):
-    """A text or a value that is not of the type asked for."""
+    """A text or a value that does not have the requested type."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ class ValueType:
 
 
 def format_number(value: float) -> str:
-    """A number as text: an integer plain, a double always with six decimals."""
+    """Returns a number as text: an integer plain, a double always with six decimals."""
     if isinstance(value, int):
         return str(int(value))
     if math.isnan(value):
@@ -62,7 +62,7 @@ def format_number(value: float) -> str:
 
 
 def to_text(value: Any) -> str:
-    """A value as a string port reads it."""
+    """Returns a value as a string port reads it."""
     if isinstance(value, str):
         return value
     number = as_number(value)
@@ -72,7 +72,7 @@ def to_text(value: Any) -> str:
 
 
 def as_number(value: Any) -> int | float | None:
-    """The value as an int (booleans too) or a float; None if it is not a number."""
+    """Returns the value as an int (booleans too) or a float; None if it is not a number."""
     if isinstance(value, bool):
         return int(value)
     if isinstance(value, (int, float)):
@@ -115,7 +115,7 @@ def _integer(limits: tuple[int, int], name: str) -> ValueType:
 
 
 def parse_double(text: str) -> float:
-    """Reads a real number as C++ ``from_chars`` does: what follows the number is ignored."""
+    """Reads a real number as C++ ``from_chars`` does: text after the number is ignored."""
     match = _REAL.match(text)
     if match is None:
         raise ConversionError(f"'{text}' is not a number")
@@ -123,7 +123,7 @@ def parse_double(text: str) -> float:
 
 
 def checked_double(text: str) -> float:
-    """A real number written out in full; one that no double can hold is refused, as ``from_chars`` does."""
+    """Converts a real number; one that no double can hold is refused, as ``from_chars`` does."""
     number = float(text)
     if math.isinf(number) and text[-1].isdigit():
         raise ConversionError(f"{text} is too large: a double ends at {sys.float_info.max:.3g}")
@@ -240,10 +240,10 @@ _BY_CLASS: dict[Any, ValueType] = {
 
 
 def value_type(annotation: Any) -> ValueType:
-    """The type that a Python annotation stands for, as in ``Port(list[float])``.
+    """Returns the type of a Python annotation, as in ``Port(list[float])``.
 
-    A name out of ``catalog.json`` stands for itself. A class of one's own is a type of its own: its values
-    pass by reference, and it has no literals, except for an Enum, whose members are written by name.
+    A name out of ``catalog.json`` stands for itself. Any other class is a type of its own: its values pass by
+    reference, and it has no literals, except for an Enum, whose members are written by name.
     """
     if isinstance(annotation, ValueType):
         return annotation
@@ -296,7 +296,7 @@ def _class(cls: type) -> ValueType:
 
 
 def type_name_of(value: Any) -> str:
-    """The name of a value's type for people: ``int``, ``double``, ``string``, ``bool``, else its class."""
+    """Returns a value's type for messages: ``int``, ``double``, ``string``, ``bool``, else its class."""
     if isinstance(value, bool):
         return "bool"
     if isinstance(value, int):

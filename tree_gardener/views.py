@@ -1,8 +1,8 @@
-"""What py_trees' tools see of a tree: composites and decorators of py_trees that stand for our nodes.
+"""Views for py_trees' tools: composites and decorators of py_trees that stand for our nodes.
 
-They are made when somebody asks, so that a tree that nobody looks at does not pay for them. Actions are seen
-as themselves. The root's `tick` is a generator, as py_trees wants it: it ticks the tree and then yields every
-node that took part, with the status that it returned, children before their parents.
+They are made at the first request, so that a tree without py_trees' tools does not pay for them. Actions are
+their own views. The root's `tick` is a generator, as py_trees requires: it ticks the tree and then yields
+every node that took part, with the status that it returned, children before their parents.
 """
 
 from collections.abc import Iterator
@@ -21,7 +21,7 @@ _PARALLELS: Final = frozenset(("Parallel", "ParallelAll"))
 
 
 class _View:
-    """What the views of all kinds share."""
+    """The base of all views."""
 
     node: Node
     children: list[Any]
@@ -30,7 +30,7 @@ class _View:
     name: str
 
     def adopt(self, node: Node) -> None:
-        """Takes the place of a node in py_trees' world."""
+        """Becomes the py_trees object of a node."""
         self.node = node
         self.children = [child.view if child.view is not None else child.behaviour for child in node.children]
         for child in self.children:
@@ -61,7 +61,7 @@ class _View:
 
 
 class SequenceView(_View, py_trees.composites.Sequence):
-    """A node that goes on while its children succeed."""
+    """A node that continues while its children succeed."""
 
 
 class SelectorView(_View, py_trees.composites.Selector):
@@ -81,7 +81,7 @@ class LeafView(_View, py_trees.behaviour.Behaviour):
 
 
 def view_of(node: Node) -> Any:
-    """What py_trees sees of a node; makes the views of the whole tree when it is asked for the first time."""
+    """Returns the py_trees object of a node; the first call makes the views of the whole tree."""
     nodes = node.tree.nodes
     if nodes[0].view is None:
         # Children before parents, without recursion.
@@ -111,7 +111,7 @@ def _make(node: Node) -> Any:
 
 
 def sync(root: Node, results: dict[int, Status] | None = None) -> None:
-    """Brings the statuses of the views up to date, with the results of the tick before the nodes' own."""
+    """Updates the statuses of the views; results of the tick go before the nodes' own statuses."""
     for node in root.tree.nodes:
         status = node.status
         if results is not None and status is IDLE:
@@ -137,7 +137,7 @@ def _tick(root: Node) -> Iterator[Any]:
 
 
 def describe_changes(changes: TickChanges, tree: Any) -> str:
-    """The changes of a tick as one line for a log: paths and statuses."""
+    """Returns the changes of a tick as one line for a log: paths and statuses."""
     nodes = tree.nodes
     both = [*changes.flashed, *changes.changed]
     return ", ".join(f"{nodes[uid - 1].path} {status.name}" for uid, status in both) or "no change"

@@ -1,4 +1,4 @@
-"""Checks of the actions that the trees use; what reading their source found is told at loading."""
+"""Checks of the actions that the trees use; findings in their source are reported at loading."""
 
 from __future__ import annotations
 

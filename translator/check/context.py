@@ -1,4 +1,4 @@
-"""What the checks share: the project, where a finding is put, and what a kind of node is."""
+"""The context of all checks: the project, the list of findings, and the kinds of nodes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from translator.catalog import NodeModel
     from translator.project import Project
 
-_INSTANTIATED = ("BT02", "BT03")  # ports and scripts, which are looked at when a tree is built
+_INSTANTIATED = ("BT02", "BT03")  # ports and scripts, which are checked when a tree is built
 
 
 @dataclass
@@ -27,7 +27,7 @@ class Context:
     _models: dict[str, NodeModel | None] = field(default_factory=dict)
 
     def model(self, type_: str) -> NodeModel | None:
-        """Returns what a type of node is, or None where nobody knows."""
+        """Returns the model of a type of node, or None for an unknown one."""
         if type_ not in self._models:
             self._models[type_] = self.project.model(type_)
         return self._models[type_]
@@ -51,7 +51,7 @@ class Context:
         )
         found = diagnostic(code, place, **values)
         if found.is_error and code.startswith(_INSTANTIATED) and tree.id not in self.reachable:
-            # The engine never builds a tree that nothing calls, so this does not keep the rest from running.
+            # The engine never builds a tree that nothing calls, so the rest can run.
             found = replace(found, severity=Severity.WARNING)
         self.found.append(found)
 
@@ -77,7 +77,7 @@ _NODE_KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:\s*\{')
 
 
 def _key_positions(raw: bytes) -> dict[str, tuple[int, int]]:
-    """Finds where each object-valued key of a JSON text stands; good enough to point at a node."""
+    """Finds the position of each object-valued key of a JSON text; precise enough to point at a node."""
     positions: dict[str, tuple[int, int]] = {}
     for number, line in enumerate(raw.decode("utf-8", "replace").splitlines(), start=1):
         for match in _NODE_KEY.finditer(line):

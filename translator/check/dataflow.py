@@ -1,7 +1,7 @@
-"""Checks of what flows over the blackboard: keys read but never written, outputs never read.
+"""Checks of the data flow over the blackboard: keys read but never written, outputs never read.
 
-Each tree has a blackboard of its own; a SubTree node joins names of two of them. So the trees are
-summed up callees first: what a tree reads and writes under its own names, its calls included.
+Each tree has a blackboard of its own; a SubTree node joins names of two of them. So the
+trees are summarised callees first: the keys that a tree reads and writes under its own names, with its calls.
 """
 
 from __future__ import annotations

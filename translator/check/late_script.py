@@ -1,4 +1,4 @@
-"""Checks of scripts that stand in an entry: BehaviorTree.CPP reads them when it builds the tree.
+"""Checks of scripts that are in an entry: BehaviorTree.CPP reads them when it builds the tree.
 
 Then an entry has a value only if it is a constant that a SubTree is given.
 """
@@ -35,7 +35,7 @@ def _scripts_in_entries(context: Context, node: Node) -> list[tuple[str, str]]:
 
 
 def _is_constant(context: Context, tree_id: str, key: str) -> bool:
-    """Whether the entry is a constant wherever the tree is called."""
+    """Whether the entry is a constant in every call of the tree."""
     waiting, seen = [(tree_id, key)], set()
     while waiting:
         place = waiting.pop()
@@ -66,7 +66,7 @@ def _calls(context: Context, tree_id: str) -> list[tuple[Tree, Node]]:
 
 
 def _outer(context: Context, node: Node, name: str) -> str | None:
-    """What a call gives to an entry of its tree: a constant, a `{key}`, or None for nothing."""
+    """Returns the value that a call gives to an entry of its tree: a constant, a `{key}`, or None."""
     if name in node.ports:
         return node.ports[name]
     if node.autoremap:

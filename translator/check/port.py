@@ -17,7 +17,7 @@ RESERVED = {"name", "ID"}
 
 
 def check_ports(context: Context) -> None:
-    """Reports port values that the engine would refuse, or that mean something else than they seem to."""
+    """Reports port values that the engine would refuse, or that do not mean what they seem to."""
     for tree in context.project.trees.values():
         entries: dict[str, _Use] = {}
         for node in tree.walk():
@@ -81,12 +81,12 @@ def _names_entry(node: Node, port: PortModel) -> bool:
 
 
 def _takes_literal(node: Node, port: PortModel) -> bool:
-    """Whether a port that is written may hold a literal: an inout that is only read then, or a key's name."""
+    """Whether an output may hold a literal: an inout that is then only read, or the name of a key."""
     return port.direction == "inout" and (node.type.startswith("Loop") or port.name == "output_key")
 
 
 def check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:
-    """Reports braces that do not make a key; whether they are right."""
+    """Reports braces that do not make a key; returns whether they are correct."""
     stripped = text.strip(BLANKS)
     if stripped == "{}":
         context.report("BT0207", tree, node, port, port=port)

@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 
 def check(project: Project) -> tuple[Diagnostic, ...]:
-    """Returns everything that is to be said about a project, what reading it found included.
+    """Returns all findings about a project, with those of reading it.
 
     Each finding has a place: a file, and in it a node or a line. Only findings of severity
     *error* keep the project from being translated.
     """
-    # Exporting asks for the checks again; a project never changes, so once is enough.
+    # Exporting runs the checks again; a project is immutable, so the first result is kept.
     found = _found.get(project)
     if found is None:
         found = _found[project] = _check(project)

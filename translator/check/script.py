@@ -22,7 +22,7 @@ def scripts_of(context: Context, node: Node) -> Iterator[tuple[str, str]]:
         return
     for port in model.ports.values():
         text = node.ports.get(port.name) if port.type == "script" else None
-        # A script may stand in an entry; the engine reads it from there when the node is ticked.
+        # A script may be in an entry; the engine reads it from there when the node is ticked.
         if text is not None and pointer(text, port.name) is None:
             yield port.name, text
 

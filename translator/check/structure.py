@@ -18,7 +18,7 @@ MAX_DEPTH = 250  # BehaviorTree.CPP refuses more than 256 levels of XML, root an
 
 
 def check_structure(context: Context) -> None:
-    """Reports what keeps a tree from being built at all."""
+    """Reports every reason why a tree cannot be built."""
     _check_universes(context)
     _check_main(context)
     for tree in context.project.trees.values():
@@ -33,7 +33,7 @@ def check_structure(context: Context) -> None:
 
 
 def _check_universes(context: Context) -> None:
-    """Refuses a universe that could not be chosen: its name is that of *no world*."""
+    """Reports a universe that could not be chosen, since its name means *no world*."""
     if (file := f"universes/{NO_UNIVERSE}.yaml") in context.project.files:
         context.found.append(diagnostic("BT0031", Place(file, line=1), name=NO_UNIVERSE, file=file))
 

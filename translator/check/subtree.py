@@ -71,14 +71,14 @@ def _check_value(context: Context, tree: Tree, node: Node, port: PortModel, text
     if pointer(text, port.name) is not None:
         return
     if port.type == "double" and _WHOLE.fullmatch(text):
-        # A number that a SubTree is given becomes a typed entry; an int is no double there.
+        # A number that a SubTree is given becomes a typed entry; an int is not read as a double there.
         context.report("BT0506", tree, node, port.name, port=port.name, value=text, wanted=f"{text}.0")
     elif not port.is_written:
         check_literal(context, tree, node, port, text)
 
 
 def _check_cycles(context: Context) -> None:
-    """Reports of each ring the call that closes it, as one comes to it from the main tree."""
+    """Reports, for each ring, the call that closes it on the way from the main tree."""
     trees = context.project.trees
     for tree_id, target, ring in closing_calls(trees, context.project.settings.main_tree):
         node = next(node for node in trees[tree_id].subtree_calls() if node.tree == target)
@@ -109,5 +109,5 @@ def closing_calls(trees: Mapping[str, Tree], main: str) -> Iterator[tuple[str, s
 
 
 def _called(tree: Tree) -> list[str]:
-    """The trees that a tree calls, each once, in order of execution."""
+    """Returns the trees that a tree calls, each once, in order of execution."""
     return list(dict.fromkeys(node.tree for node in tree.subtree_calls()))

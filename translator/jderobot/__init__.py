@@ -1,1 +1,1 @@
-"""Projects of JdeRobot's BT Studio: reading all eras of them, and writing the form of 2024."""
+"""Projects of JdeRobot's BT Studio: reads all their formats, and writes the one of 2024."""

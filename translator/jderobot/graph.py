@@ -1,7 +1,7 @@
-"""Reading a diagram of JdeRobot's BT Studio, a serialisation of react-diagrams.
+"""Reads a diagram of JdeRobot's BT Studio, a serialisation of react-diagrams.
 
-Links stand in both directions in real files: what a link means is told by the types of its two
-ports alone. The order of children is that of their height on the canvas.
+Real files have links in both directions: only the types of its two ports give a link its meaning. The order
+of children is that of their height on the canvas.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class _Port:
 
 @dataclass(frozen=True, slots=True)
 class GraphOptions:
-    """What a graph does not say itself."""
+    """The settings of a tree that its graph does not hold."""
 
     tree_id: str
     file: str
@@ -58,7 +58,7 @@ class GraphOptions:
 
 
 def read_graph(raw: bytes, options: GraphOptions) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    """Reads a graph; returns the tree, or None where there is nothing to read, and what was found."""
+    """Reads a graph; returns the tree, or None where there is nothing to read, and the findings."""
     document, problem = parse_json(raw, file=options.file)
     if problem is not None:
         return None, (problem,)
@@ -67,7 +67,7 @@ def read_graph(raw: bytes, options: GraphOptions) -> tuple[Tree | None, tuple[Di
 
 
 class _Reader:
-    """Turns one graph into a diagram of ours."""
+    """Converts one graph to our diagram."""
 
     def __init__(self, options: GraphOptions) -> None:
         self.options = options

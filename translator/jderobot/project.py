@@ -30,7 +30,7 @@ _ACTION_FOLDERS = ("code/actions/", "actions/")
 
 @dataclass(frozen=True, slots=True)
 class _Layout:
-    """Where the parts of a project stand: folder, main graph, graphs of subtrees by name."""
+    """The places of a project's parts: folder, main graph, graphs of subtrees by name."""
 
     folder: str
     main: str
@@ -43,11 +43,11 @@ def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
 
 
 def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
-    """Makes a project of ours; the actions are kept as they are.
+    """Converts it to our project; the actions are kept unchanged.
 
     Args:
-        files: The files of the project, by path; it may stand in a folder of its own.
-        name: What to call it where its settings do not say.
+        files: The files of the project, by path; it may have a folder of its own.
+        name: The project's name where its settings have none.
 
     Raises:
         TranslatorError: If there is no main graph, or it cannot be read.
@@ -151,7 +151,7 @@ def _tree_ids(layout: _Layout, found: list[Diagnostic]) -> dict[str, str]:
 
 
 def _other_files(files: Mapping[str, bytes], layout: _Layout) -> dict[str, bytes]:
-    """Returns actions in our folder, and all that is no graph or setting among the assets."""
+    """Returns the actions in our folder, and all files but graphs and settings among the assets."""
     result: dict[str, bytes] = {}
     graphs = {layout.main, *layout.subtrees.values(), f"{layout.folder}config.json"}
     for path in sorted(files):

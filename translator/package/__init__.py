@@ -1,1 +1,1 @@
-"""What users take away: the ROS 2 package, and the app that the manager runs."""
+"""Exports: the ROS 2 package, and the app that the manager runs."""

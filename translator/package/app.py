@@ -45,5 +45,5 @@ def app_files(project: Project) -> dict[str, bytes]:
 
 
 def is_action_source(path: str) -> bool:
-    """Whether the file belongs to the Python of the actions: the actions and what they share."""
+    """Whether the file belongs to the Python of the actions: an action, or a module that they share."""
     return path.startswith("actions/") and path.endswith(".py")

@@ -1,4 +1,4 @@
-"""The files of the engine, as they travel inside what is exported."""
+"""The files of the engine, for exported packages and apps."""
 
 from __future__ import annotations
 

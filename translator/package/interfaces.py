@@ -1,4 +1,4 @@
-"""What the README and the launch file of a package say of its topics, services, actions and parameters."""
+"""The topics, services, actions and parameters in the README and the launch file of a package."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _WORDS = {
     "action client": "calls the action",
     "action server": "offers the action",
 }
-# Names that all robots of a system share by custom; a namespace leaves them where they are.
+# Names that all robots of a system share by convention; a namespace does not change them.
 _SHARED = frozenset({"/clock", "/diagnostics", "/parameter_events", "/rosout", "/tf", "/tf_static"})
 
 
@@ -32,7 +32,7 @@ def absolute_names(opened: Iterable[Endpoint]) -> list[str]:
 
 
 def interface_rows(opened: Iterable[Endpoint]) -> list[tuple[str, str, str, str]]:
-    """Returns (name, type, what is done with it, by whom) of all names that are certain."""
+    """Returns (name, type, use, user) of all names that are certain."""
     by: dict[tuple[str, str, str], set[str]] = {}
     for item in opened:
         if item.known and item.kind != PARAMETER:
@@ -74,7 +74,7 @@ def _who(item: Endpoint) -> str:
 
 
 def _cell(text: str) -> str:
-    """The text as inline code in a table's cell."""
+    """Returns the text as inline code in a table's cell."""
     return " ".join(text.split()).replace("|", "\\|").replace("`", "'")
 
 

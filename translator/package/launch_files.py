@@ -41,7 +41,7 @@ def launch_files(files: Mapping[str, bytes]) -> list[str]:
 
 
 def dependencies_of(files: Mapping[str, bytes]) -> set[str]:
-    """Returns the packages that launch files take: those that read them, and those whose nodes they start."""
+    """Returns the packages that launch files need: those that read them, and those of their nodes."""
     readers = {name for path in launch_files(files) for name in DEPENDENCIES[PurePosixPath(path).suffix]}
     texts = (files[path].decode("utf-8", "replace") for path in launch_files(files))
     named = {name for text in texts for groups in _PACKAGES.findall(text) for name in groups}
@@ -61,7 +61,7 @@ def programs(files: Mapping[str, bytes]) -> dict[str, str]:
 
 
 def companions(files: Mapping[str, bytes]) -> list[str]:
-    """Returns what lies beside the launch files and is neither of them nor a program, such as parameters."""
+    """Returns the other files in `launch/`, neither launch files nor programs, such as parameters."""
     return [
         path
         for path in sorted(files)
@@ -79,7 +79,7 @@ def in_package(
 ) -> tuple[bytes, list[Diagnostic]]:
     """Returns a launch file that names the project's Python files as executables of the package.
 
-    Also returns a warning for each that is named in a way that is not understood.
+    Also returns a warning for each name that is not understood.
     """
     text = raw.decode("utf-8", "surrogateescape")
     folder = str(PurePosixPath(path).parent)
@@ -95,11 +95,11 @@ def in_package(
 
 
 def _in_yaml(text: str, folder: str, package: str, known: Mapping[str, str]) -> list[tuple[int, int, str]]:
-    """Changes as (start, end, new text): `pkg` before each `exec` that names a program, and its new name."""
+    """Yields changes (start, end, new text): `pkg` before each `exec` of a program, and its new name."""
     try:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.YAMLError:
-        return []  # which `launch` tells better
+        return []  # `launch` reports it with a better place
     ending = "\r\n" if "\r\n" in text else "\n"
     changes = []
     for mapping in _mappings(root):
@@ -118,7 +118,7 @@ def _in_yaml(text: str, folder: str, package: str, known: Mapping[str, str]) -> 
 
 
 def _mappings(root: yaml.Node | None) -> Iterator[yaml.MappingNode]:
-    """Every mapping of a document once, whatever refers to it."""
+    """Yields every mapping of a document once, even if several places refer to it."""
     seen: set[int] = set()
     stack = [root] if root is not None else []
     while stack:
@@ -145,7 +145,7 @@ def _in_xml(text: str, folder: str, package: str, known: Mapping[str, str]) -> l
 
 
 def _left(path: str, raw: bytes, text: str, package: str, known: Mapping[str, str]) -> Iterator[Diagnostic]:
-    """Warnings for the programs that the launch file of the package still names by their path."""
+    """Returns warnings for the programs that the package's launch file still names by their path."""
     lines = raw.decode("utf-8", "replace").splitlines()
     for program_path, program in known.items():
         if not any(program_path in line.partition("#")[0] for line in text.splitlines()):
@@ -158,7 +158,7 @@ def _left(path: str, raw: bytes, text: str, package: str, known: Mapping[str, st
 
 
 def _program(named: str, folder: str, known: Mapping[str, str]) -> str | None:
-    """The executable that a path means, which is looked for from the project, then from the launch file."""
+    """Returns the executable of a path, searched relative to the project, then to the launch file."""
     if named.startswith(_HERE):
         return known.get(normpath(f"{folder}/{named.removeprefix(_HERE)}"))
     return known.get(normpath(named)) or known.get(normpath(f"{folder}/{named}"))

@@ -16,7 +16,7 @@ from typing import Any
 import yaml
 
 UBUNTU = "noble"  # the Ubuntu of ROS 2 Jazzy
-# Imports that are named otherwise than their package.
+# Imports that do not have the name of their package.
 KNOWN = {
     "attr": "python3-attrs",
     "bs4": "python3-bs4",
@@ -55,7 +55,7 @@ def is_for_ubuntu(entry: Any) -> bool:
 
 
 def import_names(key: str) -> list[str]:
-    """Returns the import that a key of rosdep brings, as far as its name tells."""
+    """Returns the import that a key of rosdep provides, judged by its name."""
     match = re.fullmatch(r"python3?-(.+?)(-pip)?", key)
     if match is None:
         return []

@@ -1,4 +1,4 @@
-"""Names of ROS packages, derived from what users call their projects."""
+"""Names of ROS packages, derived from the titles of projects."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from translator.settings import PROJECT_FILE
 SUFFIX = "_bt"
 MAX_LENGTH = 80
 _VALID = re.compile(r"[a-z][a-z0-9_]*[a-z0-9]")
-# Folders of a colcon workspace and of a package, and the engine that travels along.
+# Folders of a colcon workspace and of a package, and the name of the engine's package.
 _RESERVED = {
     "build",
     "install",
@@ -41,7 +41,7 @@ def package_name(title: str) -> str:
 
 
 def problem_with(name: str) -> str | None:
-    """Tells why a text cannot be the name of a package, or None if it can."""
+    """Returns the reason why a text cannot be the name of a package, or None if it can."""
     if len(name) > MAX_LENGTH + len(SUFFIX):
         return "it is too long"
     if _VALID.fullmatch(name) is None or "__" in name:
@@ -59,7 +59,7 @@ def require_name(name: str) -> str:
     """Returns the name that a user chose.
 
     Raises:
-        TranslatorError: If no ROS package can be called that.
+        TranslatorError: If it is not a valid name of a ROS package.
     """
     problem = problem_with(name)
     if problem is not None:

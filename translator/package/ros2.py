@@ -1,4 +1,4 @@
-"""The ROS 2 package: a colcon workspace's worth of files that builds and runs anywhere."""
+"""The ROS 2 package: all files that a colcon workspace needs to build and run the project."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _VERSION = re.compile(rb'^__version__(?::[^=]+)? = "([^"]+)"', re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Ros2Package:
-    """A package ready to be written: its name, its files by path, and what the user should know."""
+    """A package ready to be written: its name, its files by path, and findings for the user."""
 
     name: str
     files: Mapping[str, bytes]
@@ -70,7 +70,7 @@ def to_ros2_package(project: Project, *, name: str | None = None) -> Ros2Package
         name: The package's name; made from the project's name if not given.
 
     Raises:
-        TranslatorError: If the project has errors, or the name is none for a ROS package.
+        TranslatorError: If the project has errors, or the name is not valid for a ROS package.
     """
     require_sound(project)
     chosen = require_name(name) if name is not None else package_name(project.settings.name)
@@ -132,7 +132,7 @@ class _Builder:
         return result
 
     def own_launch_name(self, path: str) -> str:
-        """Returns the path of a launch file of the project from `launch`, apart from that of the package."""
+        """Returns the path of a project's launch file below `launch`, apart from the package's own."""
         name = path.removeprefix(FOLDER)
         return f"project_{name}" if name == f"{self.name}.launch.py" else name
 
@@ -143,7 +143,7 @@ class _Builder:
         return [self.name, *(f"{self.name}/{folder}" for folder in sorted(folders))]
 
     def values(self) -> dict[str, object]:
-        """Returns what the templates ask for."""
+        """Returns the values of the templates."""
         settings = self.project.settings
         project_files = dict(sorted(self.project.files.items()))
         models = [
@@ -186,7 +186,7 @@ class _Builder:
         }
 
     def endpoints(self) -> list[Endpoint]:
-        """Returns what the actions and the programs open, in order of file and line."""
+        """Returns the endpoints of the actions and the programs, in order of file and line."""
         paths = {path: path for path in self.sources} | {
             path: f"scripts/{name}" for path, name in self.programs.items()
         }
@@ -265,5 +265,5 @@ def render(template: str, **values: object) -> bytes:
 
 
 def templates_folder() -> str:
-    """Returns where the templates are, for tests that look at all of them."""
+    """Returns the folder of the templates, for tests that read all of them."""
     return str(resources.files("translator.package").joinpath("templates"))

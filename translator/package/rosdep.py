@@ -1,4 +1,4 @@
-"""What the imports of actions need: rosdep keys, from a table made of rosdistro's lists."""
+"""The rosdep keys of the imports of actions, by a table made from rosdistro's lists."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def rosdep_table() -> RosdepTable:
 def dependencies(
     actions: Iterable[ActionModel], own_modules: Collection[str]
 ) -> tuple[list[str], list[Diagnostic]]:
-    """Returns the rosdep keys that the actions need, and the imports that map to nothing."""
+    """Returns the rosdep keys that the actions need, and the imports without one."""
     keys: set[str] = set()
     found: list[Diagnostic] = []
     told: set[str] = set()

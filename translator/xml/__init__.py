@@ -1,1 +1,1 @@
-"""BehaviorTree.CPP XML: writing, reading, and changing a file without touching the rest of it."""
+"""BehaviorTree.CPP XML: writing, reading, and changing a part of a file."""

@@ -1,7 +1,7 @@
-"""How a node's properties stand in XML attributes, in both directions.
+"""Converts a node's properties to XML attributes and back.
 
 Attributes that begin with `_` are ignored by BehaviorTree.CPP, but for conditions and `_autoremap`:
-that is where ids, positions, colours and comments travel.
+ids, positions, colours and comments are stored there.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ COLLAPSED = "_bts_collapsed"
 DISABLED = "_bts_disabled"
 COMMENT = "_description"
 METADATA = (COMMENT, ID, POSITION, COLOR, COLLAPSED, DISABLED)
-# A disabled node must be skipped whatever its own conditions say; they wait under other names.
+# A disabled node must be skipped in any case; its own conditions are kept under other names.
 HIDDEN = {name: f"_bts_{name[1:]}" for name in ("_failureIf", "_successIf", "_skipIf")}
 _SHOWN = {hidden: name for name, hidden in HIDDEN.items()}
 _RESERVED = {"name", "ID", *METADATA, *CONDITIONS, *_SHOWN}
 
 
 def is_free(name: str) -> bool:
-    """Whether an attribute may be kept for another program: of its own, and ignored by BehaviorTree.CPP."""
+    """Whether an attribute may be kept for another program: neither ours nor read by BehaviorTree.CPP."""
     return name.startswith("_") and name not in _RESERVED and is_xml_name(name)
 
 

@@ -9,17 +9,17 @@ _TEXT = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "\r": "&#13;"})
 
 
 def attribute(text: str) -> str:
-    """Returns the text as it stands between double quotes."""
+    """Returns the text escaped for double quotes."""
     return text.translate(_ATTRIBUTE)
 
 
 def single_quoted(text: str) -> str:
-    """Returns the text as it stands between single quotes, for files in that style."""
+    """Returns the text escaped for single quotes, for files in that style."""
     return text.replace('"', "\0").translate(_ATTRIBUTE).replace("'", "&apos;").replace("\0", '"')
 
 
 def character_data(text: str) -> str:
-    """Returns the text as it stands between tags."""
+    """Returns the text escaped for content between tags."""
     return text.translate(_TEXT)
 
 

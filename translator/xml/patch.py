@@ -1,6 +1,6 @@
-"""Writing an imported file back: byte for byte where nothing changed, in the file's own style elsewhere.
+"""Writes an imported file back: byte for byte where nothing changed, in the file's own style elsewhere.
 
-Each node of a tree is compared with what the file says of it. The bytes of a start tag are kept
+Each node of a tree is compared with its element in the file. The bytes of a start tag are kept
 unless the node changed; the text between tags (comments, blanks) is kept unless its children did.
 """
 
@@ -31,7 +31,7 @@ def patch_document(document: Document, project: Project, *, added: list[Tree], m
         document: The file as it was imported.
         project: The project now.
         added: Trees to append.
-        main: The main tree to name in the root, or None to leave that as it is.
+        main: The main tree to name in the root, or None to leave it unchanged.
     """
     data = document.source.data
     root = document.source.root
@@ -64,7 +64,7 @@ def patch_document(document: Document, project: Project, *, added: list[Tree], m
 
 @dataclass(frozen=True, slots=True)
 class _Style:
-    """How a file is written: its line end and its step of indentation."""
+    """The style of a file: its line end and its step of indentation."""
 
     newline: str
     indent: str
@@ -118,7 +118,7 @@ class _Patch:
         self._index(source)
 
     def _index(self, source: TreeSource) -> None:
-        """Notes for each node the blanks and comments in front of it, and each element's children."""
+        """Stores for each node the blanks and comments before it, and each element's children."""
         names = {id(element): node_id for node_id, element in source.elements.items()}
         for element in source.element.walk():
             position = element.open_end
@@ -156,7 +156,7 @@ class _Patch:
         return f"{opening}{newline}{body}{newline}{self.style.indent}</{element.tag}>".encode()
 
     def node(self, node: Node, depth: int) -> bytes:
-        """Returns a node and what hangs below it."""
+        """Returns a node and its descendants."""
         element = self.source.elements.get(node.id)
         if element is None:
             return self._new_node(node, depth)
@@ -178,7 +178,7 @@ class _Patch:
         return _rewritten(opening, tag, element, wanted)
 
     def _new_node(self, node: Node, depth: int) -> bytes:
-        """Writes a node that the file does not have; below it may hang some that it has."""
+        """Writes a node that the file does not have; its descendants may be in the file."""
         lead = self.style.indent * (depth - 1)
         single = Tree(self.tree_now.id, node.id, {node.id: replace(node, children=())})
         line = next(iter(node_lines(single, node.id, self.project, depth=0, indent="")))

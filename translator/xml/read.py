@@ -42,7 +42,7 @@ class TreeSource:
 
 @dataclass(slots=True)
 class Document:
-    """What one XML file holds."""
+    """The content of one XML file."""
 
     source: Source
     is_v4: bool
@@ -61,10 +61,10 @@ class Document:
 
 
 def read_document(raw: bytes | str, *, file: str) -> Document:
-    """Reads one document; findings that leave something to read are in its `diagnostics`.
+    """Reads one document; findings that do not prevent reading are in its `diagnostics`.
 
     Raises:
-        TranslatorError: If the text is no XML that we take, or no behaviour tree.
+        TranslatorError: If the text is not XML that we accept, or not a behaviour tree.
     """
     source = parse_source(raw, file=file)
     root = source.root
@@ -153,7 +153,7 @@ class _Reader:
         return result
 
     def node_ids(self, tree: Element, explicit: set[str]) -> dict[int, str]:
-        """Gives each element its id: the one it carries, else the next free `n<number>` in pre-order."""
+        """Sets each element's id: the one it carries, else the next free `n<number>` in pre-order."""
         ids: dict[int, str] = {}
         used: set[str] = set()
         number = 0

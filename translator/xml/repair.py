@@ -1,6 +1,6 @@
-"""Bare `&` and `<` in attributes: BehaviorTree.CPP's parser lets them pass, XML does not.
+"""Bare `&` and `<` in attributes: BehaviorTree.CPP's parser accepts them, XML does not.
 
-What would be changed is found and offered; nothing is changed unless the user asks for it.
+Repairs are found and offered; nothing is changed unless the user asks for it.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MAX_REPAIRS = 1000
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """One character to be written otherwise; `offset` is its place in the text."""
+    """One character to be escaped; `offset` is its place in the text."""
 
     offset: int
     before: str
@@ -53,7 +53,7 @@ def repaired(text: str, repairs: list[Repair]) -> str:
 
 
 def offers(text: str, repairs: list[Repair], file: str) -> list[Diagnostic]:
-    """Returns a finding for each repair: what would be changed, and where."""
+    """Returns a finding for each repair: the change, and its place."""
     return [
         diagnostic(
             "BT0740", _place(text, item.offset, file), before=item.before, after=item.after, value=item.shown

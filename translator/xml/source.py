@@ -1,4 +1,4 @@
-"""Reading XML from outside: guarded, and with the place of every tag.
+"""Reads foreign XML: guarded, and with the place of every tag.
 
 The standard library's expat gives line, column and byte offset. No DTD, no entities of the document's
 own, nothing from the network; size, depth, elements and attributes are bounded.
@@ -74,7 +74,7 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
     """Parses a document.
 
     Raises:
-        TranslatorError: If it is not well formed, or not such as we take from strangers.
+        TranslatorError: If it is not well formed, or exceeds the limits for foreign files.
     """
     if len(raw) > MAX_BYTES:
         limit = f"{MAX_BYTES // (1024 * 1024)} MB"
@@ -92,7 +92,7 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
 
 
 def repair_source(raw: bytes) -> bytes:
-    """Returns the file with bare characters in attributes escaped, if it can be read then; else as it is."""
+    """Returns the file with bare characters in attributes escaped if that makes it readable, else as is."""
     try:
         text, encoding, bom = _decode(raw, "")
         _Builder("", text.encode("utf-8")).parse()

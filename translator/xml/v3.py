@@ -1,4 +1,4 @@
-"""BehaviorTree.CPP v3 as v4: names and attributes that changed, each change told."""
+"""Converts BehaviorTree.CPP v3 to v4: names and attributes that changed, with a note for each."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ PORTS = {
 CHECKS = {"BlackboardCheckInt", "BlackboardCheckDouble", "BlackboardCheckBool", "BlackboardCheckString"}
 
 
-# How something was written, and how it is written now.
+# The old form, and the new one.
 Change = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
 class Upgraded:
-    """A node as v4 has it, and what changed."""
+    """A node in the form of v4, and the changes."""
 
     type: str
     attributes: Mapping[str, str]

@@ -1,4 +1,4 @@
-"""Writing BehaviorTree.CPP v4 XML: deterministic, one node a line."""
+"""Writes BehaviorTree.CPP v4 XML: deterministic, one node a line."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def tree_lines(tree: Tree, project: Project, *, depth: int, indent: str = INDENT
 def node_lines(
     tree: Tree, start: str, project: Project, *, depth: int, indent: str = INDENT
 ) -> Iterator[str]:
-    """Yields the lines of a branch; never recurses, so that depth is no matter."""
+    """Yields the lines of a branch, without recursion: trees may be deep."""
     stack: list[tuple[str, int, bool]] = [(start, depth, False)]
     while stack:
         node_id, level, closing = stack.pop()
@@ -91,7 +91,7 @@ def node_lines(
 
 
 def tag_of(node: Node, project: Project) -> str:
-    """Returns the tag: the type itself, or the explicit form where XML cannot have the type as a name."""
+    """Returns the tag: the type itself, or the explicit form where the type is not a valid XML name."""
     if node.type == SUBTREE or is_xml_name(node.type):
         return node.type
     model = project.model(node.type) or project.imported_model(node.type)

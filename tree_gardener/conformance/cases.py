@@ -23,11 +23,11 @@ _TYPES = {"queue_int": "list[int]", "queue_string": "list[string]", "queue_doubl
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
-    """What came of a case.
+    """The result of a case.
 
     Attributes:
         name: of the case.
-        differences: what is not as BehaviorTree.CPP has it.
+        differences: each point that differs from BehaviorTree.CPP.
         deviation: the name of the known reason of the differences (`DEVIATIONS`), or "".
     """
 
@@ -132,7 +132,7 @@ class _Run:
         return self.tree.tick_exactly_once()
 
     def differences(self) -> Iterator[str]:
-        """Runs the case and tells what is not as expected."""
+        """Runs the case and returns what differs from its expectation."""
         yield from self.compare_nodes()
         for index, expected in enumerate(self.case["expected"]):
             self.before(index)
@@ -157,7 +157,7 @@ class _Run:
             yield from self.compare_state("halt", self.case["final_halt"])
 
     def before(self, index: int) -> None:
-        """Does what the case does before a tick."""
+        """Applies the case's steps that come before a tick."""
         for operation in self.case.get("before", {}).get(str(index), []):
             kind = operation["op"]
             if kind == "script":

@@ -1,4 +1,4 @@
-"""Where the engine differs from BehaviorTree.CPP on purpose, and how a run is known to be one of these.
+"""The deliberate differences from BehaviorTree.CPP, and the way to recognise them in a run.
 
 A case whose differences have such a reason is no failure: its outcome carries the reason's name.
 """
@@ -17,7 +17,7 @@ DEVIATIONS: Final = {
 
 
 class WatchedBlackboard(Blackboard):
-    """A blackboard that notes the deviations that a run comes to."""
+    """A blackboard that records the deviations that occur in a run."""
 
     __slots__ = ("deviations",)
 
@@ -26,7 +26,7 @@ class WatchedBlackboard(Blackboard):
         self.deviations: set[str] = parent.deviations if isinstance(parent, WatchedBlackboard) else set()
 
     def create(self, key: str, kind: ValueType | None) -> Entry:
-        """Declares an entry, and notes when a remap leads to a global."""
+        """Declares an entry, and records a remap that leads to a global entry."""
         if _leads_to_global(self, key):
             self.deviations.add("global-through-remap")
         return super().create(key, kind)

@@ -1,4 +1,4 @@
-"""The leaves that the cases are made of. Each callback leaves an event."""
+"""The leaves that the cases are made of. Each callback records an event."""
 
 from typing import Any, ClassVar
 
@@ -26,7 +26,7 @@ class Trace:
         self.events: list[str] = []
 
     def take(self) -> list[str]:
-        """The events since the last time."""
+        """Returns the events since the last call, and forgets them."""
         events, self.events = self.events, []
         return events
 
@@ -68,7 +68,7 @@ class Leaf(_Scripted):
     """A StatefulAction."""
 
     def initialise(self) -> None:
-        """Makes the next event a start."""
+        """Marks the next event as a start."""
         self.word = "start"
 
     def update(self) -> Any:
@@ -78,7 +78,7 @@ class Leaf(_Scripted):
         return self.next_result()
 
     def terminate(self, new_status: PyTreesStatus) -> None:
-        """Notes a halt."""
+        """Records a halt."""
         if new_status is PyTreesStatus.INVALID:
             self.event(f"halt:{self.path}")
 

@@ -7,7 +7,7 @@ from tree_gardener.status import IDLE, RUNNING, Status
 
 
 class Ordered(Control):
-    """Ticks its children in order: `GOES_ON` of a child has it go on, `ENDS` ends it.
+    """Ticks its children in order: after `GOES_ON` of a child it continues, `ENDS` ends it.
 
     A RUNNING child is resumed at the next tick. When a child ends it, all are reset, and the next tick starts
     at the first. SKIPPED children are passed over; if all of them were, over all ticks of this activation, it
@@ -45,7 +45,7 @@ class Ordered(Control):
         return self.finish_all(goes_on)
 
     def go_on(self, index: int, status: Status) -> Status:
-        """Goes on after the child at `index` returned `status`."""
+        """Continues after the child at `index` returned `status`."""
         ticks, goes_on, ends = self.ticks, self.GOES_ON, self.ENDS
         while True:
             if status is RUNNING:
@@ -65,7 +65,7 @@ class Ordered(Control):
         return self.end_with_skips() if self.skips else self.finish(goes_on)
 
     def end_with_skips(self) -> Status:
-        """The end of an activation in which children were skipped."""
+        """Ends an activation in which children were skipped."""
         all_skipped = self.skips == len(self.ticks)
         self.skips = 0
         return self.finish_skipped() if all_skipped else self.finish(self.GOES_ON)
@@ -109,6 +109,6 @@ class Yielding(Ordered):
         return self.end_with_skips()
 
     def end_early(self) -> Status:
-        """What happens when a child returned `ENDS`."""
+        """Ends the activation after a child returned `ENDS`."""
         self.index = 0
         return self.finish(self.ENDS)

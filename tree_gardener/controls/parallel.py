@@ -15,13 +15,13 @@ class _Parallel(Control):
         self.forget()
 
     def forget(self) -> None:
-        """Starts to count anew."""
+        """Resets the counts."""
         self.done: set[int] = set()
         self.successes = 0
         self.failures = 0
 
     def threshold(self, value: int) -> int:
-        """A count of children; a negative one counts from the number of children: -1 means all."""
+        """Returns a count of children; a negative one counts from the number of children: -1 means all."""
         return value if value >= 0 else max(len(self.children) + value + 1, 0)
 
     def halt(self) -> None:

@@ -9,7 +9,7 @@ from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 class _Reactive(Control):
     """Ticks its children from the first at every tick.
 
-    It goes on after one that returned `GOES_ON`, and ends at one that returned `ENDS`. A SKIPPED child is
+    It continues after one that returned `GOES_ON`, and ends at one that returned `ENDS`. A SKIPPED child is
     halted at once; if all were skipped in this tick, it is SKIPPED, else `GOES_ON`.
     """
 
@@ -37,7 +37,7 @@ class _Reactive(Control):
         return self.finish_skipped() if all_skipped else self.finish(goes_on)
 
     def running_at(self, index: int) -> Status:
-        """A child is RUNNING: all others are halted, the earlier ones too, so that they start afresh."""
+        """Halts all children but the RUNNING one: the earlier ones too, so that they start again."""
         if self.journal is not None:
             self.journal.reset([child for position, child in enumerate(self.children) if position != index])
             return RUNNING

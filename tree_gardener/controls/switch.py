@@ -47,7 +47,7 @@ class Switch(Control):
         return self.skipped() if status is SKIPPED else self.finish(status)
 
     def choose(self, cases: int) -> int:
-        """Index of the child to tick."""
+        """Returns the index of the child to tick."""
         try:
             variable = read_port(self, "variable")
         except PortError:

@@ -19,7 +19,7 @@ class TryCatch(Control):
         self.forget()
 
     def forget(self) -> None:
-        """Starts anew."""
+        """Returns to the first child."""
         self.index = 0
         self.skips = 0
         self.catching = False

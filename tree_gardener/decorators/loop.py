@@ -58,7 +58,7 @@ class Loop(Decorator):
         return RUNNING if self.ticked else before
 
     def refill(self, starts: bool) -> None:  # noqa: FBT001 - private to this rule
-        """Finds the queue to take the next element from."""
+        """Sets the queue that the next element is taken from."""
         text = self.ports.get("queue", "")
         key = pointer_key(text, "queue")
         if key is None:
@@ -80,7 +80,7 @@ class Loop(Decorator):
                 raise TickError(self, f"port 'queue': the entry '{key}': {error}") from None
 
     def empty(self) -> Status:
-        """No element is left."""
+        """Ends the loop: no element is left."""
         result: Status = self.get("if_empty")
         if result is SUCCESS or result is FAILURE:
             # A child that was skipped in the middle of its work is not halted here, as in BehaviorTree.CPP.

@@ -47,7 +47,7 @@ class Precondition(Decorator):
             raise TickError(self, f"in the script '{text}': {error}") from None
 
     def refuse(self, otherwise: Status) -> Status:
-        """The script is false."""
+        """Returns the result for a script that is false."""
         if otherwise is SUCCESS or otherwise is FAILURE:
             return self.complete(otherwise)
         if otherwise is SKIPPED:

@@ -18,17 +18,17 @@ class _Counting(Decorator):
         super().halt()
 
     def end(self, status: Status) -> Status:
-        """The child gave the result."""
+        """Handles the result that the cycle counts."""
         self.count = 0
         return self.finish(status)
 
     def exhausted(self, status: Status) -> Status:
-        """No cycle remains: the child was reset already, or is left as it is, as in BehaviorTree.CPP."""
+        """Ends without a reset: the child was reset already, or keeps its status as in BehaviorTree.CPP."""
         self.count = 0
         return self.complete(status)
 
     def child_skipped(self) -> Status:
-        """The child was skipped: it is reset and the count is kept."""
+        """Resets a skipped child and keeps the count."""
         self.reset()
         return self.skipped()
 
@@ -36,8 +36,8 @@ class _Counting(Decorator):
 class Repeat(_Counting):
     """Ticks its child again each time it succeeds, `num_cycles` times.
 
-    -1 repeats for ever, 0 succeeds at once. Between two cycles it wakes the tree up and returns RUNNING if
-    the child succeeded within one tick; a child that was RUNNING before starts its next cycle in the same
+    -1 repeats endlessly, 0 succeeds immediately. Between two cycles it wakes the tree up and returns RUNNING
+    if the child succeeded within one tick; a child that was RUNNING before starts its next cycle in the same
     tick. A failure ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every
     tick.
     """
@@ -69,8 +69,8 @@ class Repeat(_Counting):
 class RetryUntilSuccessful(_Counting):
     """Ticks its child again each time it fails, `num_attempts` times.
 
-    -1 retries for ever, 0 fails at once. Between two attempts it wakes the tree up and returns RUNNING if the
-    child failed within one tick; a child that was RUNNING before starts its next attempt in the same tick. A
+    -1 retries endlessly, 0 fails immediately. Between two attempts it wakes the tree up and returns RUNNING if
+    the child failed within one tick; a child that was RUNNING before starts its next attempt in the same tick. A
     success ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every tick and
     after every failure.
     """

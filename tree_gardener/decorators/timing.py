@@ -99,7 +99,7 @@ class Timeout(Decorator):
             self.tree.wake_up = True
 
     def cancel(self) -> None:
-        """Ends the measuring."""
+        """Cancels the timer."""
         self.started = False
         if self.timer is not None:
             self.timer.cancel()

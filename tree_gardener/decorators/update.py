@@ -40,7 +40,7 @@ class _WhenUpdated(Decorator):
         return self.skipped()
 
     def is_updated(self) -> bool:
-        """Looks at the entry."""
+        """Whether the entry was written since the last look; remembers this look."""
         entry = self.board.find(self.key)
         if entry is None:
             return False
@@ -55,7 +55,7 @@ class _WhenUpdated(Decorator):
 class SkipUnlessUpdated(_WhenUpdated):
     """Is SKIPPED unless a blackboard entry was written since the last look.
 
-    Any write counts, also of an equal value. While the child is RUNNING it is ticked on without looking.
+    Any write counts, also of an equal value. While the child is RUNNING it is ticked without another look.
     """
 
     __slots__ = ()
@@ -65,7 +65,7 @@ class SkipUnlessUpdated(_WhenUpdated):
 class WaitValueUpdate(_WhenUpdated):
     """Is RUNNING until a blackboard entry was written since the last look, then ticks its child.
 
-    Any write counts, also of an equal value. While the child is RUNNING it is ticked on without looking.
+    Any write counts, also of an equal value. While the child is RUNNING it is ticked without another look.
     """
 
     __slots__ = ()

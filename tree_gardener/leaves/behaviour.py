@@ -33,7 +33,7 @@ class BehaviourLeaf(Leaf):
         self.instance_behaviour: Any = None
 
     def bind(self, behaviour: Any) -> None:
-        """Takes the behaviour that this node ticks."""
+        """Sets the behaviour that this node ticks."""
         self.instance_behaviour = behaviour
         self.update: Callable[[], Any] = behaviour.update
         self.initialise: Callable[[], Any] | None = _overridden(behaviour, "initialise")
@@ -55,7 +55,7 @@ class BehaviourLeaf(Leaf):
         self.status = IDLE
 
     def end(self, result: Status) -> Status:
-        """The behaviour succeeded or failed."""
+        """Ends the activation: the behaviour succeeded or failed."""
         py_status = PY_SUCCESS if result is SUCCESS else PY_FAILURE
         if self.terminate is not None:
             self.terminate(py_status)
@@ -63,7 +63,7 @@ class BehaviourLeaf(Leaf):
         return self.complete(result)
 
     def translate(self, returned: Any) -> Status:
-        """Makes one of our statuses of what update() returned, the rare cases."""
+        """Converts what update() returned to one of our statuses, in the rare cases."""
         if returned is PY_FAILURE:
             return FAILURE
         if returned is PY_SUCCESS:
@@ -72,7 +72,7 @@ class BehaviourLeaf(Leaf):
             return RUNNING
         if isinstance(returned, Status) and returned is not IDLE:
             return returned
-        if returned is PY_INVALID:  # py_trees' composites take it for a failure
+        if returned is PY_INVALID:  # py_trees' composites treat it as a failure
             self.tree.warn(self, f"{self.type}.update() returned Status.INVALID, which counts as FAILURE")
             return FAILURE
         name = self.type
@@ -83,7 +83,7 @@ class BehaviourLeaf(Leaf):
         raise TickError(self, f"{name}.update() returned {returned!r}, which is no result of a tick")
 
     def failed(self, error: Exception | SystemExit) -> Status:
-        """The behaviour raised: the tick ends with an error, or the node fails, as the tree is configured."""
+        """Handles an exception: the tick ends with an error, or the node fails, as the tree is configured."""
         located = error if isinstance(error, TickError) else TickError(self, describe(error), error)
         if self.tree.on_error is None:
             raise located from error
@@ -92,7 +92,7 @@ class BehaviourLeaf(Leaf):
         return self.complete(FAILURE)
 
     def raise_error(self, error: Exception | SystemExit) -> NoReturn:
-        """Names the node of an error."""
+        """Raises a TickError that names the node."""
         raise TickError(self, describe(error), error) from error
 
 
@@ -142,7 +142,7 @@ class StatefulLeaf(BehaviourLeaf):
 
 
 class ImmediateLeaf(BehaviourLeaf):
-    """A SyncAction: each tick is a whole activation, whatever the status; RUNNING is an error."""
+    """A SyncAction: each tick is a whole activation, in any status; RUNNING is an error."""
 
     __slots__ = ()
     ALLOWS_RUNNING = False
@@ -170,7 +170,7 @@ class ImmediateLeaf(BehaviourLeaf):
 
 
 class ConditionLeaf(ImmediateLeaf):
-    """A Condition: asked at every tick, whatever its status."""
+    """A Condition: evaluated at every tick, in any status."""
 
     __slots__ = ()
     KIND = Kind.CONDITION

@@ -5,7 +5,7 @@ from tree_gardener.status import FAILURE, SUCCESS, Status
 
 
 class AlwaysSuccess(SyncLeaf):
-    """Succeeds at once."""
+    """Always succeeds, within one tick."""
 
     __slots__ = ()
 
@@ -14,7 +14,7 @@ class AlwaysSuccess(SyncLeaf):
 
 
 class AlwaysFailure(SyncLeaf):
-    """Fails at once."""
+    """Always fails, within one tick."""
 
     __slots__ = ()
 

@@ -55,7 +55,7 @@ class SetBlackboard(SyncLeaf):
         return SUCCESS
 
     def parsed(self, text: str, kind: ValueType | None) -> Any:
-        """A text as a value of the entry's type."""
+        """Returns a text as a value of the entry's type."""
         if kind is None:
             return EMPTY
         if kind is ANY:
@@ -67,7 +67,7 @@ class SetBlackboard(SyncLeaf):
 
 
 def _copied_type(value: Any, kind: ValueType | None) -> ValueType | None:
-    """The type that a copied value has: that of its entry, or what scripts make."""
+    """Returns the type of a copied value: that of its entry, or the type that scripts give it."""
     if kind is not None and kind.is_strong:
         return kind
     if isinstance(value, str):

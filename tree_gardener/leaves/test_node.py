@@ -1,4 +1,4 @@
-"""TestNode, which substitution rules put in the place of other nodes."""
+"""TestNode, which replaces other nodes by substitution rules."""
 
 import dataclasses
 from typing import TYPE_CHECKING
@@ -17,15 +17,19 @@ _BY_NUMBER = (IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED)
 
 @dataclasses.dataclass(frozen=True)
 class TestConfig:
-    """What a TestNode does.
+    """The configuration of a TestNode.
 
-    Attributes: return_status: its result. return_status_script: a script whose value is the result, by name
-        or number; goes before `return_status`. async_delay_s: how long it is RUNNING before. success_script:
-        runs when the result is SUCCESS. failure_script: runs when the result is FAILURE. post_script: runs in
-        either case.
+    Attributes:
+        return_status: its result.
+        return_status_script: a script whose value is the result, by name or number; goes before
+            `return_status`.
+        async_delay_s: how long it is RUNNING before.
+        success_script: runs when the result is SUCCESS.
+        failure_script: runs when the result is FAILURE.
+        post_script: runs in either case.
     """
 
-    __test__ = False  # the name is BehaviorTree.CPP's; pytest shall not collect it
+    __test__ = False  # the name is BehaviorTree.CPP's; pytest must not collect it
 
     return_status: Status = SUCCESS
     return_status_script: str = ""
@@ -38,7 +42,7 @@ class TestConfig:
 class TestNode(Leaf):
     """Stands in for another node in tests; made by substitution rules.
 
-    It is RUNNING for `async_delay` milliseconds, then runs its scripts and returns the status it was told.
+    It is RUNNING for `async_delay` milliseconds, then runs its scripts and returns the configured status.
     """
 
     __test__ = False
@@ -88,7 +92,7 @@ class TestNode(Leaf):
         return self.complete(result)
 
     def result(self) -> Status:
-        """The status that it was told to return."""
+        """Returns the configured status."""
         if not self.config.return_status_script:
             return self.config.return_status
         value = self.script(self.config.return_status_script)

@@ -1,6 +1,6 @@
 """The script language of BehaviorTree.CPP: lexer, parser and evaluator, all with positions.
 
-`parse` gives the syntax tree, for checks while a user types; `compile_script` gives something that runs.
+`parse` returns the syntax tree, for checks while a user types; `compile_script` returns a script that runs.
 """
 
 from tree_gardener.errors import ScriptError

@@ -42,7 +42,7 @@ TWO_TO_63: Final = 2.0**63
 
 
 class Environment:
-    """What a script runs on: a scope of the blackboard, the constants, and who writes."""
+    """The environment of a script: a scope of the blackboard, the constants, and the uid that writes."""
 
     __slots__ = ("board", "enums", "writer")
 
@@ -153,7 +153,7 @@ def _number(value: Any, expression: Expression) -> float:
 
 
 def _real(number: float, span: Span) -> float:
-    """A number as the double that scripts compute with."""
+    """Returns a number as the double that scripts compute with."""
     if isinstance(number, int) and abs(number) >= EXACT:
         hint = f"scripts compute with integers below {EXACT}"
         raise ScriptError(span, f"{number} is too large to compute with", hint)
@@ -167,7 +167,7 @@ def _kind(value: Any) -> str:
 def _complement(value: float) -> float:
     if value < -TWO_TO_63 or value > TWO_TO_63:
         raise ConversionError(f"'~' works on integers of 64 bits, not on {format_number(value)}")
-    # What is no number, and the first double beyond all integers, become the smallest, as on the processor.
+    # NaN, and doubles from 2^63 on, become the smallest integer, as x86's conversion does.
     return float(~int(value if value < TWO_TO_63 else -TWO_TO_63))
 
 
@@ -182,7 +182,7 @@ def _divide(left: float, right: float) -> float:
     if right:
         return float(left) / float(right)
     if not left or math.isnan(left):
-        return left if left else -math.nan  # the sign that processors give it, which its text shows
+        return left if left else -math.nan  # the sign that x86 gives NaN, which its text shows
     return math.copysign(math.inf, left) * math.copysign(1.0, right)
 
 
@@ -271,7 +271,7 @@ def _equal(left: Any, right: Any) -> bool:
 _COMPARE: Final[dict[str, Callable[[Any, Any], bool]]] = {
     "==": _equal,
     "!=": lambda left, right: not _equal(left, right),
-    # Refused by the opposite, as in BehaviorTree.CPP: what is no number is less and greater than all.
+    # Tested by the opposite, as in BehaviorTree.CPP: NaN is less and greater than all.
     "<": lambda left, right: not left >= right,
     ">": lambda left, right: not left <= right,
     "<=": lambda left, right: not left > right,
@@ -373,7 +373,7 @@ def _assignment(expression: Assignment) -> Evaluator:
 
 
 def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) -> Any:
-    """The value that an entry gets when `value` is assigned to it."""
+    """Returns the value that an entry gets when `value` is assigned to it."""
     old = entry.value
     if old is EMPTY and entry.type is None:
         return value
@@ -396,7 +396,7 @@ def _assigned(entry: Entry, value: Any, environment: Environment, span: Span) ->
 
 
 def _copied(entry: Entry, value: Any, span: Span) -> Any:
-    """Keeps the kind of number that the entry holds; BT.CPP's ``Any::copyInto``."""
+    """Converts to the kind of number that the entry holds, as BT.CPP's ``Any::copyInto``."""
     old = entry.value
     if old is EMPTY or type(old) is type(value):
         return value

@@ -42,7 +42,7 @@ class Token:
 
     @property
     def end(self) -> int:
-        """Offset behind the last character."""
+        """The offset behind the last character."""
         return self.start + len(self.text)
 
 
@@ -50,7 +50,7 @@ def tokenize(text: str) -> list[Token]:
     """Splits a script into tokens; the last one is of kind ``end``.
 
     Raises:
-        ScriptError: there is something that is no token.
+        ScriptError: a character begins no token.
     """
     tokens = []
     position = 0

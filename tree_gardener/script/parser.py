@@ -141,7 +141,7 @@ class _Parser:
         return _atom(token)
 
     def prefixed(self) -> Expression:
-        """Reads prefixes in a loop, so that a long row of them needs no deep recursion."""
+        """Reads prefixes in a loop: recursion would overflow on a long row of them."""
         prefixes = []
         while self.token.kind == "operator" and self.token.text in PREFIXES:
             prefixes.append(self.token)

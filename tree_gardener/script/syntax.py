@@ -63,7 +63,7 @@ class Conditional(Expression):
 
 @dataclasses.dataclass(frozen=True)
 class Assignment(Expression):
-    """``target := value`` and its relatives; that the target is a name is only tested when it runs."""
+    """``target := value`` and its relatives; whether the target is a name is tested only when it runs."""
 
     operator: str
     target: Expression
@@ -79,7 +79,7 @@ class Program:
 
 
 def walk(expression: Expression) -> Iterator[Expression]:
-    """The expression and all its parts, in the order of the text."""
+    """Yields the expression and all its parts, in the order of the text."""
     yield expression
     for part in _parts(expression):
         yield from walk(part)
@@ -100,7 +100,7 @@ def _parts(expression: Expression) -> tuple[Expression, ...]:
 
 
 def names_written(program: Program) -> list[Name]:
-    """The names that the script assigns to."""
+    """Returns the names that the script assigns to."""
     return [
         part.target
         for statement in program.statements
@@ -110,7 +110,7 @@ def names_written(program: Program) -> list[Name]:
 
 
 def names_read(program: Program) -> list[Name]:
-    """The names whose value the script needs; a name that is only created by ``:=`` is not among them."""
+    """Returns the names whose value the script needs, without those that it only creates by ``:=``."""
     created = {
         id(part.target)
         for statement in program.statements

@@ -69,10 +69,10 @@ class Repeat(_Counting):
 class RetryUntilSuccessful(_Counting):
     """Ticks its child again each time it fails, `num_attempts` times.
 
-    -1 retries endlessly, 0 fails immediately. Between two attempts it wakes the tree up and returns RUNNING if
-    the child failed within one tick; a child that was RUNNING before starts its next attempt in the same tick. A
-    success ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every tick and
-    after every failure.
+    -1 retries endlessly, 0 fails immediately. Between two attempts it wakes the tree up and returns RUNNING
+    if the child failed within one tick; a child that was RUNNING before starts its next attempt in the same
+    tick. A success ends it. A skipped child makes it SKIPPED and keeps the count. The port is read at every
+    tick and after every failure.
     """
 
     __slots__ = ()

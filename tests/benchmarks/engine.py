@@ -1,6 +1,6 @@
 """The engine beside stock py_trees and BehaviorTree.CPP with Python leaves, on the same trees in one run.
 
-Times are of the processor, so that other programs disturb less; ratios are what to look at.
+Times are of the processor, so that other programs disturb less; compare the ratios.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ FAN = 10
 
 
 class Succeed(py_trees.behaviour.Behaviour):
-    """Succeeds at once."""
+    """Always succeeds."""
 
     def update(self) -> PyTreesStatus:
         """Succeeds."""
@@ -36,10 +36,10 @@ class Succeed(py_trees.behaviour.Behaviour):
 
 
 class Run(py_trees.behaviour.Behaviour):
-    """Is RUNNING for ever."""
+    """Is always RUNNING."""
 
     def update(self) -> PyTreesStatus:
-        """Goes on."""
+        """Returns RUNNING."""
         return PyTreesStatus.RUNNING
 
 

@@ -1,7 +1,7 @@
-"""What one client's flood of commands does to another: a viewer sends 20,000, while the driver drives.
+"""Effect of one client's flood of commands on another: a viewer sends 20,000 while the driver drives.
 
 Both are clients of a session that runs, first at the manager itself, then through the web server. The flood
-comes from a process of its own and is sent as fast as it is taken.
+comes from a process of its own and is sent as fast as it is accepted.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ async def answered(socket: ClientConnection, command: str, data: Any, request: s
 async def repeated(
     every_s: float, once: Callable[[int], Awaitable[None]], until: Callable[[], bool]
 ) -> list[float]:
-    """How long each took, in ms."""
+    """Returns the duration of each command, in ms."""
     times, n = [], 0
     while not until():
         began = time.monotonic()

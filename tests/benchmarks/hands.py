@@ -1,4 +1,4 @@
-"""What a hand does on the canvas, one step of the mouse at a time."""
+"""Gestures on the canvas, one step of the mouse at a time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from playwright.sync_api import Locator, Page
 
-    # A gesture stops after each step, so that whoever measures can give it a frame and look.
+    # A gesture stops after each step, so that the measuring code can wait for a frame and measure it.
     Gesture = Callable[[Page, Locator, int], Iterator[None]]
 
 SETTLED_MS = 600
@@ -29,7 +29,7 @@ def pan(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
 
 
 def drag(page: Page, canvas: Locator, steps: int) -> Iterator[None]:
-    """Carries a leaf around over its siblings, and lets it go where it was taken."""
+    """Drags a leaf over its siblings, and drops it at its old place."""
     x, y = leaf_of(canvas)
     page.mouse.move(x, y)
     page.mouse.down()
@@ -62,14 +62,14 @@ def leaf_of(canvas: Locator) -> tuple[float, float]:
 
 
 def read_at_full_size(page: Page, canvas: Locator) -> None:
-    """Goes to a leaf at the size at which one reads."""
+    """Shows a leaf at a readable size."""
     page.mouse.click(*leaf_of(canvas))
     page.get_by_role("button", name="Zoom to the selection").click()
     page.wait_for_timeout(SETTLED_MS)
 
 
 def use_keys(page: Page, canvas: Locator) -> Iterator[str]:
-    """Selects, walks, adds, edits and removes; after each step its name, when its picture is there."""
+    """Selects, walks, adds, edits and removes; yields the name of each step once it is drawn."""
     page.mouse.click(*leaf_of(canvas))
     yield "select"
     for key, name in (

@@ -101,7 +101,7 @@ async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
 
 
 async def stop_manager(session: HangingSession) -> tuple[float, float]:
-    """Stops a manager; returns after how many seconds the watch noted that, and had it given up and ended."""
+    """Stops a manager; returns the seconds until the watch noted that, and until it ended the manager."""
     from backend.sessions import actions, watch
 
     actions.manager_token = lambda _: TOKEN
@@ -124,7 +124,7 @@ async def stop_manager(session: HangingSession) -> tuple[float, float]:
 
 
 def tell(times: Times) -> list[str]:
-    """Prints the figures; returns what took too long."""
+    """Prints the figures; returns those that took too long."""
     late = []
     for kind, pairs in times.items():
         limit_s = MANAGER_REPORTED_WITHIN_S if kind == "manager" else REPORTED_WITHIN_S

@@ -58,7 +58,7 @@ def looks(page: Page, minutes: float) -> list[tuple[float, float]]:
 
 
 def heap_mb(cdp: CDPSession) -> float:
-    """What the page's script holds."""
+    """Returns the heap of the page's script in MB."""
     cdp.send("HeapProfiler.collectGarbage")
     used: float = cdp.send("Runtime.getHeapUsage")["usedSize"]
     return used / 1e6

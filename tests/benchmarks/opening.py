@@ -1,8 +1,8 @@
-"""How long a project of 500 files takes to open: the server's part, from the request to the whole answer.
+"""The time to open a project of 500 files: the server's part, from the request to the whole answer.
 
 `python -m tests.benchmarks opening [--files 500]`. Cold is the first time after the start of the server, when
-nothing of the project has been read yet; warm is every other time. The processor time is told beside, since
-on a busy machine the clock says little.
+nothing of the project has been read yet; warm is every other time. The processor time is printed too, since
+wall time means little on a busy machine.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which blocks of the canvas React renders: what its developer tools would be told, heard in any build."""
+"""Counts the blocks of the canvas that React renders, by the hook of its developer tools, in any build."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from playwright.sync_api import BrowserContext, Page
 
-# React tells this hook of every commit. A component did its work in it if its fibre carries the flag
+# React calls this hook at every commit. A component rendered in it if its fibre carries the flag
 # (1) that React sets for these very tools; a subtree that was passed over keeps its child.
 _HOOK = """
 window.rendered = { blocks: [], frames: [] };

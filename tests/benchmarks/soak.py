@@ -27,7 +27,7 @@ GROWTH_FDS = 4
 
 @dataclass
 class Sample:
-    """What the session used, with the application just started."""
+    """The resources of the session, with the application just started."""
 
     cycle: int
     manager_mb: float

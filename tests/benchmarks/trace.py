@@ -1,4 +1,4 @@
-"""What the browser's main thread did, from a trace of the DevTools protocol."""
+"""The work of the browser's main thread, from a trace of the DevTools protocol."""
 
 from __future__ import annotations
 

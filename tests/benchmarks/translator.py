@@ -71,7 +71,7 @@ def measured(work: Callable[[], object]) -> tuple[float, float]:
 
 
 def works(size: int) -> dict[str, Callable[[], object]]:
-    """What is measured, by name."""
+    """Returns the measured functions, by name."""
     files = project_files(Settings(), [made_tree(size)]) | {"actions/Forward.py": SOURCE.encode()}
     project = load(files)
     xml = to_xml(project)

@@ -17,7 +17,7 @@ SDF = """\
 """
 
 
-def test_a_world_becomes_a_universe_and_the_rest_is_told(tmp_path, capsys):
+def test_a_world_becomes_a_universe_and_the_rest_is_reported(tmp_path, capsys):
     source = tmp_path / "yard.sdf"
     source.write_text(SDF)
     import_universe(source)

@@ -81,7 +81,7 @@ def test_a_run_ends_when_nobody_reads_what_it_prints():
 
 @pytest.mark.simulation
 @pytest.mark.parametrize("how", [["--lockstep"], []])
-def test_an_action_that_raises_is_told_with_its_line(tmp_path, how):
+def test_an_action_that_raises_is_reported_with_its_line(tmp_path, how):
     project = tmp_path / "project"
     for file in EXAMPLE.rglob("*.*"):
         if file.is_file() and "__pycache__" not in file.parts:
@@ -97,13 +97,13 @@ def test_an_action_that_raises_is_told_with_its_line(tmp_path, how):
     assert "Traceback" not in done.stderr
 
 
-def test_bad_arguments_are_told_in_one_line():
+def test_bad_arguments_are_reported_in_one_line():
     done = studio("run", "does/not/exist")
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_a_port_in_use_is_told_in_one_line():
+def test_a_port_in_use_is_reported_in_one_line():
     import socket
 
     with socket.socket() as taken:
@@ -153,7 +153,7 @@ def test_a_run_in_lockstep_is_recorded_the_same_each_time(tmp_path):
     assert recordings[0] == recordings[1]
 
 
-def test_a_recording_that_cannot_be_written_is_told(tmp_path):
+def test_a_recording_that_cannot_be_written_is_reported(tmp_path):
     done = studio("run", EXAMPLE, "--lockstep", "--record", tmp_path / "missing" / "run.jsonl")
     assert done.returncode == 1
     assert "run.jsonl: cannot be written: No such file or directory" in done.stderr

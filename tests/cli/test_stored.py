@@ -51,7 +51,7 @@ def test_a_stored_project_becomes_a_package_by_its_name(data: Path, tmp_path: Pa
     assert "patrol_at_noon/package.xml" in names
 
 
-def test_an_unknown_name_is_told_with_what_there_is(data: Path) -> None:
+def test_an_unknown_name_is_reported_with_the_known_ones(data: Path) -> None:
     missing = studio(data, "check", "Patrol at midnight")
     assert missing.returncode != 0
     assert b"Traceback" not in missing.stderr

@@ -1,9 +1,9 @@
-"""Collects every public name: what users, kept files and other programs rely on.
+"""Collects every public name, on which users, stored files and other programs rely.
 
 A test compares the result with `public_names.json`. What is read at run time (Django's registry,
 the command line, the messages) survives any move of modules; the rest is found by form in whole folders.
 `python -m tests.contracts.public_names` adds new names to the list and refuses to drop any. `--forget` drops
-those that are gone, which is a decision to break somebody's files or programs.
+those that are gone, which breaks files or programs of users on purpose.
 """
 
 from __future__ import annotations
@@ -311,7 +311,7 @@ def entry_points() -> list[str]:
 
 
 def import_paths() -> list[str]:
-    """What exported packages and users' actions import: the engine, and the translator's public names."""
+    """The names that exported packages and users' actions import: the engine's, and the translator's."""
     found = []
     for path, tree in modules("tree_gardener"):
         relative = path.relative_to(ROOT).with_suffix("")
@@ -323,7 +323,7 @@ def import_paths() -> list[str]:
 
 
 def _public_names(tree: ast.Module) -> Iterator[str]:
-    """What a module defines, or lists in `__all__` where it does."""
+    """Yields the names in a module's `__all__`, or else those that it defines."""
     for node in tree.body:
         if _is_all(node):
             yield from strings(node)
@@ -338,7 +338,7 @@ def _public_names(tree: ast.Module) -> Iterator[str]:
 
 
 def exported_files() -> list[str]:
-    """The paths of what our examples are exported as; hashes of contents are no part of a name."""
+    """The paths in the packages and apps of our examples."""
     from translator import open_path, to_app_zip, to_ros2_package
 
     found = []

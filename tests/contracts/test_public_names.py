@@ -1,4 +1,4 @@
-"""What users, kept files and other programs rely on keeps its name."""
+"""Names on which users, stored files and other programs rely do not change."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.contracts.public_names import GONE, NEW, ROOT, Names, gone, new, read
 
 @pytest.fixture(scope="module")
 def found() -> Names:
-    """What the code has now: collected in a process of its own, with no setting of this machine."""
+    """The names in the code, collected in a process of its own, without this machine's settings."""
     environment = {key: value for key, value in os.environ.items() if not key.startswith("BT_STUDIO_")}
     done = subprocess.run(
         [sys.executable, "-m", "tests.contracts.public_names", "--print"],

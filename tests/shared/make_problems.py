@@ -131,7 +131,7 @@ def project_of_actions() -> Project:
 
 
 def judged(project: Project, trees: Trees, codes: set[str]) -> list[list[str]]:
-    """What the translator finds in a project of these trees: tree, node, port, code, severity."""
+    """Returns the translator's findings in a project of these trees: tree, node, port, code, severity."""
     read = []
     for tree_id, tree in trees.items():
         document = {"format": "bt-studio/diagram", "version": 1, "id": tree_id, **tree}
@@ -167,7 +167,7 @@ def counts_of(model: NodeModel) -> Iterator[tuple[str, Trees]]:
 
 
 def cases() -> Iterator[tuple[str, Trees]]:
-    """What is checked, and the trees of a project."""
+    """Yields the name of each case and the trees of its project."""
     for model in builtins().values():
         yield from counts_of(model)
         for port in model.ports:
@@ -187,9 +187,9 @@ def cases() -> Iterator[tuple[str, Trees]]:
 
 
 def document() -> dict[str, Any]:
-    """The actions that all projects have, as the editor is told of them, and every case.
+    """The actions that all projects have, as the editor receives them, and every case.
 
-    Told are the findings that the editor judges too; the table of them is the editor's.
+    Listed are the findings that the editor makes too; its table names them.
     """
     codes = {code for known in json.loads(KINDS.read_text(encoding="utf-8")).values() for code in known}
     project = project_of_actions()

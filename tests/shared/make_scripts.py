@@ -1,4 +1,4 @@
-"""Writes `scripts.json`: what the engine's parser says of scripts, for the editor's parser to agree with.
+"""Writes `scripts.json`: results of the engine's parser, which the editor's parser must match.
 
 python -m tests.shared.make_scripts
 """
@@ -85,7 +85,7 @@ def described(text: str) -> dict[str, Any]:
 
 
 def document() -> list[dict[str, Any]]:
-    """All cases: those above, and every script of the table that BehaviorTree.CPP was asked about."""
+    """All cases: those above, and every script of the table that BehaviorTree.CPP evaluated."""
     table = [each["expr"] for each in json.loads(TABLE.read_text(encoding="utf-8"))]
     return [described(text) for text in dict.fromkeys((*SOUND, *BROKEN, *table))]
 

@@ -1,4 +1,4 @@
-"""Projects written by hand, for `make_problems`: shapes, subtrees, names, scripts, what is reached."""
+"""Projects written by hand, for `make_problems`: shapes, subtrees, names, scripts, reachability."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def call(target: str, **more: Any) -> dict[str, Any]:
 
 
 def written_cases(keys: tuple[str, ...]) -> Iterator[tuple[str, Trees]]:
-    """What is checked, and the trees of a project."""
+    """Yields the name of each case and the trees of its project."""
     yield from _shapes()
     yield from _subtrees(keys)
     yield from _names_and_scripts()

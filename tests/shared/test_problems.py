@@ -1,4 +1,4 @@
-"""The projects that the editor's checks are tested on are judged as the translator does today."""
+"""The stored findings, with which the editor's checks are tested, are those of the translator."""
 
 from __future__ import annotations
 

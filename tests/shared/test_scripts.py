@@ -1,4 +1,4 @@
-"""The cases that the editor's parser of scripts is tested on are what the engine says today."""
+"""The stored results, with which the editor's parser of scripts is tested, are those of the engine."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """`make audit`: asks the advisory services about every package of the locks.
 
 It needs the internet, and its answer changes by the day, so it is no part of `make test`. Status 0: nothing
-is known; 1: something is; 2: a service could not be asked, which says nothing about the packages.
+is known; 1: something is; 2: a service could not be reached, which means nothing for the packages.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ AUDITOR = "pip-audit>=2.9,<3"
 
 
 class Answer(NamedTuple):
-    """What a service said."""
+    """The answer of a service."""
 
     packages: int = 0
     known: tuple[str, ...] = ()
@@ -30,14 +30,14 @@ class Answer(NamedTuple):
 
 
 def read_pip(out: str, err: str) -> Answer:
-    """What `pip-audit -f json` printed."""
+    """Reads the output of `pip-audit -f json`."""
     try:
         rows: list[dict[str, Any]] = json.loads(out)["dependencies"]
     except (ValueError, KeyError):
         return Answer(trouble=(err.strip().splitlines() or ["it said nothing"])[-1])
     flaws = [(row, one) for row in rows for one in row.get("vulns", ())]
     known = [
-        f"{row['name']} {row['version']}: {one['id']}, mended in {' or '.join(one['fix_versions']) or 'none'}"
+        f"{row['name']} {row['version']}: {one['id']}, fixed in {' or '.join(one['fix_versions']) or 'none'}"
         for row, one in flaws
     ]
     unknown = [row["name"] for row in rows if "skip_reason" in row]
@@ -47,7 +47,7 @@ def read_pip(out: str, err: str) -> Answer:
 
 
 def read_npm(out: str, err: str) -> Answer:
-    """What `npm audit --json` printed."""
+    """Reads the output of `npm audit --json`."""
     try:
         document: dict[str, Any] = json.loads(out)
     except ValueError:
@@ -81,7 +81,7 @@ def report(what: str, answer: Answer) -> int:
 
 
 def ask(command: list[str | Path], folder: Path) -> tuple[str, str]:
-    """Both outputs of a program; whatever its status, they say what happened."""
+    """Returns both outputs of a program; a status other than 0 is a result too."""
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     except OSError as error:

@@ -1,6 +1,6 @@
 """`make generate`: writes every generated source and reference page again.
 
-A test beside each part compares what is committed with what its generator says.
+A test beside each part compares the committed files with the output of its generator.
 """
 
 from __future__ import annotations

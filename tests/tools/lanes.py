@@ -1,6 +1,6 @@
 """`make test-python`: the browser's tests and all others beside each other, since each mostly waits.
 
-Every line of the lanes is shown as it comes, with its lane before it, and what failed once more at the end.
+Every line is shown as it comes, with the name of its lane; failures are listed again at the end.
 Arguments go to each run of pytest.
 """
 
@@ -14,14 +14,14 @@ from pathlib import Path
 from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parents[2]
-# The browser's tests that the other lane does at its end: both are to end at about the same time.
+# Tests of the browser that the other lane runs at its end, so that both end at about the same time.
 LATE: Final = [f"tests/e2e/test_{name}.py" for name in ("screens", "follow_person", "run_panels")]
-# What each lane gives to pytest, one run after the other.
+# The arguments of each lane for pytest, one run after the other.
 LANES: Final = {
     "browser": [["tests/e2e", *(f"--ignore={path}" for path in LATE)]],
     "others": [["tests", "--ignore=tests/e2e"], LATE],
 }
-# How pytest's summary begins the line of what did not pass.
+# The beginnings of lines in pytest's summary that report a failure.
 FAILURES: Final = ("FAILED tests/", "ERROR tests/")
 
 
@@ -34,7 +34,7 @@ def main(arguments: list[str]) -> int:
             lane.start()
         for lane in lanes:
             lane.join()
-    except KeyboardInterrupt:  # the lanes' runs were interrupted too, and say what they did
+    except KeyboardInterrupt:  # the lanes' runs were interrupted too, and print their summaries
         for lane in lanes:
             lane.is_ended = True
             lane.join()
@@ -46,7 +46,7 @@ def main(arguments: list[str]) -> int:
 
 
 class Lane(threading.Thread):
-    """Runs of pytest, one after the other; a failed one keeps none of the rest from running."""
+    """Runs of pytest, one after the other; the rest runs also after a failure."""
 
     def __init__(self, name: str, runs: list[list[str]], arguments: list[str]) -> None:
         super().__init__(name=name)

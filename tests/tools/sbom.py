@@ -1,4 +1,4 @@
-"""`make sbom`: writes what the program is made of, as CycloneDX, from the locks: Python and npm.
+"""`make sbom`: writes the bill of materials as CycloneDX, from the locks: Python and npm.
 
 What Debian adds to an image is not in them; a scanner of images lists that.
 """
@@ -30,7 +30,7 @@ def write(folder: Path) -> list[Path]:
 
 
 def _used(document: dict[str, Any]) -> dict[str, Any]:
-    """Without what only builds and tests; npm's own `--omit dev` leaves out what both need, too."""
+    """Removes packages for builds and tests only; npm's own `--omit dev` also drops shared ones."""
     parts = [part for part in document["components"] if DEVELOPMENT not in part.get("properties", [])]
     kept = {part["bom-ref"] for part in parts} | {document["metadata"]["component"]["bom-ref"]}
     edges = [

@@ -1,4 +1,4 @@
-"""What the advisory services say, and what it means when they say nothing."""
+"""Answers of the advisory services, and what no answer means."""
 
 from __future__ import annotations
 
@@ -24,17 +24,17 @@ def dependencies(*rows):
     return json.dumps({"dependencies": rows, "fixes": []})
 
 
-def test_flaws_of_python_packages_are_told_with_what_mends_them():
+def test_flaws_of_python_packages_are_reported_with_the_fixed_versions():
     sound, flawed = (
         {"name": "a", "version": "1", "vulns": []},
         {"name": "b", "version": "1.0", "vulns": [FLAW]},
     )
     lost = {"name": "c", "skip_reason": "not found"}
     found = read_pip(dependencies(sound, flawed, lost), "")
-    assert found == Answer(3, ("b 1.0: PYSEC-1, mended in 1.1",), ("c",))
+    assert found == Answer(3, ("b 1.0: PYSEC-1, fixed in 1.1",), ("c",))
 
 
-def test_flaws_of_npm_packages_are_told():
+def test_flaws_of_npm_packages_are_reported():
     assert read_npm(json.dumps(CLEAN), "") == Answer(7)
     assert read_npm(json.dumps(SICK), "").known == ("a *: low", "b <2: high, It leaks")
 

@@ -1,4 +1,4 @@
-"""The list of what the browser's tests do by hand names steps that exist."""
+"""The list of steps in the browser's tests names only steps that exist."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the program is made of is told: bills of materials, licences, and images that cannot be exchanged."""
+"""The parts of the program are listed: bills of materials, licences, and images pinned by digest."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ def test_directions_required_and_description():
         ("    NODE_KIND = 'Control'\n", "BT0606"),
     ],
 )
-def test_what_cannot_be_read_is_told_with_its_line(text, code):
+def test_unreadable_source_is_reported_with_its_line(text, code):
     model = inspect_action(HEAD + text + BODY, "actions/A.py")
     (found,) = model.diagnostics
     assert (found.code, found.place.line) == (code, 6)

@@ -1,4 +1,4 @@
-"""Zips and folders from outside: what leads elsewhere or unpacks to too much is refused, with a place."""
+"""Foreign zips and folders: paths that leave the project and zip bombs are refused, with a place."""
 
 from __future__ import annotations
 

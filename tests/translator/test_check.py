@@ -1,4 +1,4 @@
-"""Each check, by the smallest project that it should speak about, and the place that it names."""
+"""Each check on the smallest project that violates it, and the place that it reports."""
 
 from __future__ import annotations
 

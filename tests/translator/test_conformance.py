@@ -1,4 +1,4 @@
-"""What BehaviorTree.CPP refuses at loading is told, and what it loads is not called an error."""
+"""Trees that BehaviorTree.CPP refuses at loading have an error, and trees that it loads have none."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ ACTIONS = {f"{name}.py": OPEN_ACTION.format(name=name).encode() for name in OPEN
     for verb in ("Get", "Set")
     for name, type_ in TYPES.items()
 }
-# Told when the file is brought in, and repaired: what is drawn then has the slip no more.
+# Reported and repaired at the import: the drawn tree does not have the fault any more.
 REPAIRED = {
     "R-no-main": "BT0735",
     "R-tree-no-id": "BT0712",
@@ -38,7 +38,7 @@ REPAIRED = {
     "R-model-subtree-noid": "BT0717",
     "R-model-port-digit": "BT0718",
 }
-# Refused by BehaviorTree.CPP only when it is ticked; the editor says it at once.
+# Refused by BehaviorTree.CPP only when it is ticked; the editor reports it earlier.
 TOLD_EARLIER = {"R-ok-ite-one-child"}
 
 
@@ -54,7 +54,7 @@ def findings(xml):
 
 
 @pytest.mark.parametrize("case", cases("rejects"), ids=lambda case: case["name"])
-def test_what_is_refused_is_told(case):
+def test_a_refused_tree_has_an_error(case):
     found = findings(case["xml"])
     if case["name"] in REPAIRED:
         assert REPAIRED[case["name"]] in [item.code for item in found]

@@ -95,7 +95,7 @@ REPAIRED = {
 
 
 @pytest.mark.parametrize("name", REPAIRED)
-def test_what_can_be_repaired_is_and_is_told(name):
+def test_every_repair_is_made_and_reported(name):
     nodes, more, codes = REPAIRED[name]
     tree, told = found(document(nodes, **more))
     assert told == codes

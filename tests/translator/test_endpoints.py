@@ -1,4 +1,4 @@
-"""What the source of an action says of its topics, services, actions and parameters."""
+"""Topics, services, actions and parameters are read from the source of an action."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ def test_nothing_to_load_is_refused():
         load({})
 
 
-def test_broken_files_are_told_and_the_rest_is_loaded():
+def test_broken_files_are_reported_and_the_rest_is_loaded():
     files = example_files(EXAMPLES[0])
     files |= {
         "trees/Bad.json": b"{",
@@ -49,7 +49,7 @@ def test_broken_files_are_told_and_the_rest_is_loaded():
     assert set(project.trees) == {"MainTree"}
 
 
-def test_tree_in_a_file_of_another_name_is_told():
+def test_tree_in_a_file_of_another_name_is_reported():
     files = {"trees/Other.json": example_files(EXAMPLES[0])["trees/MainTree.json"]}
     assert codes(load(files).diagnostics) == ["BT0016"]
     assert load(files).settings.main_tree == "MainTree"
@@ -71,7 +71,7 @@ def test_shared_modules_among_the_actions_are_no_actions():
         ({"future": [1, 2]}, []),
     ],
 )
-def test_settings_that_are_wrong_are_told_and_put_at_their_default(document, left_out):
+def test_invalid_settings_are_reported_and_get_their_default(document, left_out):
     settings, found = read_settings(json.dumps(document))
     assert codes(found) == ["BT0030"] * len(left_out)
     assert settings == Settings()

@@ -1,4 +1,4 @@
-"""Which universe an import proposes, by the topics of its actions."""
+"""An import proposes a universe by the topics of its actions."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ SOURCE = "x = [" + ", ".join(f"f({n}, a=[1, 2])" for n in range(200)) + "]\n"
 
 
 def parsed_by_threads(read, *, rounds):
-    """What goes wrong when eight threads, each on another level of its stack, read the same source."""
+    """Returns the errors when eight threads, each on another level of its stack, read the same source."""
     failures, went_wrong = [], threading.Event()
 
     def at_depth(depth):
@@ -35,7 +35,7 @@ def parsed_by_threads(read, *, rounds):
                 failures.append(error)
                 went_wrong.set()
 
-    def let_others(*_):  # the collection of garbage comes in the middle of a tree
+    def let_others(*_):  # garbage is collected in the middle of a tree
         time.sleep(0)
 
     threads = [threading.Thread(target=work, args=(7 * n,)) for n in range(8)]
@@ -105,7 +105,7 @@ def test_what_the_standard_library_disturbs_is_read_again(monkeypatch):
     assert raised == []
 
 
-def test_what_is_nested_too_deeply_is_told_as_that():
+def test_too_deep_nesting_is_reported_as_such():
     found = translator.inspect_action(
         "x = " + "[" * 150 + "]" * 150 + "\n" + "-" * 5000 + "1\n", "actions/Deep.py"
     )

@@ -12,7 +12,7 @@ from translator.diagnostic import Place, diagnostic, rules
 from translator.reference import FOLDER, GROUPS, pages
 
 OWN = Path(translator.__file__).parent
-# What the web server says by itself: that a project could not be checked at all.
+# Only the web server reports this: a project could not be checked at all.
 CHECKING = OWN.parent / "backend" / "projects" / "checking.py"
 SOURCES = {path: path.read_text() for path in (*OWN.rglob("*.py"), CHECKING)}
 USED = set(re.findall(r'"(BT\d{4})"', "".join(SOURCES.values())))

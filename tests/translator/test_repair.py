@@ -1,4 +1,4 @@
-"""Imports that need a hand: bare characters, palettes, empty names."""
+"""Imports that need a repair: bare characters, palettes, empty names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The text of one tree: ids stay with their nodes, and what its author wrote stays in the text."""
+"""The text of one tree: nodes keep their ids, and the text keeps its author's comments and blanks."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def test_v3_and_foreign_encodings_are_read():
         ("", "BT0701", 1),
     ],
 )
-def test_what_cannot_be_read_is_told_at_its_line(xml, code, line):
+def test_unreadable_text_is_reported_at_its_line(xml, code, line):
     with pytest.raises(TranslatorError) as refused:
         read_tree_text(xml, TREE)
     (found,) = refused.value.diagnostics

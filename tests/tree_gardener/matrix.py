@@ -58,7 +58,7 @@ def run(python: str, py_trees: str, folder: Path) -> bool:
 
 
 def main() -> int:
-    """Runs all combinations; gives the exit status."""
+    """Runs all combinations; returns the exit status."""
     failed = []
     for version in VERSIONS:
         python = interpreter(version)

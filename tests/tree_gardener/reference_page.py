@@ -44,7 +44,7 @@ def page() -> str:
 
 
 def section(node: CatalogNode) -> str:
-    """What the page says of one node."""
+    """Returns the section of one node."""
     lines = [f"### `{node.type}` {node.symbol}\n", f"{node.summary} {children(node)}".strip() + "\n"]
     lines += [rule(node) + "\n"] if rule(node) else []
     if node.ports:
@@ -57,7 +57,7 @@ def section(node: CatalogNode) -> str:
 
 
 def children(node: CatalogNode) -> str:
-    """How many children it takes, in words."""
+    """Returns the number of children that a node takes, in words."""
     low, high = node.min_children, node.max_children
     if high == 0:
         return ""

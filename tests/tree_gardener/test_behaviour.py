@@ -147,7 +147,7 @@ class BadEnd(py_trees.behaviour.Behaviour):
         raise RuntimeError("stuck")
 
 
-def test_shutdown_goes_on_after_an_action_that_cannot_be_halted() -> None:
+def test_shutdown_continues_after_an_action_that_cannot_be_halted() -> None:
     tree = load(
         '<Parallel failure_count="2"><Bad/><A name="a"/></Parallel>', nodes={"Bad": BadEnd, "A": recording(R)}
     )

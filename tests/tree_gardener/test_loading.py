@@ -1,4 +1,4 @@
-"""What a document's author is told: code, place and hint of everything that is wrong."""
+"""Errors in a document have a code, a place and a hint."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the editor offers as the beginning of a new action: read by the translator, and played."""
+"""The editor's templates of new actions are read by the translator, and run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What observers are told is what happened."""
+"""Observers receive exactly the changes that happened."""
 
 from __future__ import annotations
 

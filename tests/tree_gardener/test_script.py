@@ -67,7 +67,7 @@ def test_errors_of_evaluation_say_what(text: str, message: str) -> None:
         run(text)
 
 
-def test_names_are_told_apart() -> None:
+def test_names_are_distinguished() -> None:
     program = parse("a := b + 1; c += d; e = (f := 2)")
     assert [name.name for name in names_written(program)] == ["a", "c", "e", "f"]
     assert [name.name for name in names_read(program)] == ["b", "c", "d", "e"]

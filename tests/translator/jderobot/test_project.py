@@ -58,7 +58,7 @@ def test_names_that_cannot_be_ids_are_changed():
     assert not [item for item in check(project) if item.is_error]
 
 
-def test_unknown_order_is_told():
+def test_unknown_order_is_reported():
     files = {**ERAS["first"], "config.json": json.dumps({"config": {"btOrder": "sideways"}}).encode()}
     assert [item.code for item in import_jderobot(files).diagnostics] == ["BT0808"]
 

@@ -138,7 +138,7 @@ def test_the_installed_program_publishes(workspace, name):
 
 
 def turning_speed(name):
-    """What the example's Turn is told: without sensors, both examples turn."""
+    """Returns the speed of the example's Turn: without sensors, both examples turn."""
     (turn,) = [node for node in load(example_files(name)).main.walk() if node.type == "Turn"]
     return float(turn.ports["ang_speed"])
 

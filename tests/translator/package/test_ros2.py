@@ -74,7 +74,7 @@ def test_text_of_users_does_not_break_the_files(make_project, tmp_path):
     assert b"{% raw %}" in package.files[f"{package.name}/README.md"]
 
 
-def test_import_that_maps_to_nothing_is_told_with_its_line(make_project):
+def test_import_without_a_package_is_reported_with_its_line(make_project):
     source = (
         "import json\nimport py_trees\nimport nobody_has_this.part\nfrom actions import Open\nimport Open\n"
         "class Act(py_trees.behaviour.Behaviour):\n    def update(self):\n        import yaml, PIL.Image\n"

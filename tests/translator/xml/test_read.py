@@ -142,7 +142,7 @@ def test_groot2_project_with_includes_each_read_once():
         ('<include path="nothing.xml"/>', "BT0733"),
     ],
 )
-def test_includes_that_cannot_be_had_are_told(include, code):
+def test_unreadable_includes_are_reported(include, code):
     text = f'<root BTCPP_format="4">{include}<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree></root>'
     (found,) = from_xml(text, file="dir/a.xml").diagnostics
     assert (found.code, found.place.file, found.place.line) == (code, "imports/dir/a.xml", 1)
@@ -166,7 +166,7 @@ TREE = '<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>'
         (TREE + '<BehaviorTree ID="U"><AlwaysSuccess/></BehaviorTree>', "BT0735"),
     ],
 )
-def test_oddities_are_told_and_the_file_kept(inside, code):
+def test_oddities_are_reported_and_the_file_kept(inside, code):
     text = f'<root BTCPP_format="4">{inside}</root>'
     project = from_xml(text)
     assert code in [item.code for item in project.diagnostics]

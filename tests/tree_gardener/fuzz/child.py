@@ -1,6 +1,6 @@
 """Runs a batch of cases in BehaviorTree.CPP, in a process of its own because it can crash.
 
-Reads pickled cases from stdin; writes one JSON line a case, so that a crash tells where it was.
+Reads pickled cases from stdin; writes one JSON line a case, so that the last line names the case.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def main() -> None:
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
     for case in pickle.load(sys.stdin.buffer):  # noqa: S301 - our own parent wrote it
-        # Some trees never end in tickOnce: two that yield under a reactive node wake each other for ever.
+        # Some trees never end in tickOnce: two that yield under a reactive node wake each other without end.
         signal.alarm(ENDLESS_S)
         out.write(json.dumps(run_reference(case)) + "\n")
         out.flush()

@@ -51,7 +51,7 @@ def our_trace(case: Case) -> list[Line]:
 
 
 def difference(case: Case, reference: list[Line] | None) -> str:
-    """How the two traces differ first, or ""."""
+    """Returns the first difference of the two traces, or ""."""
     if reference is None:
         return ""
     ours = our_trace(case)

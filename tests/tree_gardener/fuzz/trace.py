@@ -1,4 +1,4 @@
-"""What a case did in either engine: one line a tick, then the final halt."""
+"""The trace of a case in either engine: one line a tick, then the final halt."""
 
 from __future__ import annotations
 

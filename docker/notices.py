@@ -22,7 +22,7 @@ def texts(found: metadata.Distribution) -> list[tuple[str, str]]:
 
 
 def licence(found: metadata.Distribution) -> str:
-    """What a package says of its licence in a word or two."""
+    """Returns the licence of a package in a word or two."""
     about = found.metadata
     short = about.get("License-Expression") or about.get("License") or ""
     named = [

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import msgspec
 
+from executor import __version__
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.gate import fetch_listener
 from executor.ros.environment import ros_environment
@@ -54,7 +55,6 @@ __all__ = ["Manager", "ManagerSettings", "free_domain_id", "main", "session_prog
 
 _log = logging.getLogger(__name__)
 
-VERSION: Final = "0.1.0"
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
 # Who shares out the work on a small picture spends more on sharing, and sessions have but one machine.
@@ -136,7 +136,7 @@ class Manager:
         self._settings = settings
         loop = asyncio.get_running_loop()
         about = About(
-            version=VERSION,
+            version=__version__,
             ros_domain_id=self.domain_id,
             ros_environment={} if settings.is_closed_off else ros_environment(self.domain_id),
             outside_domain_id=outside_domain_id(),

@@ -12,6 +12,7 @@ from typing import Final
 
 ROOT: Final = Path(__file__).resolve().parent.parent.parent
 GENERATORS: Final = (
+    [sys.executable, "-m", "tests.tools.version"],
     [sys.executable, "-m", "tests.tree_gardener.reference_page"],
     [sys.executable, "-m", "translator.reference"],
     [sys.executable, "-m", "executor.generate.protocol_page"],

@@ -1,0 +1,92 @@
+"""Declared Python dependencies, and the place where each is used."""
+
+from __future__ import annotations
+
+import ast
+import re
+import tomllib
+from importlib import metadata
+from pathlib import Path
+from typing import Final
+
+ROOT: Final = Path(__file__).resolve().parents[2]
+PRODUCT: Final = ("backend", "executor", "translator", "tree_gardener")
+SOURCES: Final = (*PRODUCT, "tests", "docker")
+# Packages that no source imports, each with a file and the text in it that uses the package.
+USED_BY: Final[dict[str, tuple[str, str]]] = {
+    "channels-redis": ("backend/config/settings.py", "channels_redis.pubsub"),
+    "colcon-bash": ("tests/translator/package/test_colcon.py", "setup.bash"),
+    "colcon-core": ("tests/translator/package/test_colcon.py", "colcon"),
+    "colcon-python-setup-py": ("translator/package/templates/setup.py.j2", "setup("),
+    "colcon-ros": ("translator/package/templates/package.xml.j2", "ament_python"),
+    "cyclonedx-bom": ("tests/tools/sbom.py", "cyclonedx-py"),
+    "django-stubs": ("pyproject.toml", "mypy_django_plugin"),
+    "djangorestframework-stubs": ("backend/config/problems.py", "rest_framework"),
+    "drf-spectacular-sidecar": ("backend/config/settings.py", "drf_spectacular_sidecar"),
+    "httptools": ("backend/config/heads.py", "httptools_impl"),
+    "import-linter": ("Makefile", "lint-imports"),
+    "lxml-stubs": ("executor/robots/urdf.py", "lxml"),
+    "mypy": ("Makefile", "$(BIN)/mypy"),
+    "pycollada": ("docs/how-to/make-a-robot.md", "DAE"),
+    "pyrefly": ("backend/language/servers.py", "pyrefly"),
+    "pytest-asyncio": ("pyproject.toml", "asyncio_mode"),
+    "pytest-django": ("pyproject.toml", "DJANGO_SETTINGS_MODULE"),
+    "pytest-timeout": ("pyproject.toml", "timeout = "),
+    "redis": ("backend/config/settings.py", "redis.RedisCache"),
+    "ros-jazzy-common-interfaces": ("executor/ros/messages.py", "from nav_msgs"),
+    "ros-jazzy-rclpy": ("tree_gardener/ros.py", "rclpy"),
+    "ruff": ("Makefile", "$(BIN)/ruff"),
+    "types-psutil": ("executor/supervision/processes.py", "import psutil"),
+    "types-pyyaml": ("executor/universes/document.py", "yaml"),
+}
+
+
+def declared() -> list[str]:
+    """Returns the normalised names of all declared packages."""
+    table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    return _names([*table["project"]["dependencies"], *table["dependency-groups"]["dev"]])
+
+
+def shipped() -> list[str]:
+    """Returns the normalised names of the packages that users install."""
+    table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    return _names(table["project"]["dependencies"])
+
+
+def _names(lines: list[str]) -> list[str]:
+    return sorted({normal(re.split(r"[^\w.-]", line, maxsplit=1)[0]) for line in lines})
+
+
+def normal(name: str) -> str:
+    """Returns a package's name as registries compare it."""
+    return re.sub(r"[-_.]+", "-", name).lower()
+
+
+def imported(folders: tuple[str, ...] = SOURCES) -> set[str]:
+    """Returns the normalised names of the packages whose modules some source imports."""
+    modules = set()
+    for folder in folders:
+        for path in (ROOT / folder).rglob("*.py"):
+            if "node_modules" not in path.parts:
+                modules |= _modules_of(ast.parse(path.read_text(encoding="utf-8")))
+    providers = metadata.packages_distributions()
+    return {normal(package) for module in modules for package in providers.get(module, [])}
+
+
+def _modules_of(tree: ast.Module) -> set[str]:
+    found = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            found.add(node.module.partition(".")[0])
+    return found
+
+
+def used_elsewhere(name: str) -> bool:
+    """Whether the file in `USED_BY` still uses the package."""
+    if name not in USED_BY:
+        return False
+    path, text = USED_BY[name]
+    file = ROOT / path
+    return file.is_file() and text in file.read_text(encoding="utf-8")

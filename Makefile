@@ -1,6 +1,6 @@
 # `make run` sets up what is missing and serves the IDE; `make test` sets up what is missing and runs every test.
 .DEFAULT_GOAL := help
-.PHONY: audit lock-images sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
+.PHONY: audit lock-images mutants sbom help run test test-full test-docker lint format bench lock clean setup setup-test test-frontend test-python generate
 
 PYTHON := $(shell for p in python3.11 python3 python; do "$$p" -c 'import sys; sys.exit(sys.version_info[:2] != (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
 # Where no Python 3.11 is found, any Python 3 can still say so in one sentence.
@@ -28,7 +28,7 @@ test: setup-test lint test-frontend test-python ## sets up what is missing, then
 
 test-full: export BT_STUDIO_FULL = 1
 test-full: PYTEST_ARGS = --timeout 0
-test-full: setup-test lint test-frontend test-python ## the same with the large counts of tests/budget.toml (hours)
+test-full: setup-test lint test-frontend mutants test-python ## the same with the large counts of tests/budget.toml (hours)
 
 test-docker: export BT_STUDIO_FULL = 1
 test-docker: setup-test ## builds the images and tries the server for a team in real containers (needs root)
@@ -37,6 +37,9 @@ test-docker: setup-test ## builds the images and tries the server for a team in 
 test-frontend:
 	@cd frontend && npm run --silent test
 
+mutants: ## changes 60 random lines of the page's features; at least 60 % must make a test fail (half an hour)
+	@$(BIN)/python -m tests.tools.mutate
+
 test-python:
 	@$(BIN)/python -m tests.tools.lanes --durations 25 --durations-min 3 $(PYTEST_ARGS)
 
@@ -44,7 +47,7 @@ lint: ## style, types, the direction of imports and the list of words, in Python
 	@$(BIN)/ruff check . && $(BIN)/ruff format --check .
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
-	@$(BIN)/python -m tests.tools.words
+	@$(BIN)/python -m tests.tools.words && $(BIN)/python -m tests.tools.mirror
 	@cd frontend && npm run --silent lint
 
 format: ## rewrites the sources in the project's style

@@ -1,0 +1,102 @@
+"""Lists modules without a test file of their own: `python -m tests.tools.mirror`.
+
+The test file of `backend/projects/names.py` is `tests/backend/projects/test_names.py`, that of
+`src/model/layout.ts` is `src/model/layout.test.ts`. It must import its module, or a package that
+exports it, and assert something.
+
+`unmirrored.txt` lists the modules that have none. The list only shrinks: a module that has its test file now
+must leave it (`--write`), and a new module without one fails. After a move, `--write` renames the entries,
+and refuses where there are more of them than before.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from pathlib import Path
+from typing import Final
+
+ROOT: Final = Path(__file__).resolve().parents[2]
+LIST: Final = Path(__file__).with_name("unmirrored.txt")
+PACKAGES: Final = ("backend", "executor", "translator", "tree_gardener")
+PAGE: Final = "frontend/src"
+# Tables and entry points without a rule of their own.
+LEFT_OUT: Final = {"__init__", "__main__", "apps", "urls", "manage", "index", "main"}
+FOLDERS_LEFT_OUT: Final = {"migrations", "behaviours", "setup", "generated", "locales", "test"}
+ASSERTS: Final = re.compile(r"\bassert\b|\bexpect\(|pytest\.(?:raises|warns)")
+
+
+def python_modules() -> list[Path]:
+    """Returns the Python modules that need a test file."""
+    return [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py")) if _counts(path)]
+
+
+def page_modules() -> list[Path]:
+    """Returns the modules of the page that need a test file."""
+    paths = sorted((ROOT / PAGE).rglob("*.ts*"))
+    kinds = (".test.ts", ".test.tsx", ".d.ts")
+    return [path for path in paths if _counts(path) and not path.name.endswith(kinds)]
+
+
+def _counts(path: Path) -> bool:
+    parts = path.relative_to(ROOT).parts[:-1]
+    return path.stem not in LEFT_OUT and not FOLDERS_LEFT_OUT & set(parts)
+
+
+def is_mirrored(path: Path) -> bool:
+    """Whether the module has a test file that imports it and asserts."""
+    if path.suffix != ".py":
+        tests = (path.with_suffix(f".test{suffix}") for suffix in (".ts", ".tsx"))
+        return any(test.is_file() and _imports_script(test, path.stem) for test in tests)
+    relative = path.relative_to(ROOT)
+    test = ROOT / "tests" / relative.with_name(f"test_{path.stem.strip('_')}.py")
+    return test.is_file() and _imports_python(test, ".".join(relative.with_suffix("").parts))
+
+
+def _imports_script(test: Path, stem: str) -> bool:
+    text = test.read_text(encoding="utf-8")
+    return bool(ASSERTS.search(text)) and re.search(rf"from '[^']*/{re.escape(stem)}'", text) is not None
+
+
+def _imports_python(test: Path, module: str) -> bool:
+    text = test.read_text(encoding="utf-8")
+    parts = module.split(".")
+    ways = {".".join(parts[:count]) for count in range(1, len(parts) + 1)}
+    imported = {name for node in ast.walk(ast.parse(text)) for name in _imported_by(node)}
+    return bool(ASSERTS.search(text)) and bool(ways & imported)
+
+
+def _imported_by(node: ast.AST) -> list[str]:
+    if isinstance(node, ast.Import):
+        return [alias.name for alias in node.names]
+    return [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+
+
+def unmirrored() -> list[str]:
+    """Returns the modules without a test file of their own, by path."""
+    modules = [*python_modules(), *page_modules()]
+    return sorted(str(path.relative_to(ROOT)) for path in modules if not is_mirrored(path))
+
+
+def listed() -> list[str]:
+    """Returns the modules that are known to have none."""
+    return LIST.read_text(encoding="utf-8").split()
+
+
+def main(arguments: list[str]) -> int:
+    """Compares, or writes the list; returns 1 where they differ."""
+    found, known = unmirrored(), listed() if LIST.exists() else []
+    if "--write" in arguments and (len(found) <= len(known) or not known):
+        LIST.write_text("".join(f"{path}\n" for path in found), encoding="utf-8")
+        return 0
+    new, covered = sorted(set(found) - set(known)), sorted(set(known) - set(found))
+    for path in new:
+        print(f"{path}: has no test file of its own that imports it and asserts")
+    for path in covered:
+        print(f"{path}: is gone or has its test file now; run `python -m tests.tools.mirror --write`")
+    return 1 if new or covered else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

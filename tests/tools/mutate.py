@@ -2,10 +2,10 @@
 
     python -m tests.tools.mutate [--count 60] [--seed 1] [--least 0.6] [--folder src/features]
 
-Each line is changed in a copy of the front end, so that the working tree stays untouched. Vitest runs the tests
-that reach the changed module, and has 90 s: a mutant counts as killed if a test fails in that time. A run that
-ends by the limit proves nothing, and counts as survived. Exit status 1: fewer mutants than `--least` were
-killed; 2: the tests fail without any change. Part of `make test-full`.
+Each line is changed in a copy of the front end, so that the working tree stays untouched. Vitest runs the
+tests that reach the changed module, and has 90 s: a mutant counts as killed if a test fails in that time. A
+run that ends by the limit proves nothing, and counts as survived. Exit status 1: fewer mutants than `--least`
+were killed; 2: the tests fail without any change. Part of `make test-full`.
 """
 
 from __future__ import annotations

@@ -42,12 +42,14 @@ async def test_run_pause_step_resume_stop_and_run_again():
         await start(client)
         assert any(isinstance(frame, Scene) for _, frame in client.frames)
         assert any(isinstance(frame, Scan) for _, frame in client.frames)
-        assert client.named("sim")[-1]["collisions"] == 0 if client.named("sim") else True
+        assert (await client.event("sim"))["data"]["collisions"] == 0
 
         assert await client.ask("pause") == "ack"
         place = await settled(client)
         at, frames = len(client.events), len(client.frames)
-        await asyncio.sleep(1.0)
+        # The world reports about once a second, also while it is paused.
+        await client.event("sim", lambda data: data["paused"], after=at)
+        await client.event("sim", lambda data: data["paused"], after=len(client.events))
         assert client.named("tick", after=at) == []
         assert [f for _, f in client.frames[frames:] if isinstance(f, Poses)] == []
         assert client.robot_position() == place

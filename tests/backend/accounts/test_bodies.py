@@ -150,7 +150,7 @@ def test_a_body_that_comes_too_slowly_is_given_up(monkeypatch):
     sent = []
 
     async def receive():
-        await asyncio.sleep(3600)
+        await asyncio.Event().wait()
 
     async def send(message):
         sent.append(message)

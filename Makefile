@@ -28,7 +28,7 @@ test: setup-test lint test-frontend test-python ## sets up what is missing, then
 
 test-full: export BT_STUDIO_FULL = 1
 test-full: PYTEST_ARGS = --timeout 0
-test-full: setup-test lint test-frontend mutants test-python ## the same with the large counts of tests/budget.toml (hours)
+test-full: setup-test lint test-frontend test-python mutants ## the same with the large counts of tests/budget.toml (hours)
 
 test-docker: export BT_STUDIO_FULL = 1
 test-docker: setup-test ## builds the images and tries the server for a team in real containers (needs root)

@@ -124,9 +124,9 @@ def _verbs(command: Any, path: str) -> Iterator[str]:
 
 
 def environment_variables() -> list[str]:
-    from backend.config.environment import PREFIX, Environment
+    from django.conf import settings
 
-    fields = [f"{PREFIX}{name.upper()}" for name in Environment.model_fields]
+    fields = [f"BT_STUDIO_{name.upper()}" for name in type(settings.ENVIRONMENT).model_fields]
     named = [
         name
         for text in texts(*PRODUCT, *DEPLOYED)
@@ -146,8 +146,10 @@ def rest_operations() -> list[str]:
 
 
 def addresses() -> list[str]:
+    from django.conf import settings
+
     found = []
-    for mode, module in (("local", "backend.config.urls"), ("team", "backend.config.urls_team")):
+    for mode, module in (("local", settings.LOCAL_URLS), ("team", settings.TEAM_URLS)):
         patterns = importlib.import_module(module).urlpatterns
         found += [f"{mode}: {address}" for address in _addresses(patterns, "/")]
     return found
@@ -197,12 +199,11 @@ def messages() -> list[str]:
 
 
 def problem_codes() -> list[str]:
-    from backend.config.problems import StudioError
-
     for path in files("backend"):  # the subclasses are known once their modules are loaded
         if path.name == "errors.py" or "Error" in path.read_text(encoding="utf-8", errors="replace"):
             _load(path)
-    return [kind.code for kind in (StudioError, *_subclasses(StudioError))]
+    bases = [module.StudioError for module in list(sys.modules.values()) if hasattr(module, "StudioError")]
+    return [kind.code for base in bases for kind in (base, *_subclasses(base))]
 
 
 def _load(path: Path) -> None:
@@ -256,7 +257,7 @@ def own_strings() -> list[str]:
 
     cookies = [settings.SESSION_COOKIE_NAME, settings.CSRF_COOKIE_NAME, settings.LANGUAGE_COOKIE_NAME]
     kinds = [
-        f"bt-studio {node.args[0].value}"
+        f"bt-studio {node.args[0].value!s}"
         for _, tree in modules("backend")
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and _called(node) in {"link_of", "token_of", "identity_of"}

@@ -76,7 +76,8 @@ def _shapes() -> Iterator[tuple[str, Trees]]:
     yield "an unknown control node", {"MainTree": tree({"r": {"type": "Nope", "children": ["a"]}, "a": LEAF})}
     yield "a tree as a node", {"MainTree": row([{"type": "Other"}]), "Other": tree({"r": LEAF})}
     waiting = {"type": "AsyncSequence", "children": ["c"]}
-    nodes = {"r": {"type": "ReactiveSequence", "children": ["a", "b"]}, "a": waiting, "c": LEAF, "d": LEAF}
+    top = {"type": "ReactiveSequence", "children": ["a", "b"]}
+    nodes: dict[str, dict[str, Any]] = {"r": top, "a": waiting, "c": LEAF, "d": LEAF}
     yield "two AsyncSequences", {"MainTree": tree({**nodes, "b": {**waiting, "children": ["d"]}})}
     yield "one AsyncSequence", {"MainTree": tree({**nodes, "b": LEAF, "d": LEAF})}
     nodes["r"] = {"type": "Sequence", "children": ["a", "b"]}
@@ -162,7 +163,8 @@ def _names_and_scripts() -> Iterator[tuple[str, Trees]]:
         port = "code" if type_ == "ScriptCondition" else "if"
         below = {"children": ["c"]} if type_ == "Precondition" else {}
         for text in ("", "  ", "1"):
-            nodes = {"r": {"type": type_, "ports": {port: text}, **below}, **({"c": LEAF} if below else {})}
+            top: dict[str, Any] = {"type": type_, "ports": {port: text}, **below}
+            nodes = {"r": top, **({"c": LEAF} if below else {})}
             yield f"{type_} of {text!r}", {"MainTree": tree(nodes)}
     yield "conditions", {"MainTree": row([{**LEAF, "conditions": {"_skipIf": text}} for text in SCRIPTS])}
 

@@ -92,7 +92,7 @@ def ask(command: list[str | Path], folder: Path) -> tuple[str, str]:
 def main() -> int:
     """Asks both."""
     with tempfile.TemporaryDirectory() as cache:
-        pip = [
+        pip: list[str | Path] = [
             UV,
             "tool",
             "run",

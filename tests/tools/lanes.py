@@ -68,7 +68,7 @@ class Lane(threading.Thread):
                 print(f"{self.name:7} | {line}", end="", flush=True)
                 if line.startswith(FAILURES):
                     self.failures.append(line)
-        return abs(process.returncode)
+        return abs(int(process.returncode))
 
     def __str__(self) -> str:
         return f"{self.name} {'passed' if self.result == 0 else f'FAILED ({self.result})'}"

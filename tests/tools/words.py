@@ -31,7 +31,7 @@ SCRIPT_TEST: Final = re.compile(
 )
 JSON_VALUE: Final = re.compile(r'(?:[:\[,]|^)\s*("(?:[^"\\\n]|\\.)*")(?!\s*:)', re.MULTILINE)
 HASH_COMMENT: Final = re.compile(r"(?<!\S)#[^\n]*")
-DOCUMENTED: Final = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+DOCUMENTED: Final = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
 
 
 class Text(NamedTuple):
@@ -91,15 +91,16 @@ def python_texts(source: str) -> Iterator[Text]:
     tree = ast.parse(source)
     docstrings = set()
     for node in ast.walk(tree):
-        if isinstance(node, DOCUMENTED) and (text := ast.get_docstring(node, clean=False)) is not None:
-            docstrings.add(id(node.body[0].value))  # type: ignore[attr-defined]
-            yield Text(node.body[0].lineno, text, is_docstring=True)
+        first = node.body[0] if isinstance(node, DOCUMENTED) and node.body else None
+        value = first.value if isinstance(first, ast.Expr) else None
+        if isinstance(value, ast.Constant) and isinstance(value.value, str):
+            docstrings.add(id(value))
+            yield Text(value.lineno, value.value, is_docstring=True)
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.name.startswith("test_"):
             yield Text(node.lineno, node.name.replace("_", " "))
     for node in ast.walk(tree):
-        is_text = isinstance(node, ast.Constant) and isinstance(node.value, str)
-        if is_text and id(node) not in docstrings and _is_prose(node.value):
-            yield Text(node.lineno, node.value)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
+            yield from [Text(node.lineno, node.value)] if _is_prose(node.value) else []
     for token in tokenize.generate_tokens(io.StringIO(source).readline):
         if token.type == tokenize.COMMENT:
             yield Text(token.start[0], token.string)

@@ -78,7 +78,7 @@ def test_a_rate_must_be_positive(tick_hz: float) -> None:
 @pytest.mark.parametrize("option", ["on_finish", "on_error"])
 def test_unknown_options_are_refused(option: str) -> None:
     with pytest.raises(ValueError, match=option):
-        runner(R, **{option: "explode"})
+        runner(R, **{option: "explode"})  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize(

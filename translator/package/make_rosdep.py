@@ -80,7 +80,6 @@ def make_table(python: dict[str, Any], packages: list[str], date: str) -> dict[s
 
 
 def main(folder: str, date: str) -> None:
-    """Prints the table."""
     python = yaml.safe_load(Path(folder, "python.yaml").read_text(encoding="utf-8"))
     packages = Path(folder, "jazzy_packages.txt").read_text(encoding="utf-8").split()
     table = make_table(python, packages, date)

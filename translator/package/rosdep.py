@@ -39,7 +39,6 @@ class RosdepTable:
 
 @cache
 def rosdep_table() -> RosdepTable:
-    """Returns the table."""
     text = resources.files("translator.package").joinpath("rosdep.json").read_text(encoding="utf-8")
     document = json.loads(text)
     return RosdepTable(document["date"], document["imports"], frozenset(document["ros_packages"]))

@@ -131,7 +131,6 @@ class _Patch:
             self.children_before[id(element)] = ids
 
     def tree(self) -> bytes:
-        """Returns the `<BehaviorTree>`."""
         element = self.source.element
         now, before = self.tree_now, self.source.tree
         tops = [] if now.root is None else [now.root]

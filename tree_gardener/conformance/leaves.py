@@ -37,12 +37,10 @@ class Traced(Behaviour):
     trace: ClassVar[Trace]
 
     def event(self, text: str) -> None:
-        """Adds an event."""
         self.trace.events.append(text)
 
     @property
     def path(self) -> str:
-        """Path of its node."""
         return node_of(self).path
 
 
@@ -72,7 +70,6 @@ class Leaf(_Scripted):
         self.word = "start"
 
     def update(self) -> Any:
-        """Plays the next letter."""
         self.event(f"{self.word or 'tick'}:{self.path}")
         self.word = ""
         return self.next_result()
@@ -89,7 +86,6 @@ class SyncLeaf(_Scripted):
     NODE_KIND = "SyncAction"
 
     def update(self) -> Any:
-        """Plays the next letter."""
         self.event(f"tick:{self.path}")
         return self.next_result()
 
@@ -110,7 +106,6 @@ class _Get(Traced):
     NODE_KIND = "SyncAction"
 
     def update(self) -> PyTreesStatus:
-        """Reads the port."""
         try:
             value = get_input(self, "value")
         except PortError:
@@ -124,7 +119,6 @@ class _Set(Traced):
     NODE_KIND = "SyncAction"
 
     def update(self) -> PyTreesStatus:
-        """Copies one port to the other."""
         try:
             value = get_input(self, "value")
         except PortError:
@@ -146,7 +140,6 @@ class Inc(Traced):
     INOUT_PORTS: ClassVar = {"counter": Port(int)}
 
     def update(self) -> PyTreesStatus:
-        """Adds one."""
         try:
             count = get_input(self, "counter")
         except PortError:

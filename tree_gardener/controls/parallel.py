@@ -15,7 +15,6 @@ class _Parallel(Control):
         self.forget()
 
     def forget(self) -> None:
-        """Resets the counts."""
         self.done: set[int] = set()
         self.successes = 0
         self.failures = 0

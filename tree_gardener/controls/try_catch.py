@@ -19,7 +19,6 @@ class TryCatch(Control):
         self.forget()
 
     def forget(self) -> None:
-        """Returns to the first child."""
         self.index = 0
         self.skips = 0
         self.catching = False
@@ -50,7 +49,6 @@ class TryCatch(Control):
         return self.finish_skipped() if all_skipped else self.finish(SUCCESS)
 
     def catch(self) -> Status:
-        """Ticks the last child."""
         if self.ticks[-1]() is RUNNING:
             return RUNNING
         self.forget()

@@ -39,7 +39,6 @@ class Precondition(Decorator):
         return self.finish(status)
 
     def test(self) -> bool:
-        """Evaluates the script."""
         text = self.get("if")
         try:
             return compile_script(text).test(self.environment)

@@ -44,7 +44,6 @@ class Delay(Decorator):
         return self.finish(status)
 
     def fire(self) -> None:
-        """The time is over."""
         self.is_over = True
         self.tree.wake_up = True
 
@@ -92,14 +91,12 @@ class Timeout(Decorator):
         return self.finish(status)
 
     def fire(self) -> None:
-        """The time is over."""
         if self.child.status is RUNNING:
             self.expired = True
             self.reset()
             self.tree.wake_up = True
 
     def cancel(self) -> None:
-        """Cancels the timer."""
         self.started = False
         if self.timer is not None:
             self.timer.cancel()

@@ -28,7 +28,6 @@ class SetBlackboard(SyncLeaf):
             raise TickError(self, str(error)) from None
 
     def write(self, key: str) -> Status:
-        """Writes to the entry of this name."""
         given = self.ports.get("value")
         if given is None:
             raise TickError(self, "port 'value' was given no value")

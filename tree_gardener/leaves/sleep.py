@@ -32,7 +32,6 @@ class Sleep(Leaf):
         return RUNNING
 
     def fire(self) -> None:
-        """The time is over."""
         self.is_over = True
         self.tree.wake_up = True
 

@@ -68,12 +68,10 @@ class TestNode(Leaf):
         return RUNNING
 
     def fire(self) -> None:
-        """The delay is over."""
         self.is_over = True
         self.tree.wake_up = True
 
     def end(self) -> Status:
-        """Runs the scripts and returns the result."""
         config = self.config
         result = self.result()
         if result is SUCCESS:
@@ -92,7 +90,6 @@ class TestNode(Leaf):
         return self.complete(result)
 
     def result(self) -> Status:
-        """Returns the configured status."""
         if not self.config.return_status_script:
             return self.config.return_status
         value = self.script(self.config.return_status_script)
@@ -104,7 +101,6 @@ class TestNode(Leaf):
         raise TickError(self, f"return_status_script gave {value!r}, which is no status")
 
     def script(self, text: str) -> object:
-        """Runs a script, if there is one."""
         if not text:
             return None
         try:

@@ -6,7 +6,8 @@ exports it, and assert something.
 
 `unmirrored.txt` lists the modules that have none. The list only shrinks: a module that has its test file now
 must leave it (`--write`), and a new module without one fails. After a move, `--write` renames the entries,
-and refuses where there are more of them than before.
+and refuses where there are more of them than before. After a merge that brings modules, delete the list
+first.
 """
 
 from __future__ import annotations

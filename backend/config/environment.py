@@ -105,6 +105,17 @@ class Environment(TeamSettings):
         description="Largest body of a request of somebody who is signed in; of others a megabyte is read. "
         "An archive that is imported may be as large as its user has room.",
     )
+    max_temporary_bytes: int = Field(
+        default=8192 * MEBIBYTE,
+        gt=0,
+        description="Room for all large bodies, uploads and downloads of all users that are on their way, "
+        "of each process that serves.",
+    )
+    min_free_bytes: int = Field(
+        default=512 * MEBIBYTE,
+        ge=0,
+        description="What temporary files leave free of the disk of the data folder.",
+    )
     work_deadline_s: float = Field(
         default=10.0,
         gt=0,

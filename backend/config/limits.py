@@ -1,4 +1,4 @@
-"""The translator's table of limits, without the translator, whose import would make the server start later."""
+"""The translator's table of limits, read without importing the translator: the server starts sooner."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """How much of a project may be trees: what is larger already may be made smaller, and does not grow.
 
-A save must not wait until diagrams are read. So nodes are counted only where so many bytes could hold too many,
-and where a mark that each node has is found too often.
+A save must not wait until diagrams are read. So nodes are counted only where so many bytes could hold
+too many, and where a mark that each node has is found too often.
 """
 
 from __future__ import annotations

@@ -137,7 +137,8 @@ def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, str]:
         sql = (
             f"SELECT {file}.project_id, {file}.blob_id FROM {file} "  # noqa: S608 - names of ours alone
             f"JOIN {owner} ON {owner}.id = {file}.project_id "
-            f"JOIN {blob} ON {blob}.sha256 = {file}.blob_id AND {blob}.size <= %s WHERE {file}.project_id IN ({places}) "
+            f"JOIN {blob} ON {blob}.sha256 = {file}.blob_id AND {blob}.size <= %s "
+            f"WHERE {file}.project_id IN ({places}) "
             f"AND {file}.path = 'trees/' || {owner}.main_tree || '.json'"
         )
         with connection.cursor() as cursor:

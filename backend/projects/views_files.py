@@ -33,10 +33,15 @@ if TYPE_CHECKING:
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
     """Bytes that the browser saves and never shows: what users stored must not run as a page."""
-    response = HttpResponse(data, content_type=content_type)
-    response.headers["Content-Disposition"] = f"attachment; filename*=UTF-8''{quote(filename, safe='')}"
-    response.headers["Content-Security-Policy"] = "default-src 'none'; sandbox"
-    return response
+    return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
+
+
+def saved_as(filename: str) -> dict[str, str]:
+    """Headers of what the browser saves under a name and never shows."""
+    return {
+        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
+        "Content-Security-Policy": "default-src 'none'; sandbox",
+    }
 
 
 def flag(request: Request, name: str) -> bool:

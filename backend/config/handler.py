@@ -68,6 +68,19 @@ class Unfinished(NamedTuple):
     response: Deferred
 
 
+class _Lent:
+    """The body for a request that may end before its answer is there, which must not close it."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self._file = file
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._file, name)
+
+    def close(self) -> None:
+        """Leaves it open."""
+
+
 class ThreadedHandler(ASGIHandler):
     """Django as an ASGI application for HTTP alone."""
 
@@ -138,7 +151,8 @@ class ThreadedHandler(ASGIHandler):
         scope[BODY] = body  # type: ignore[typeddict-unknown-key]
         _tell_length(scope, body)
         signals.request_started.send(sender=type(self), scope=scope)
-        request, refused = self.create_request(scope, body)
+        lent: Any = _Lent(body)
+        request, refused = self.create_request(scope, lent)
         if request is None:
             return _closed(refused)
         request.handler_waits = True  # type: ignore[attr-defined]

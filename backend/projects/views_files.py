@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+import os
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -18,17 +20,22 @@ from backend.config.api import user_of
 from backend.config.bodies import body_of
 from backend.config.openapi import IDEMPOTENCY_KEY
 from backend.config.problems import InvalidInputError
-from backend.projects import actions, archive, checking, names, queries
+from backend.projects import actions, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
+from backend.projects.unpacking import unpacker
 from backend.projects.views import opened
+from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from concurrent.futures import Future
     from uuid import UUID
 
     from django.http.response import HttpResponseBase
     from rest_framework.request import Request
+
+    from backend.projects.archive import Upload
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
@@ -236,12 +243,15 @@ class Import(APIView):
                 status=201,
             )
 
-        upload = archive.read_upload(data, name)
-        if upload.is_ours:
-            return create({"files": upload.files})
-        return checking.answered(
-            self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
-        )
+        def unpacked(done: Future[Upload]) -> HttpResponseBase:
+            upload = done.result()
+            if upload.is_ours:
+                return create({"files": upload.files})
+            return checking.answered(
+                self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
+            )
+
+        return Deferred(self, request, unpacker.ask(data, name), unpacked)
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:
@@ -259,4 +269,13 @@ def _uploaded(request: Request) -> tuple[IO[bytes], str]:
     uploaded = forms.get("file")
     if uploaded is None or uploaded.file is None:
         raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
-    return uploaded.file, uploaded.name or ""
+    return _kept_open(uploaded.file), uploaded.name or ""
+
+
+def _kept_open(file: IO[bytes]) -> IO[bytes]:
+    """A file of a form for longer than its request, which closes what came with it."""
+    if isinstance(file, io.BytesIO):
+        return io.BytesIO(file.getvalue())
+    kept = os.fdopen(os.dup(file.fileno()), "rb")
+    kept.seek(0)
+    return kept

@@ -55,6 +55,7 @@ def serve(connection: socket.socket, deadline_s: float) -> None:
             answer = _answer(message)
             signal.setitimer(signal.ITIMER_REAL, 0)
             frames.send(connection, answer)
+            del message, answer
     except frames.FrameError:
         return
 

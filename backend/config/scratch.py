@@ -147,8 +147,12 @@ class ScratchUploads(FileUploadHandler):
     def receive_data_chunk(self, raw_data: bytes, start: int) -> None:
         """More of it."""
         view = memoryview(raw_data)
-        while view:
-            view = view[self.file.write(view) :]
+        try:
+            while view:
+                view = view[self.file.write(view) :]
+        except BaseException:
+            self.file.close()  # Django closes only what has come to its end
+            raise
 
     def file_complete(self, file_size: int) -> UploadedFile[Any]:
         """All of it."""

@@ -68,19 +68,6 @@ class Unfinished(NamedTuple):
     response: Deferred
 
 
-class _Lent:
-    """The body for a request that may end before its answer is there, which must not close it."""
-
-    def __init__(self, file: IO[bytes]) -> None:
-        self._file = file
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._file, name)
-
-    def close(self) -> None:
-        """Leaves it open."""
-
-
 class ThreadedHandler(ASGIHandler):
     """Django as an ASGI application for HTTP alone."""
 
@@ -151,8 +138,7 @@ class ThreadedHandler(ASGIHandler):
         scope[BODY] = body  # type: ignore[typeddict-unknown-key]
         _tell_length(scope, body)
         signals.request_started.send(sender=type(self), scope=scope)
-        lent: Any = _Lent(body)
-        request, refused = self.create_request(scope, lent)
+        request, refused = self.create_request(scope, body)
         if request is None:
             return _closed(refused)
         request.handler_waits = True  # type: ignore[attr-defined]
@@ -166,7 +152,7 @@ class ThreadedHandler(ASGIHandler):
 
     def _taken(self, request: HttpRequest, response: Any) -> Answer | Unfinished:
         if isinstance(response, Deferred):
-            response.close()  # gives up what a request holds, the connection to the database among it
+            response.rest()
             return Unfinished(request, response)
         if isinstance(response, FileAnswer):
             response.close()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import os
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any
 from urllib.parse import quote
@@ -269,13 +267,4 @@ def _uploaded(request: Request) -> tuple[IO[bytes], str]:
     uploaded = forms.get("file")
     if uploaded is None or uploaded.file is None:
         raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
-    return _kept_open(uploaded.file), uploaded.name or ""
-
-
-def _kept_open(file: IO[bytes]) -> IO[bytes]:
-    """A file of a form for longer than its request, which closes what came with it."""
-    if isinstance(file, io.BytesIO):
-        return io.BytesIO(file.getvalue())
-    kept = os.fdopen(os.dup(file.fileno()), "rb")
-    kept.seek(0)
-    return kept
+    return uploaded.file, uploaded.name or ""

@@ -121,6 +121,20 @@ def test_files_of_forms_count_too(settings_of, monkeypatch, api):
     assert scratch.scratch().used == 0
 
 
+def test_a_file_of_a_form_is_there_until_its_request_is_answered():
+    """Its thread is given back while it is unpacked; what the key stands for is read after that."""
+    data = archive_of(5 * MEBIBYTE)
+    start = b'--cut\r\nContent-Disposition: form-data; name="file"; filename="p.zip"\r\n\r\n'
+    whole = start + data + b"\r\n--cut--\r\n"
+    form = head(
+        content_type="multipart/form-data; boundary=cut", content_length=str(len(whole)), idempotency_key="k"
+    )
+    for _ in range(2):
+        assert refused([body(whole)], form, IMPORT)[0] == 201
+    assert Project.objects.count() == 1
+    assert scratch.scratch().used == 0
+
+
 # --- all that is kept of a user --------------------------------------------------------------------------
 
 

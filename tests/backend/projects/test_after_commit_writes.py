@@ -173,7 +173,7 @@ def test_what_is_taken_back_is_said_to_be_taken_back(owner, one, monkeypatch):
             response = owner.client.generic(method, f"/api/v1/{path}")
         assert dead[0], path
         assert response.status_code == 204, (path, response.content[:1000])
-    assert not ShareLink.objects.exists()
+    assert owner.get(f"projects/{one}/shares")["links"] == []
     assert not Group.objects.exists()
 
 

@@ -18,11 +18,11 @@ from backend.config.api import user_of
 from backend.config.bodies import body_of
 from backend.config.openapi import IDEMPOTENCY_KEY
 from backend.config.problems import InvalidInputError
-from backend.projects import actions, checking, names, queries
+from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
-from backend.projects.unpacking import unpacker
 from backend.projects.views import opened
+from backend.workers.aside import unpacking
 from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
@@ -249,7 +249,8 @@ class Import(APIView):
                 self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
             )
 
-        return Deferred(self, request, unpacker.ask(data, name), unpacked)
+        work = unpacking.ask(f"user {user.pk}", partial(archive.read_upload, data, name))
+        return Deferred(self, request, work, unpacked)
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:

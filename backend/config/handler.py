@@ -155,8 +155,9 @@ class ThreadedHandler(ASGIHandler):
             response.rest()
             return Unfinished(request, response)
         if isinstance(response, FileAnswer):
+            file = response.take()
             response.close()
-            return Answer(response.status_code, _headers(response), b"", response.file)
+            return Answer(response.status_code, _headers(response), b"", file)
         return _closed(response)
 
 

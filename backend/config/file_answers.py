@@ -15,8 +15,8 @@ PART: Final = 1024 * 1024
 class FileAnswer(StreamingHttpResponse):
     """A file from its beginning to its end.
 
-    The handler takes the file, sends it and closes it; handlers that know nothing of it read the response as a
-    stream. A response that is closed before that closes its file.
+    The handler takes the file, sends it and closes it; handlers that know nothing of it read the response as
+    a stream. A response that is closed before that closes its file.
     """
 
     def __init__(self, file: IO[bytes], **options: Any) -> None:

@@ -109,7 +109,7 @@ class Environment(TeamSettings):
         default=8192 * MEBIBYTE,
         gt=0,
         description="Room for all large bodies, uploads and downloads of all users that are on their way, "
-        "of each process that serves.",
+        "of one server. Its workers share it equally.",
     )
     min_free_bytes: int = Field(
         default=512 * MEBIBYTE,

@@ -1,6 +1,7 @@
 """Files that are there while a request is: together bounded, and never the last room of the disk.
 
-None of them has a name, so that nothing is left of one whatever happens. The bound is that of one process.
+None of them has a name, so that nothing is left of one whatever happens. The workers of one server share the
+bound equally, and the keys.
 """
 
 from __future__ import annotations
@@ -19,11 +20,14 @@ from django.core.files.uploadhandler import FileUploadHandler
 
 from backend.config.environment import environment
 from backend.config.problems import StudioError
+from backend.config.siblings import siblings
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from _typeshed import ReadableBuffer
+
+    from backend.config.siblings import Place
 
 
 class NoRoomError(StudioError):
@@ -51,7 +55,6 @@ class Scratch:
         self.folder, self._most, self._reserve = folder, most, reserve
         self._lock = threading.Lock()
         self._used = 0
-        self._keys: set[str] = set()
 
     @property
     def used(self) -> int:
@@ -74,13 +77,16 @@ class Scratch:
         self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         with self._lock:
             self._require(expected)
-            if key in self._keys:
+            place = siblings.take(key, 1) if key else None
+            if key and place is None:
                 sentence = "A large file of this kind is on its way to you already."
                 raise AlreadyThereError(sentence, hint="Wait until it has arrived.")
-            made = ScratchFile(self, key)
-            if key:
-                self._keys.add(key)
-            return made
+            try:
+                return ScratchFile(self, place)
+            except OSError:
+                if place is not None:
+                    place.give_back()
+                raise
 
     def take(self, size: int) -> None:
         """Counts bytes before they are written."""
@@ -88,11 +94,12 @@ class Scratch:
             self._require(size)
             self._used += size
 
-    def give_back(self, size: int, key: str) -> None:
+    def give_back(self, size: int, place: Place | None) -> None:
         """Counts them no longer."""
         with self._lock:
             self._used -= size
-            self._keys.discard(key)
+            if place is not None:
+                place.give_back()
 
     def _require(self, size: int) -> None:
         if self._used + size > self._most:
@@ -107,8 +114,8 @@ class Scratch:
 class ScratchFile(io.FileIO):
     """A file that counts what it takes."""
 
-    def __init__(self, scratch: Scratch, key: str) -> None:
-        self._taken, self._key, self._scratch = 0, key, scratch
+    def __init__(self, scratch: Scratch, place: Place | None) -> None:
+        self._taken, self._place, self._scratch = 0, place, scratch
         descriptor, name = tempfile.mkstemp(dir=scratch.folder)
         os.unlink(name)  # noqa: PTH108 - a name without a Path
         super().__init__(descriptor, "r+")
@@ -126,14 +133,15 @@ class ScratchFile(io.FileIO):
         """Ends the file, which has no name, and gives back its room."""
         if not self.closed:
             super().close()
-            self._scratch.give_back(self._taken, self._key)
+            self._scratch.give_back(self._taken, self._place)
 
 
 @lru_cache(maxsize=1)
 def scratch() -> Scratch:
     """The temporary files of this process."""
     settings = environment()
-    return Scratch(settings.data_dir / "uploads", settings.max_temporary_bytes, settings.min_free_bytes)
+    most = settings.max_temporary_bytes // (siblings.family.size if siblings.family else 1)
+    return Scratch(settings.data_dir / "uploads", most, settings.min_free_bytes)
 
 
 class ScratchUploads(FileUploadHandler):

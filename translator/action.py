@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from translator.action_ports import Declarations, declared_ports, last_name, ports_used
 from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.limits import ACTION_BYTES, megabytes
 from translator.python_source import parse
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
     from translator.catalog import PortModel
 
-MAX_BYTES = 2 * 1024 * 1024
 KEPT_BYTES = 16 * 1024
 """Longer sources are not cached, which bounds the memory of the cache."""
 KINDS = {"Action": "action", "SyncAction": "action", "Condition": "condition"}
@@ -80,11 +80,9 @@ def inspect_action(source: str, filename: str) -> ActionModel:
 def _inspect(source: str, filename: str) -> ActionModel:
     name = PurePosixPath(filename).stem
     broken = ActionModel(name=name, source=source, path=filename)
-    if len(source) > MAX_BYTES:
-        return _with(
-            broken,
-            diagnostic("BT0003", Place(filename, line=1), size=f"{len(source) / 1e6:.0f} MB", limit="2 MB"),
-        )
+    if len(source) > ACTION_BYTES:
+        size, limit = megabytes(len(source)), megabytes(ACTION_BYTES)
+        return _with(broken, diagnostic("BT0003", Place(filename, line=1), size=size, limit=limit))
     try:
         module = parse(source, filename)
     except SyntaxError as error:

@@ -12,13 +12,11 @@ from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.foreign import is_of_tool
+from translator.limits import ARCHIVED_FILE_BYTES, FILES_PER_PROJECT, PROJECT_BYTES, megabytes
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-MAX_FILES = 5_000
-MAX_FILE_BYTES = 64 * 1024 * 1024
-MAX_TOTAL_BYTES = 256 * 1024 * 1024
 SKIPPED_FOLDERS = {"__pycache__", "__MACOSX", "node_modules"}
 # zipfile raises NotImplementedError for an unknown compression, RuntimeError for encryption.
 _DAMAGED = (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, ValueError, EOFError, OSError)
@@ -59,8 +57,8 @@ def read_zip(raw: bytes, *, file: str = "project.zip") -> dict[str, bytes]:
 
 def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]:
     entries = archive.infolist()
-    if len(entries) > MAX_FILES:
-        raise _error("BT0922", file, limit=f"{MAX_FILES} files")
+    if len(entries) > FILES_PER_PROJECT:
+        raise _error("BT0922", file, limit=f"{FILES_PER_PROJECT} files")
     total = 0
     seen: set[str] = set()
     for entry in entries:
@@ -71,7 +69,7 @@ def _entries(archive: zipfile.ZipFile, file: str) -> Iterator[tuple[str, bytes]]
         if entry.is_dir() or is_of_tool(path) or not SKIPPED_FOLDERS.isdisjoint(path.split("/")):
             continue
         seen.add(path)
-        data = _bounded(archive, entry, file, MAX_TOTAL_BYTES - total)
+        data = _bounded(archive, entry, file, PROJECT_BYTES - total)
         total += len(data)
         yield path, data
 
@@ -83,8 +81,8 @@ def _bounded(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, file: str, left: 
     with archive.open(entry) as stream:
         while chunk := stream.read(_CHUNK):
             size += len(chunk)
-            if size > MAX_FILE_BYTES or size > left:
-                raise _error("BT0922", file, limit=f"{MAX_TOTAL_BYTES // 2**20} MB")
+            if size > ARCHIVED_FILE_BYTES or size > left:
+                raise _error("BT0922", file, limit=megabytes(PROJECT_BYTES))
             parts.append(chunk)
     return b"".join(parts)
 
@@ -117,9 +115,9 @@ def read_folder(folder: Path) -> dict[str, bytes]:
             if is_of_tool(name) or path.is_symlink() or not path.is_file():
                 continue
             total += path.stat().st_size
-            if total > MAX_TOTAL_BYTES or len(files) >= MAX_FILES:
+            if total > PROJECT_BYTES or len(files) >= FILES_PER_PROJECT:
                 raise _error(
-                    "BT0922", str(folder), limit=f"{MAX_FILES} files or {MAX_TOTAL_BYTES // 2**20} MB"
+                    "BT0922", str(folder), limit=f"{FILES_PER_PROJECT} files or {megabytes(PROJECT_BYTES)}"
                 )
             files[path.relative_to(folder).as_posix()] = read_file(path)
     return files

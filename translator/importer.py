@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from translator.catalog import NodeModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
+from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
 from translator.project import Project, assemble
 from translator.proposal import propose
-from translator.settings import MAX_NAME, PROJECT_FILE, Settings
+from translator.settings import PROJECT_FILE, Settings
 from translator.stub import can_be_class, stub_source
 from translator.tree import Tree, used_types
 from translator.xml.read import Document, read_document
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
 
 IMPORTS = "imports/"
-MAX_INCLUDES = 200
 
 
 @dataclass(slots=True)
@@ -62,8 +62,8 @@ class _Import:
                 self.found.append(diagnostic("BT0732", place, path=path))
             elif target not in self.files:
                 self.found.append(diagnostic("BT0733", place, path=path))
-            elif len(self.documents) > MAX_INCLUDES:
-                self.found.append(diagnostic("BT0708", place, limit=MAX_INCLUDES))
+            elif len(self.documents) > XML_INCLUDES:
+                self.found.append(diagnostic("BT0708", place, limit=XML_INCLUDES))
             else:
                 yield target
 
@@ -101,6 +101,8 @@ def from_xml(  # noqa: PLR0913 - each is a choice of its own, and keyword-only
         trees = [Tree(settings.main_tree, None, {})]
     if not trees:
         raise TranslatorError([*work.found, diagnostic("BT0734", Place(file, line=1, column=1))])
+    if too_large := oversize(trees, Place(file, line=1, column=1)):
+        raise TranslatorError([*work.found, *too_large])
     documents = list(work.documents.values())
     sources = _actions(trees, documents, actions or {}, stubs=stubs)
     settings, proposed = with_proposal(settings, trees, sources)
@@ -154,9 +156,9 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
     trees: dict[str, Tree] = {}
     for document in work.documents.values():
         for item in document.trees:
-            if len(item.tree.id) > MAX_NAME:
+            if len(item.tree.id) > NAME_CHARACTERS:
                 place = Place(document.file, line=item.element.line, column=1)
-                raise TranslatorError([*work.found, diagnostic("BT0736", place, limit=MAX_NAME)])
+                raise TranslatorError([*work.found, diagnostic("BT0736", place, limit=NAME_CHARACTERS)])
             if item.tree.id in trees:
                 place = Place(document.file, tree=item.tree.id, line=item.element.line)
                 work.found.append(
@@ -169,7 +171,9 @@ def _merged(work: _Import, file: str) -> tuple[list[Tree], Settings]:
     if main != named and (named or len(trees) > 1):
         work.found.append(diagnostic("BT0735", Place(file, line=1), main=named or "(none)", chosen=main))
     name = first.source.root.attributes.get("project_name") or PurePosixPath(file).stem
-    return list(trees.values()), Settings(name=name[:MAX_NAME] or "Untitled", main_tree=main or "MainTree")
+    return list(trees.values()), Settings(
+        name=name[:NAME_CHARACTERS] or "Untitled", main_tree=main or "MainTree"
+    )
 
 
 def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:

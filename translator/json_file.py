@@ -6,15 +6,14 @@ import json
 from typing import Any
 
 from translator.diagnostic import Diagnostic, Place, diagnostic
-
-MAX_BYTES = 32 * 1024 * 1024
+from translator.limits import FILE_BYTES, megabytes
 
 
 def parse_json(raw: bytes | str, *, file: str) -> tuple[Any, Diagnostic | None]:
     """Returns the parsed value, or None and the diagnostic."""
-    if len(raw) > MAX_BYTES:
-        size = f"{len(raw) / 1e6:.0f} MB"
-        return None, diagnostic("BT0003", Place(file), size=size, limit=f"{MAX_BYTES // 1_000_000} MB")
+    if len(raw) > FILE_BYTES:
+        found = diagnostic("BT0003", Place(file), size=megabytes(len(raw)), limit=megabytes(FILE_BYTES))
+        return None, found
     try:
         text = raw.decode("utf-8-sig") if isinstance(raw, bytes) else raw
         return json.loads(text), None

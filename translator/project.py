@@ -14,6 +14,7 @@ from translator.catalog import NodeModel, PortModel, builtins
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, restore
 from translator.foreign import without_tools
+from translator.limits import DIAGRAM_BYTES_PER_PROJECT, TREES_PER_PROJECT, megabytes, oversize
 from translator.settings import PROJECT_FILE, Settings, read_settings
 from translator.text import bad_character
 from translator.tree import used_types
@@ -90,7 +91,8 @@ def load(files: Mapping[str, bytes]) -> Project:
     if PROJECT_FILE in files:
         settings, problems = _read_settings(files[PROJECT_FILE])
         found.extend(problems)
-    trees = _load_trees(files, found)
+    trees = {} if _are_too_large(files, found) else _load_trees(files, found)
+    found.extend(oversize(trees.values(), Place(PROJECT_FILE, line=1)))
     if PROJECT_FILE not in files and settings.main_tree not in trees and len(trees) == 1:
         settings = settings.model_copy(update={"main_tree": next(iter(trees))})
     actions = _load_actions(files, used_types(trees.values()), found)
@@ -121,6 +123,21 @@ _settings_read = lru_cache(maxsize=256)(read_settings)
 
 def _is_diagram(path: str) -> bool:
     return path.startswith("trees/") and path.endswith(".json")
+
+
+def _are_too_large(files: Mapping[str, bytes], found: list[Diagnostic]) -> bool:
+    """Whether the diagrams are so many, or so large, that none of them is read."""
+    sizes = [len(raw) for path, raw in files.items() if _is_diagram(path)]
+    place = Place(PROJECT_FILE, line=1)
+    if sum(sizes) > DIAGRAM_BYTES_PER_PROJECT:
+        size, limit = megabytes(sum(sizes)), megabytes(DIAGRAM_BYTES_PER_PROJECT)
+        found.append(diagnostic("BT0019", place, size=size, limit=limit))
+    elif len(sizes) > TREES_PER_PROJECT:
+        size, limit = f"{len(sizes)} trees", f"{TREES_PER_PROJECT} trees"
+        found.append(diagnostic("BT0019", place, size=size, limit=limit))
+    else:
+        return False
+    return True
 
 
 def _load_trees(files: Mapping[str, bytes], found: list[Diagnostic]) -> dict[str, Tree]:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+from translator.limits import SCRIPT_CHARACTERS
+
 if TYPE_CHECKING:
     from tree_gardener.script import Program
 
-MAX_LENGTH = 20_000
 MAX_INTEGER = 2**63 - 1
 
 
@@ -34,8 +35,8 @@ def script_names(code: str) -> ScriptNames:
     # Imported here, since the engine imports py_trees, which reading and writing trees do not need.
     from tree_gardener.script import ScriptError, parse  # noqa: PLC0415
 
-    if len(code) > MAX_LENGTH:
-        return ScriptNames(problem=Problem(0, f"it is longer than {MAX_LENGTH} characters", ""))
+    if len(code) > SCRIPT_CHARACTERS:
+        return ScriptNames(problem=Problem(0, f"it is longer than {SCRIPT_CHARACTERS} characters", ""))
     try:
         read, written = _names(parse(code))
     except ScriptError as error:
@@ -51,7 +52,7 @@ def integers_too_large(code: str) -> list[str]:
     from tree_gardener.script.lexer import tokenize  # noqa: PLC0415
 
     try:
-        tokens = tokenize(code[:MAX_LENGTH])
+        tokens = tokenize(code[:SCRIPT_CHARACTERS])
     except ScriptError:
         return []
     return [

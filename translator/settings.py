@@ -8,11 +8,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.json_file import parse_json
+from translator.limits import DESCRIPTION_CHARACTERS, NAME_CHARACTERS
 from translator.text import clean, is_clean
 
 PROJECT_FILE = "project.json"
 FORMAT = "bt-studio/project"
-MAX_NAME = 200
 NO_UNIVERSE = "none"
 """What `universe` says where the program runs against an outside ROS graph, without a world of ours."""
 
@@ -22,8 +22,8 @@ class Maintainer(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="ignore")
 
-    name: str = Field(default="", max_length=MAX_NAME)
-    email: str = Field(default="", max_length=MAX_NAME)
+    name: str = Field(default="", max_length=NAME_CHARACTERS)
+    email: str = Field(default="", max_length=NAME_CHARACTERS)
 
 
 class Settings(BaseModel):
@@ -33,12 +33,12 @@ class Settings(BaseModel):
 
     format: Literal["bt-studio/project"] = "bt-studio/project"
     version: Literal[1] = 1
-    name: str = Field(default="Untitled", min_length=1, max_length=MAX_NAME)
-    description: str = Field(default="", max_length=10_000)
-    main_tree: str = Field(default="MainTree", min_length=1, max_length=MAX_NAME)
+    name: str = Field(default="Untitled", min_length=1, max_length=NAME_CHARACTERS)
+    description: str = Field(default="", max_length=DESCRIPTION_CHARACTERS)
+    main_tree: str = Field(default="MainTree", min_length=1, max_length=NAME_CHARACTERS)
     tick_hz: float = Field(default=20, gt=0, le=1000)
-    universe: str = Field(default="empty", max_length=MAX_NAME)
-    robot: str | None = Field(default=None, max_length=MAX_NAME)
+    universe: str = Field(default="empty", max_length=NAME_CHARACTERS)
+    robot: str | None = Field(default=None, max_length=NAME_CHARACTERS)
     on_finish: Literal["stop", "repeat"] = "stop"
     on_error: Literal["stop", "failure"] = "stop"
     license: str = Field(default="Apache-2.0", max_length=100)

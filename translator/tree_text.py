@@ -13,6 +13,7 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.limits import oversize
 from translator.project import Project
 from translator.settings import Settings
 from translator.xml.attributes import ID
@@ -69,6 +70,7 @@ def write_tree_text(tree: Tree, *, base: str = "", ids: Sequence[str] = ()) -> T
     Raises:
         TranslatorError: If `base` cannot be read.
     """
+    _require_size(tree)
     project = _project_of(tree)
     if base:
         document = _read(base, tree)
@@ -104,6 +106,7 @@ def read_tree_text(xml: str, now: Tree) -> ReadTree:
     _take_ids(document, _matched(source, now))
     found = document.trees[0].tree
     drafts = {node.id: node for draft in now.drafts for node in now.walk(draft)}
+    _require_size(found)
     tree = replace(
         found,
         id=now.id,
@@ -114,6 +117,11 @@ def read_tree_text(xml: str, now: Tree) -> ReadTree:
     )
     told = [item for item in document.diagnostics if item.code != "BT0714"]
     return ReadTree(tree, TreeText(xml, tuple(_ranges(document))), tuple(told))
+
+
+def _require_size(tree: Tree) -> None:
+    if found := oversize([tree], Place(f"{tree.id}.xml", tree=tree.id, line=1, column=1)):
+        raise TranslatorError(found)
 
 
 def _project_of(tree: Tree) -> Project:

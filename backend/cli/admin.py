@@ -141,11 +141,12 @@ def export_user(
     """Writes all that is kept of a user to a zip: account, log, drafts and projects."""
     with _accounts():
         from backend.accounts.audit import note
-        from backend.projects.personal_data import archive_of
+        from backend.projects.personal_data import write_archive
 
         user = _user(name)
         try:
-            file.write_bytes(archive_of(user))
+            with file.open("wb") as target:
+                write_archive(user, target)
         except OSError as error:
             raise CliError(f"{file} cannot be written: {error.strerror}.") from error
         note("account.export", actor=None, subject=user.username, subject_id=user.pk, by="command line")

@@ -10,7 +10,6 @@ import asyncio
 import contextlib
 import errno
 import io
-import tempfile
 from dataclasses import dataclass
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
@@ -27,11 +26,11 @@ from backend.config.threads import Threads
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
-    from pathlib import Path
 
     from asgiref.typing import ASGIReceiveCallable, HTTPScope
 
     from backend.accounts.models import User
+    from backend.config.scratch import Scratch
     from backend.config.siblings import Place
 
 UNKNOWN_BYTES: Final = 1024 * 1024
@@ -111,11 +110,11 @@ class Bodies:
     Args:
         asking: threads that may ask the database.
         upload: the route for archives, if there is one.
-        folder: where large bodies lie while they are needed.
+        scratch: where large bodies lie while they are needed.
     """
 
-    def __init__(self, asking: Threads, upload: Upload | None, folder: Path) -> None:
-        self._asking, self.upload, self.folder = asking, upload, folder
+    def __init__(self, asking: Threads, upload: Upload | None, scratch: Scratch) -> None:
+        self._asking, self.upload, self.scratch = asking, upload, scratch
         self._writing = Threads(2, "bodies")
 
     @contextlib.asynccontextmanager
@@ -132,7 +131,7 @@ class Bodies:
             with body.file:
                 yield body
         except StudioError as error:
-            raise BodyRefusedError(error.document()) from error
+            raise BodyRefusedError(error.document(), error.retry_after_s or None) from error
         except OSError as error:
             if error.errno != errno.ENOSPC:
                 raise
@@ -147,7 +146,7 @@ class Bodies:
         return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work))
 
     async def write(self, work: Callable[[], Any]) -> Any:
-        """Has a thread write to the disk."""
+        """Has a thread write to the disk, or read from there."""
         return await self._writing.run(asyncio.get_running_loop(), work)
 
 
@@ -196,11 +195,14 @@ class _Reading:
             user = await self._sender()
         if upload is not None and user is not None and not user.is_guest:
             self._take_slot(user, is_upload=True)
-            self._most, self._in_memory = await self._bodies.ask(partial(upload.room, user)), PART
+            room = await self._bodies.ask(partial(upload.room, user))
+            self._most, self._in_memory = min(room, environment().max_temporary_bytes), PART
         elif declared > environment().max_request_bytes:
             raise _too_large(environment().max_request_bytes)
         if declared > self._most:
             await self._allow_more(declared)
+        if declared > self._in_memory:  # refused before it is sent where there is no room for all of it
+            self._file = await self._bodies.write(partial(self._bodies.scratch.file, expected=declared))
 
     async def _allow_more(self, size: int) -> None:
         """Called when more comes than everybody may send."""
@@ -267,18 +269,15 @@ class _Reading:
 
     async def _flush(self) -> None:
         data, self._pending = self._pending, bytearray()
-        self._file = await self._bodies.write(partial(_write, self._file, self._bodies.folder, data))
+        if self._file is None:
+            self._file = await self._bodies.write(self._bodies.scratch.file)
+        await self._bodies.write(partial(_write, self._file, data))
 
 
-def _write(file: IO[bytes] | None, folder: Path, data: bytes | bytearray) -> IO[bytes]:
-    if file is None:
-        folder.mkdir(parents=True, exist_ok=True, mode=0o700)
-        # It has no name, so that nothing is left of it whatever happens.
-        file = tempfile.TemporaryFile(dir=folder, buffering=0)  # noqa: SIM115 - the reader of the body closes it
+def _write(file: IO[bytes], data: bytes | bytearray) -> None:
     view = memoryview(data)
     while view:
         view = view[file.write(view) :]
-    return file
 
 
 def _too_large(most: int, *, hint: str = "") -> BodyRefusedError:

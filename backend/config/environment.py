@@ -10,6 +10,7 @@ from typing import Literal
 from pydantic import Field, SecretStr, ValidationError, field_validator
 from pydantic_settings import SettingsConfigDict, SettingsError
 
+from backend.config.limits import LIMITS
 from backend.config.team import MissingSettingError, TeamSettings
 
 PREFIX = "BT_STUDIO_"
@@ -87,11 +88,13 @@ class Environment(TeamSettings):
     session_silence_s: float = Field(
         default=10.0, ge=4, description="How long an executor may leave pings unanswered before it is ended."
     )
-    max_file_bytes: int = Field(default=32 * MEBIBYTE, gt=0, description="Largest file of a project.")
+    max_file_bytes: int = Field(default=LIMITS["file_bytes"], gt=0, description="Largest file of a project.")
     max_project_bytes: int = Field(
-        default=256 * MEBIBYTE, gt=0, description="Sum of the current files of a project."
+        default=LIMITS["project_bytes"], gt=0, description="Sum of the current files of a project."
     )
-    max_project_files: int = Field(default=5000, gt=0, description="Number of current files of a project.")
+    max_project_files: int = Field(
+        default=LIMITS["files_per_project"], gt=0, description="Number of current files of a project."
+    )
     max_user_bytes: int = Field(
         default=4096 * MEBIBYTE, gt=0, description="Sum of the current files of all projects of one user."
     )
@@ -101,6 +104,17 @@ class Environment(TeamSettings):
         gt=0,
         description="Largest body of a request of somebody who is signed in; of others a megabyte is read. "
         "An archive that is imported may be as large as its user has room.",
+    )
+    max_temporary_bytes: int = Field(
+        default=8192 * MEBIBYTE,
+        gt=0,
+        description="Room for all large bodies, uploads and downloads of all users that are on their way, "
+        "of one server. Its workers share it equally.",
+    )
+    min_free_bytes: int = Field(
+        default=512 * MEBIBYTE,
+        ge=0,
+        description="What temporary files leave free of the disk of the data folder.",
     )
     work_deadline_s: float = Field(
         default=10.0,

@@ -19,10 +19,12 @@ from django.core.handlers.base import BaseHandler
 from django.middleware.http import ConditionalGetMiddleware
 from django.urls import set_script_prefix
 
-from backend.config.bodies import BODY, Bodies, BodyRefusedError, ClientLeftError
+from backend.config.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefusedError, ClientLeftError
 from backend.config.environment import environment
+from backend.config.file_answers import PART, FileAnswer
 from backend.config.middleware import secured
 from backend.config.problems import problem, problem_response
+from backend.config.scratch import scratch
 from backend.config.siblings import siblings
 from backend.config.threads import Threads
 from backend.workers.deferred import Deferred
@@ -55,6 +57,8 @@ class Answer(NamedTuple):
     status: int
     headers: list[tuple[bytes, bytes]]
     body: bytes
+    file: IO[bytes] | None = None
+    """Where the body lies that is too large for memory."""
 
 
 class Unfinished(NamedTuple):
@@ -75,7 +79,7 @@ class ThreadedHandler(ASGIHandler):
         self.threads = Threads(THREADS_OF_SEVERAL if family else THREADS[environment().mode], "http")
         self._hashing = asyncio.Semaphore(max(1 if family else 2, (os.cpu_count() or 1) // (2 * size)))
         self._waiting, self._most_waiting = 0, MOST_WAITING // size
-        self._bodies = Bodies(self.threads, upload, environment().data_dir / "uploads")
+        self._bodies = Bodies(self.threads, upload, scratch())
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
@@ -94,7 +98,19 @@ class ThreadedHandler(ASGIHandler):
         except BodyRefusedError as error:
             await _send_and_close(_refusal(scope, error.refused), receive, send)
             return
-        await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
+        if answer.file is not None:
+            await self._send_file(answer, answer.file, send)
+        else:
+            await (_send(answer, send) if body.is_whole else _send_and_close(answer, receive, send))
+
+    async def _send_file(self, answer: Answer, file: IO[bytes], send: ASGISendCallable) -> None:
+        """Sends it as fast as it is taken; a client that takes nothing is given up."""
+        with file:
+            await _send(answer, send, last=False)
+            while part := await self._bodies.write(partial(file.read, PART)):
+                async with asyncio.timeout(PATIENCE_S + PART / SLOWEST):
+                    await send({"type": "http.response.body", "body": part, "more_body": True})
+            await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     @asynccontextmanager
     async def _turn(self, scope: HTTPScope) -> AsyncIterator[None]:
@@ -136,8 +152,12 @@ class ThreadedHandler(ASGIHandler):
 
     def _taken(self, request: HttpRequest, response: Any) -> Answer | Unfinished:
         if isinstance(response, Deferred):
-            response.close()  # gives up what a request holds, the connection to the database among it
+            response.rest()
             return Unfinished(request, response)
+        if isinstance(response, FileAnswer):
+            file = response.take()
+            response.close()
+            return Answer(response.status_code, _headers(response), b"", file)
         return _closed(response)
 
 

@@ -101,6 +101,10 @@ WHITENOISE_AUTOREFRESH = True  # a new build of the front end needs no restart
 WHITENOISE_ALLOW_ALL_ORIGINS = False
 DATA_UPLOAD_MAX_MEMORY_SIZE = ENVIRONMENT.max_request_bytes
 FILE_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
+FILE_UPLOAD_HANDLERS = [
+    "django.core.files.uploadhandler.MemoryFileUploadHandler",
+    "backend.config.scratch.ScratchUploads",
+]
 SECURE_CONTENT_TYPE_NOSNIFF = True
 # Small notices only, such as that a project has a new revision; never frames, logs or files.
 CHANNEL_LAYERS: dict[str, dict[str, Any]] = {

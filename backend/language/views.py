@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
@@ -12,8 +13,12 @@ from backend.config.api import parsed, user_of
 from backend.language import ruff
 from backend.language import serializers as s
 from backend.language.places import checker
+from backend.workers.aside import checkers
+from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from rest_framework.request import Request
 
 
@@ -26,10 +31,11 @@ class Format(APIView):
         responses=s.FormattedSerializer,
         tags=["language"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> Deferred:
         """The source in the usual style; 422 when it does not parse."""
         given = parsed(s.SourceSerializer, request.data)
-        return Response({"source": ruff.format_source(**given, run=checker(user_of(request)))})
+        work = partial(ruff.format_source, **given, run=checker(user_of(request)))
+        return _answered(self, request, "source", work)
 
 
 class Lint(APIView):
@@ -41,7 +47,14 @@ class Lint(APIView):
         responses=s.FindingsSerializer,
         tags=["language"],
     )
-    def post(self, request: Request) -> Response:
+    def post(self, request: Request) -> Deferred:
         """What is likely wrong, with the edits that mend it."""
         given = parsed(s.SourceSerializer, request.data)
-        return Response({"findings": ruff.findings(**given, run=checker(user_of(request)))})
+        work = partial(ruff.findings, **given, run=checker(user_of(request)))
+        return _answered(self, request, "findings", work)
+
+
+def _answered(view: APIView, request: Request, name: str, work: Callable[[], Any]) -> Deferred:
+    """Answers with what ruff says, for which no thread of a request waits."""
+    asked = checkers.ask(f"user {user_of(request).pk}", work)
+    return Deferred(view, request, asked, lambda done: Response({name: done.result()}))

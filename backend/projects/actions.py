@@ -14,6 +14,7 @@ from backend.config.locks import transaction_lock
 from backend.config.problems import InvalidInputError, NotFoundError
 from backend.projects import kept, names, queries, rows
 from backend.projects.access import Need
+from backend.projects.bounds import require_bounded
 from backend.projects.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.errors import (
     NameTakenError,
@@ -290,6 +291,7 @@ def _apply(
         return
     manifest = _manifest_after(result)
     project.size = _size_after(project, current, result)
+    require_bounded(current, result)
     project.revision, project.updated_at = project.revision + 1, now
     change = ChangeSet(
         project=project, number=project.revision, author=acting_user, message=message[:500], created_at=now

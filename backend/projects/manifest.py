@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from backend.config.limits import LIMITS
 from backend.config.problems import InvalidInputError
 from backend.projects import names
 
@@ -13,7 +14,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MANIFEST: Final = "project.json"
-MAX_DESCRIPTION: Final = 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ def read(raw: bytes) -> Manifest:
         )
     return Manifest(
         name=names.project_name(_text(document, "name", "Untitled", 10 * names.MAX_NAME_LENGTH)),
-        description=_text(document, "description", "", MAX_DESCRIPTION),
+        description=_text(document, "description", "", LIMITS["description_characters"]),
         main_tree=_text(document, "main_tree", "MainTree", names.MAX_NAME_LENGTH),
         universe=_text(document, "universe", "empty", names.MAX_NAME_LENGTH),
         document=document,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Final, Literal
 
 from django.db.models import F, Max, Q, QuerySet
 from django.db.models.functions import Lower
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
     from backend.projects.changes import Existing
+
+LARGEST_DRAWN: Final = 256 * 1024
+"""Bytes of a main tree; larger ones make no picture on a card, and would take a list of projects seconds."""
 
 Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
 Shelf = Literal["current", "archived", "deleted"]
@@ -131,14 +134,16 @@ def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], 
 
 def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
     """The main tree of each project, where it can be read."""
-    blobs = rows.root_trees([project.id for project in found])
+    blobs = rows.root_trees([project.id for project in found], LARGEST_DRAWN)
     data = kept.contents(blobs.values())
     diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
     return {project_id: diagram for project_id, diagram in diagrams.items() if diagram is not None}
 
 
 def root_diagram(data: bytes) -> dict[str, Any] | None:
-    """A tree as JSON, where it can be read."""
+    """A tree as JSON, where it can be read, and is such as fits on a card."""
+    if len(data) > LARGEST_DRAWN:
+        return None
     try:
         diagram = json.loads(data)
     except (ValueError, RecursionError):

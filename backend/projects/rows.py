@@ -126,9 +126,9 @@ def existing(project: Project) -> dict[str, Existing]:
         return {row[0]: Existing(*row) for row in cursor.fetchall()}
 
 
-def root_trees(projects: Sequence[UUID]) -> dict[UUID, str]:
-    """The blob of the main tree of each of these projects, where it has one."""
-    file, owner = _table(CurrentFile), _table(Project)
+def root_trees(projects: Sequence[UUID], largest: int) -> dict[UUID, str]:
+    """The blob of the main tree of each of these projects, where it has one that is not larger."""
+    file, owner, blob = _table(CurrentFile), _table(Project), _table(Blob)
     convert = _to_database(connection.vendor, Project, "id")
     found: dict[UUID, str] = {}
     for some in _portions(projects):
@@ -136,11 +136,13 @@ def root_trees(projects: Sequence[UUID]) -> dict[UUID, str]:
         places = ", ".join(["%s"] * len(some))
         sql = (
             f"SELECT {file}.project_id, {file}.blob_id FROM {file} "  # noqa: S608 - names of ours alone
-            f"JOIN {owner} ON {owner}.id = {file}.project_id WHERE {file}.project_id IN ({places}) "
+            f"JOIN {owner} ON {owner}.id = {file}.project_id "
+            f"JOIN {blob} ON {blob}.sha256 = {file}.blob_id AND {blob}.size <= %s "
+            f"WHERE {file}.project_id IN ({places}) "
             f"AND {file}.path = 'trees/' || {owner}.main_tree || '.json'"
         )
         with connection.cursor() as cursor:
-            cursor.execute(sql, list(of))
+            cursor.execute(sql, [largest, *of])
             found |= {of[row[0]]: row[1] for row in cursor.fetchall()}
     return found
 

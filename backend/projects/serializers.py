@@ -9,8 +9,8 @@ from typing import Any, Final
 from drf_spectacular.utils import extend_schema_field
 from rest_framework import serializers
 
+from backend.config.limits import LIMITS
 from backend.projects.changes import Content, FileChange
-from backend.projects.manifest import MAX_DESCRIPTION
 from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 
 OBJECT = {"type": "object", "additionalProperties": {}}
@@ -217,7 +217,7 @@ class EditProjectSerializer(StrictSerializer):
 
     base_revision = StrictIntegerField(min_value=1, max_value=MAX_REVISION)
     name = TextField(required=False, max_length=MAX_NAME_LENGTH)
-    description = TextField(required=False, max_length=MAX_DESCRIPTION)
+    description = TextField(required=False, max_length=LIMITS["description_characters"])
     settings = ObjectField(required=False)
 
 
@@ -364,7 +364,10 @@ class RestoreRevisionSerializer(StrictSerializer):
     """Which files to put back; all, when none are named."""
 
     paths = serializers.ListField(
-        child=TextField(max_length=MAX_PATH_LENGTH), required=False, default=list, max_length=5000
+        child=TextField(max_length=MAX_PATH_LENGTH),
+        required=False,
+        default=list,
+        max_length=LIMITS["files_per_project"],
     )
 
 

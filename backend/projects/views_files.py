@@ -22,21 +22,31 @@ from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need
 from backend.projects.views import opened
+from backend.workers.aside import unpacking
+from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from concurrent.futures import Future
     from uuid import UUID
 
     from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
+    from backend.projects.archive import Upload
+
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
     """Bytes that the browser saves and never shows: what users stored must not run as a page."""
-    response = HttpResponse(data, content_type=content_type)
-    response.headers["Content-Disposition"] = f"attachment; filename*=UTF-8''{quote(filename, safe='')}"
-    response.headers["Content-Security-Policy"] = "default-src 'none'; sandbox"
-    return response
+    return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
+
+
+def saved_as(filename: str) -> dict[str, str]:
+    """Headers of what the browser saves under a name and never shows."""
+    return {
+        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
+        "Content-Security-Policy": "default-src 'none'; sandbox",
+    }
 
 
 def flag(request: Request, name: str) -> bool:
@@ -231,12 +241,16 @@ class Import(APIView):
                 status=201,
             )
 
-        upload = archive.read_upload(data, name)
-        if upload.is_ours:
-            return create({"files": upload.files})
-        return checking.answered(
-            self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
-        )
+        def unpacked(done: Future[Upload]) -> HttpResponseBase:
+            upload = done.result()
+            if upload.is_ours:
+                return create({"files": upload.files})
+            return checking.answered(
+                self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
+            )
+
+        work = unpacking.ask(f"user {user.pk}", partial(archive.read_upload, data, name))
+        return Deferred(self, request, work, unpacked)
 
 
 def _uploaded(request: Request) -> tuple[IO[bytes], str]:

@@ -17,10 +17,10 @@ from backend.config.api import parsed, user_of
 from backend.config.environment import environment
 from backend.config.problems import InvalidInputError, NotFoundError
 from backend.projects import personal_data, usage
-from backend.projects.views_files import download
+from backend.projects.views_files import saved_as
 
 if TYPE_CHECKING:
-    from django.http import HttpResponse
+    from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
 
@@ -52,11 +52,12 @@ class MyData(APIView):
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
         tags=["accounts"],
     )
-    def get(self, request: Request) -> HttpResponse:
+    def get(self, request: Request) -> HttpResponseBase:
         """The account, its log and its projects, as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
-        return download(personal_data.archive_of(user), "application/zip", f"{user.username}.zip")
+        headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")
+        return personal_data.answer_with_archive(self, request, user, headers)
 
     @extend_schema(
         operation_id="delete_my_account",

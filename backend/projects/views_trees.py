@@ -10,6 +10,7 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.config.api import parsed
+from backend.config.limits import LIMITS
 from backend.projects import checking
 from backend.projects import serializers as s
 
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
     from django.http.response import HttpResponseBase
     from rest_framework.request import Request
 
-MAX_TEXT = 2_000_000
-MAX_NODES = 20_000
+MAX_TEXT = LIMITS["tree_text_characters"]
 
 
 class WriteTreeSerializer(s.StrictSerializer):
@@ -29,10 +29,10 @@ class WriteTreeSerializer(s.StrictSerializer):
         required=False, default="", max_length=MAX_TEXT, help_text="An earlier text, to be patched."
     )
     ids = serializers.ListField(
-        child=s.TextField(max_length=200),
+        child=s.TextField(max_length=LIMITS["name_characters"]),
         required=False,
         default=list,
-        max_length=MAX_NODES,
+        max_length=LIMITS["nodes_per_tree"],
         help_text="The nodes of `base`, in the order of the text.",
     )
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from concurrent.futures import wait
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
+from django.core import signals
 from django.http import HttpResponse
 
 if TYPE_CHECKING:
@@ -41,6 +42,10 @@ class Deferred(HttpResponse):
         self.work = work
         self._view, self._request, self._finish = view, request, finish
 
+    def rest(self) -> None:
+        """Gives up the connection to the database while it waits; the request and its files stay open."""
+        signals.request_finished.send(sender=type(self))
+
     def complete(self) -> HttpResponseBase:
         """The answer, or what it waits for next; the work is waited for if it is not done."""
         wait([self.work])
@@ -53,6 +58,9 @@ class Deferred(HttpResponse):
             response = self._view.finalize_response(self._request, answer)
             if hasattr(response, "render"):
                 response.render()
+        ours, theirs = cast("Any", self)._resource_closers, cast("Any", response)._resource_closers
+        theirs.extend(ours)  # the request is closed with its answer
+        ours.clear()
         for name, value in self.headers.items():
             response.headers.setdefault(name, value)
         return response

@@ -42,7 +42,7 @@ def send(connection: socket.socket, packed: bytes) -> None:
         raise FrameError("the other end is gone") from error
 
 
-def receive(connection: socket.socket) -> bytes:
+def receive(connection: socket.socket) -> bytearray:
     """Returns the next message, still packed.
 
     Raises:
@@ -52,7 +52,7 @@ def receive(connection: socket.socket) -> bytes:
     (length,) = PREFIX.unpack(_exactly(connection, PREFIX.size))
     if length > MAX_BYTES:
         raise FrameError(f"a message of {length} bytes is too large")
-    return bytes(_exactly(connection, length))
+    return _exactly(connection, length)
 
 
 def _exactly(connection: socket.socket, length: int) -> bytearray:

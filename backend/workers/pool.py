@@ -148,13 +148,13 @@ class Pool:
             finally:
                 self._idle -= 1
 
-    def done(self, owner: str, job: _Job, answer: bytes | Exception) -> None:
+    def done(self, owner: str, job: _Job, answer: bytearray | Exception) -> None:
         """Hands out what became of a job."""
         result, error = _opened(answer)
         with self._changed:
             self._queue.done(owner)
             self._going.pop(job.key, None)
-            if error is None and isinstance(answer, bytes):
+            if error is None and isinstance(answer, bytearray):
                 self._kept.put(job.key, answer)
             self._changed.notify()  # another job of this owner may begin
         if error is None:
@@ -168,7 +168,7 @@ class Pool:
         return self._limits
 
 
-def _opened(answer: bytes | Exception) -> tuple[Any, Exception | None]:
+def _opened(answer: bytearray | Exception) -> tuple[Any, Exception | None]:
     if isinstance(answer, Exception):
         return None, answer
     try:
@@ -204,7 +204,7 @@ class _Worker:
     def _work(self) -> None:
         while (taken := self._pool.next()) is not None:
             owner, job = taken
-            answer: bytes | Exception
+            answer: bytearray | Exception
             try:
                 answer = self._done(job)
             except Exception as error:  # the one who waits must hear of everything
@@ -212,7 +212,7 @@ class _Worker:
             self._pool.done(owner, job, answer)
         self._end()
 
-    def _done(self, job: _Job) -> bytes:
+    def _done(self, job: _Job) -> bytearray:
         limits = self._pool.limits
         connection = self._connected(limits)
         connection.settimeout(limits.deadline_s)
@@ -284,10 +284,10 @@ class _Kept:
             self._answers.move_to_end(key)
         return found
 
-    def put(self, key: bytes, answer: bytes) -> None:
+    def put(self, key: bytes, answer: bytearray) -> None:
         if len(answer) > LARGEST_KEPT_BYTES or key in self._answers:
             return
-        self._answers[key] = answer
+        self._answers[key] = bytes(answer)
         self._size += len(answer)
         while self._size > KEPT_BYTES:
             self._size -= len(self._answers.popitem(last=False)[1])

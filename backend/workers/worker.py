@@ -48,18 +48,19 @@ def serve(connection: socket.socket, deadline_s: float) -> None:
     """Answers messages until there are no more."""
     try:
         while True:
-            packed = frames.receive(connection)
+            # What came is not kept beside what is in it: the largest project has 256 MB.
+            message = msgspec.msgpack.decode(frames.receive(connection))
             # The pool ends who works for too long; without a pool, the worker ends itself.
             signal.setitimer(signal.ITIMER_REAL, 2 * deadline_s)
-            answer = _answer(packed)
+            answer = _answer(message)
             signal.setitimer(signal.ITIMER_REAL, 0)
             frames.send(connection, answer)
+            del message, answer
     except frames.FrameError:
         return
 
 
-def _answer(packed: bytes) -> bytes:
-    message: dict[str, Any] = msgspec.msgpack.decode(packed)
+def _answer(message: dict[str, Any]) -> bytes:
     try:
         return frames.pack({"result": JOBS[message["job"]](**message["arguments"])})
     except MemoryError:

@@ -16,6 +16,7 @@ from backend.accounts.identity import the_local_user
 from backend.config import guard
 from backend.config.environment import environment
 from backend.config.handler import ThreadedHandler
+from backend.config.scratch import scratch
 
 HOST = "127.0.0.1:8000"
 
@@ -31,10 +32,11 @@ class Api:
         address = path if path.startswith("/") else f"/api/v1/{path}"
         data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
         response = self.client.generic(method, address, headers=headers, **data)
-        assert response.status_code == expect, (response.status_code, response.content[:2000])
+        content = response.getvalue()  # of a file that is sent, too
+        assert response.status_code == expect, (response.status_code, content[:2000])
         self.response = response
         is_json = "json" in response.headers.get("Content-Type", "")
-        return json.loads(response.content) if is_json and response.content else response.content
+        return json.loads(content) if is_json and content else content
 
     def get(self, path, **options):
         return self.call("GET", path, **options)
@@ -122,6 +124,8 @@ def settings_of(monkeypatch):
         for name, value in values.items():
             monkeypatch.setenv(f"BT_STUDIO_{name.upper()}", str(value))
         environment.cache_clear()
+        scratch.cache_clear()
 
     yield change
     environment.cache_clear()
+    scratch.cache_clear()

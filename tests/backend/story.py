@@ -76,14 +76,15 @@ class Story:
         else:
             data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
             response = who.client.generic(method, address, **data)
-        assert response.status_code == status, (method, path, response.status_code, response.content[:1500])
+        content = response.getvalue()
+        assert response.status_code == status, (method, path, response.status_code, content[:1500])
         is_json = "json" in response.headers.get("Content-Type", "")
-        answer = json.loads(response.content) if is_json else None
+        answer = json.loads(content) if is_json else None
         row = self.told.setdefault(self._operation(method, address), {"answers": {}})
         if body is not None and status < 400:
             row["request"] = self._plain(body)
         if response.headers.get("Content-Type", "").startswith("text/"):
-            row["answers"].setdefault(str(status), self._plain(response.content.decode()))
+            row["answers"].setdefault(str(status), self._plain(content.decode()))
         if answer is not None:
             row["answers"].setdefault(str(status), self._plain(answer))
         return answer

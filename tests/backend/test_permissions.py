@@ -188,7 +188,10 @@ def ask(browser, method, path, values, body):
         upload = SimpleUploadedFile("new.xml", b'<root BTCPP_format="4"><BehaviorTree ID="T"/></root>')
         return browser.client.post(address, {"file": upload}).status_code
     data = {} if method in {"get"} or body is None else {"data": body, "content_type": "application/json"}
-    return getattr(browser.client, method)(address, **data).status_code
+    response = getattr(browser.client, method)(address, **data)
+    if response.streaming:
+        response.getvalue()  # to the end of its file
+    return response.status_code
 
 
 def operations():

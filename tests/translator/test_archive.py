@@ -65,14 +65,14 @@ def test_an_entry_that_is_there_twice_is_refused():
 
 
 def test_bombs_are_refused_before_they_unpack(monkeypatch):
-    monkeypatch.setattr(archive, "MAX_FILE_BYTES", 5_000_000)
+    monkeypatch.setattr(archive, "ARCHIVED_FILE_BYTES", 5_000_000)
     raw = zipped([("bomb", bytes(20_000_000))])
     assert len(raw) < 50_000
     assert refused(raw) == "BT0922"
 
 
 def test_a_bomb_that_lies_about_its_size_is_refused(monkeypatch):
-    monkeypatch.setattr(archive, "MAX_FILE_BYTES", 5_000_000)
+    monkeypatch.setattr(archive, "ARCHIVED_FILE_BYTES", 5_000_000)
     raw = bytearray(zipped([("bomb", bytes(20_000_000))]))
     size = (20_000_000).to_bytes(4, "little")
     while (at := raw.find(size)) >= 0:
@@ -81,9 +81,9 @@ def test_a_bomb_that_lies_about_its_size_is_refused(monkeypatch):
 
 
 def test_many_small_bombs_are_refused(monkeypatch):
-    monkeypatch.setattr(archive, "MAX_TOTAL_BYTES", 5_000_000)
+    monkeypatch.setattr(archive, "PROJECT_BYTES", 5_000_000)
     assert refused(zipped([(f"f{number}", bytes(1_000_000)) for number in range(10)])) == "BT0922"
-    monkeypatch.setattr(archive, "MAX_FILES", 5)
+    monkeypatch.setattr(archive, "FILES_PER_PROJECT", 5)
     assert refused(zipped([(f"f{number}", b"") for number in range(10)])) == "BT0922"
 
 

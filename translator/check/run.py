@@ -14,6 +14,7 @@ from translator.check.reach import check_reachability
 from translator.check.script import check_scripts
 from translator.check.structure import check_structure
 from translator.check.subtree import check_subtrees
+from translator.limits import OVERSIZE
 
 if TYPE_CHECKING:
     from translator.diagnostic import Diagnostic
@@ -37,6 +38,10 @@ _found: WeakKeyDictionary[Project, tuple[Diagnostic, ...]] = WeakKeyDictionary()
 
 
 def _check(project: Project) -> tuple[Diagnostic, ...]:
+    if any(item.code in OVERSIZE for item in project.diagnostics):
+        return tuple(
+            located(list(project.diagnostics), project)
+        )  # it is not translated: no need to look closer
     context = Context(project, list(project.diagnostics))
     check_structure(context)
     check_actions(context)

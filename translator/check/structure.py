@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from translator.catalog import NodeModel, did_you_mean, nearest
 from translator.diagnostic import Place, diagnostic
+from translator.limits import LEVELS_PER_TREE
 from translator.settings import NO_UNIVERSE, PROJECT_FILE
 from translator.text import bad_character, is_valid_id
 from translator.xml.attributes import is_free
@@ -13,8 +14,6 @@ from translator.xml.attributes import is_free
 if TYPE_CHECKING:
     from translator.check.context import Context
     from translator.tree import Node, Tree
-
-MAX_DEPTH = 250  # BehaviorTree.CPP refuses more than 256 levels of XML, root and tree included
 
 
 def check_structure(context: Context) -> None:
@@ -59,8 +58,8 @@ def _check_tree(context: Context, tree: Tree) -> None:
         context.report("BT0110", tree, name=tree.id)
     if tree.root is None:
         context.report("BT0101" if tree.id in context.reachable else "BT0115", tree, tree=tree.id)
-    elif (depth := tree.depth()) > MAX_DEPTH:
-        context.report("BT0106", tree, tree.nodes[tree.root], depth=depth, limit=MAX_DEPTH)
+    elif (depth := tree.depth()) > LEVELS_PER_TREE:
+        context.report("BT0106", tree, tree.nodes[tree.root], depth=depth, limit=LEVELS_PER_TREE)
     for draft in tree.drafts:
         context.report("BT0103", tree, tree.nodes.get(draft), type=tree.nodes[draft].type)
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from translator.diagnostic import Diagnostic, Place, diagnostic
+from translator.limits import XML_REPAIRS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +19,6 @@ _SKIPPED = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<!.*?>", re.DOT
 _TAG = re.compile(r"</?[^\s<>/\"'=]+")
 _BARE = re.compile(r"&(?!(?:amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);)|<")
 _ESCAPES = {"&": "&amp;", "<": "&lt;"}
-MAX_REPAIRS = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ def repairs_of(text: str) -> list[Repair]:
         for match in _BARE.finditer(text, start, end):
             bare = match.group()
             found.append(Repair(match.start(), bare, _ESCAPES[bare], text[start:end]))
-            if len(found) > MAX_REPAIRS:
+            if len(found) > XML_REPAIRS:
                 return []
     return found
 

@@ -12,15 +12,12 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
+from translator.limits import XML_ATTRIBUTES, XML_BYTES, XML_ELEMENTS, XML_LEVELS, megabytes
 from translator.xml.repair import offers, repaired, repairs_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-MAX_BYTES = 16 * 1024 * 1024
-MAX_ELEMENTS = 200_000
-MAX_DEPTH = 256
-MAX_ATTRIBUTES = 500
 _START_TAG = re.compile(rb"<[^>\"']*(?:\"[^\"]*\"[^>\"']*|'[^']*'[^>\"']*)*>")
 _DECLARED = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([A-Za-z0-9._-]{1,40})[\"']")
 _ENCODINGS = {"utf-8", "utf8", "us-ascii", "ascii", "iso-8859-1", "latin-1", "windows-1252", "utf-16"}
@@ -76,9 +73,9 @@ def parse_source(raw: bytes | str, *, file: str) -> Source:
     Raises:
         TranslatorError: If it is not well formed, or exceeds the limits for foreign files.
     """
-    if len(raw) > MAX_BYTES:
-        limit = f"{MAX_BYTES // (1024 * 1024)} MB"
-        _refuse("BT0003", Place(file, line=1, column=1), size=f"{len(raw) / 1e6:.0f} MB", limit=limit)
+    if len(raw) > XML_BYTES:
+        place, limit = Place(file, line=1, column=1), megabytes(XML_BYTES)
+        _refuse("BT0003", place, size=megabytes(len(raw)), limit=limit)
     text, encoding, bom = _decode(raw.encode("utf-8", "replace") if isinstance(raw, str) else raw, file)
     data = text.encode("utf-8")
     try:
@@ -185,12 +182,12 @@ class _Builder:
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
-        if self.count > MAX_ELEMENTS:
-            self.refuse("BT0705", limit=MAX_ELEMENTS)
-        if len(self.stack) >= MAX_DEPTH:
-            self.refuse("BT0706", limit=MAX_DEPTH)
-        if len(attributes) > MAX_ATTRIBUTES:
-            self.refuse("BT0707", limit=MAX_ATTRIBUTES)
+        if self.count > XML_ELEMENTS:
+            self.refuse("BT0705", limit=XML_ELEMENTS)
+        if len(self.stack) >= XML_LEVELS:
+            self.refuse("BT0706", limit=XML_LEVELS)
+        if len(attributes) > XML_ATTRIBUTES:
+            self.refuse("BT0707", limit=XML_ATTRIBUTES)
         start = self.parser.CurrentByteIndex
         match = _START_TAG.match(self.data, start)
         assert match is not None  # noqa: S101 - expat has just read this tag

@@ -46,11 +46,11 @@ def test_attacks_are_refused_with_a_place(name):
 
 
 def test_size_and_number_of_elements_are_bounded(monkeypatch):
-    monkeypatch.setattr(source, "MAX_BYTES", 1000)
+    monkeypatch.setattr(source, "XML_BYTES", 1000)
     with pytest.raises(TranslatorError):
         parse_source(b"<root>" + b" " * 1000 + b"</root>", file="x.xml")
-    monkeypatch.setattr(source, "MAX_BYTES", 10_000_000)
-    monkeypatch.setattr(source, "MAX_ELEMENTS", 100)
+    monkeypatch.setattr(source, "XML_BYTES", 10_000_000)
+    monkeypatch.setattr(source, "XML_ELEMENTS", 100)
     with pytest.raises(TranslatorError):
         parse_source("<root>" + "<a/>" * 200 + "</root>", file="x.xml")
 

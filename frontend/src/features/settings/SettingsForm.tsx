@@ -3,6 +3,7 @@ import { useState, type FormEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { ProjectSettings } from '@/api/types';
 import { DEFAULT_TICK_HZ, TICK_RATES } from '@/features/run/rates';
+import { LIMITS } from '@/generated/limits';
 import { useProjectStore } from '@/store/project';
 import { setTickRate } from '@/store/run/commands';
 import { projectNameProblem } from './names';
@@ -70,7 +71,7 @@ export function SettingsForm() {
           autosize
           minRows={2}
           maxRows={6}
-          maxLength={10_000}
+          maxLength={LIMITS.description_characters}
           value={now.description ?? ''}
           disabled={isReadOnly}
           onChange={(event) => set({ description: event.currentTarget.value })}

@@ -1,0 +1,90 @@
+"""Threads for what waits on something else than the processor: no thread of a request waits for it.
+
+The pool of processes is for what computes. A zip that is unpacked lies in a file that is larger than what a
+worker may hold, and zlib lets other threads work; a formatter in a container is waited for.
+"""
+
+from __future__ import annotations
+
+import threading
+from concurrent.futures import Future
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from django.db import connection
+
+from backend.workers.errors import BusyError
+from backend.workers.fair import FairQueue, QueueFullError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+class _Task(NamedTuple):
+    work: Callable[[], Any]
+    future: Future[Any]
+
+
+class Aside:
+    """A few threads that users share; each of them has a bounded part, and they take turns.
+
+    Args:
+        name: of the threads.
+        threads: how many there are; they start with the first work.
+        per_owner: how many work for one owner at a time.
+        waiting: how much may wait.
+    """
+
+    def __init__(self, name: str, threads: int, per_owner: int, waiting: int) -> None:
+        self._name, self._number = name, threads
+        self._changed = threading.Condition()
+        self._queue: FairQueue[_Task] = FairQueue(room=waiting, per_owner=per_owner)
+        self._threads: list[threading.Thread] = []
+
+    def ask(self, owner: str, work: Callable[[], Any]) -> Future[Any]:
+        """Has work done as soon as a thread is free.
+
+        Raises:
+            BusyError: too much waits already.
+        """
+        task = _Task(work, Future())
+        with self._changed:
+            try:
+                self._queue.put(owner, task)
+            except QueueFullError:
+                sentence = "The server has too much of this to do at the moment."
+                raise BusyError(sentence, hint="Try again in a few seconds.") from None
+            if len(self._threads) < self._number:
+                thread = threading.Thread(target=self._serve, name=self._name, daemon=True)
+                self._threads.append(thread)
+                thread.start()
+            self._changed.notify()
+        return task.future
+
+    def _serve(self) -> None:
+        while True:
+            owner, task = self._taken()
+            result, error = None, None
+            try:
+                result = task.work()
+            except BaseException as raised:  # the one who waits gets it
+                error = raised
+            finally:
+                connection.close()
+            with self._changed:
+                self._queue.done(owner)
+                self._changed.notify()
+            if error is None:
+                task.future.set_result(result)
+            else:
+                task.future.set_exception(error)
+            del task, result, error  # what came with a request ends with it
+
+    def _taken(self) -> tuple[str, _Task]:
+        with self._changed:
+            while (found := self._queue.take()) is None:
+                self._changed.wait()
+            return found
+
+
+unpacking: Final = Aside("unpacking", threads=2, per_owner=1, waiting=8)
+checkers: Final = Aside("checkers", threads=4, per_owner=2, waiting=32)

@@ -1,0 +1,45 @@
+// Generated from translator/limits.json by `python -m translator.reference`.
+// Do not edit.
+
+export const LIMITS = {
+  /** Nodes of one tree, drafts included. */
+  nodes_per_tree: 20000,
+  /** Nodes of all trees of a project. */
+  nodes_per_project: 100000,
+  /** Trees of a project. */
+  trees_per_project: 2000,
+  /** Levels of a tree that runs (BehaviorTree.CPP takes 256 levels of XML, root and tree included). */
+  levels_per_tree: 250,
+  /** Bytes of all diagrams of a project together. */
+  diagram_bytes_per_project: 33554432,
+  /** Bytes of one file, a diagram among them (`BT_STUDIO_MAX_FILE_BYTES`). */
+  file_bytes: 33554432,
+  /** Bytes of all files of a project (`BT_STUDIO_MAX_PROJECT_BYTES`). */
+  project_bytes: 268435456,
+  /** Files of a project (`BT_STUDIO_MAX_PROJECT_FILES`). */
+  files_per_project: 5000,
+  /** Bytes of one file of a folder or zip that is opened from the disk. */
+  archived_file_bytes: 67108864,
+  /** Bytes of the source of one action. */
+  action_bytes: 2097152,
+  /** Bytes of one XML file. */
+  xml_bytes: 16777216,
+  /** Elements of one XML file. */
+  xml_elements: 200000,
+  /** Levels of one XML file. */
+  xml_levels: 256,
+  /** Attributes of one XML element. */
+  xml_attributes: 500,
+  /** Files that an XML file includes, and these in turn. */
+  xml_includes: 200,
+  /** Bare characters of one XML file that a repair is offered for. */
+  xml_repairs: 1000,
+  /** Characters of one tree as text, JSON or XML, where the XML is edited beside the canvas. */
+  tree_text_characters: 2000000,
+  /** Characters of the ID of a tree, and of a name in `project.json`. */
+  name_characters: 200,
+  /** Characters of a project's description. */
+  description_characters: 10000,
+  /** Characters of one script. */
+  script_characters: 20000,
+} as const;

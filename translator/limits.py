@@ -1,4 +1,4 @@
-"""Limits: how large a project may be: the one table, `limits.json`, of all that reads, checks, writes or stores one.
+"""Limits of a project: the one table, `limits.json`, for all code that reads, checks, writes or stores one.
 
 The settings of the web server have their defaults from it, `frontend/src/generated/limits.ts` and
 `docs/reference/limits.md` are made of it. What exists already and is larger can be opened, made smaller

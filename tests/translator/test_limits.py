@@ -1,4 +1,4 @@
-"""Limits: how large a project may be: one table, used by all, and kept by what reads."""
+"""Limits of a project: one table, used by all code, and enforced by all readers."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ def test_a_text_beside_the_canvas_has_no_more_nodes_either(small):
 
 
 def test_the_largest_project_is_within_all_limits_of_those_that_take_it_on():
-    """Returns what passes here is not refused by the engine, the manager or the server's own settings."""
+    """A project within the limits is not refused by the engine, the manager or the server's own settings."""
     assert limits.NODES_PER_PROJECT < engine.MAX_ELEMENTS
     assert limits.XML_BYTES <= engine.MAX_BYTES
     assert limits.NODES_PER_PROJECT <= limits.XML_ELEMENTS

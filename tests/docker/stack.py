@@ -88,6 +88,31 @@ class Stack:
     def container(self, service: str) -> str:
         return self.compose("ps", "-q", service).stdout.strip()
 
+    @property
+    def address(self) -> tuple[str, int]:
+        """Where it listens."""
+        return "127.0.0.1", self.port
+
+    def restarts(self) -> dict[str, str]:
+        """How often each service was started again, and whether one was killed for memory."""
+        found = self.compose("ps", "-q").stdout.split()
+        format_ = "{{.Name}} {{.RestartCount}} {{.State.StartedAt}} {{.State.OOMKilled}}"
+        lines = self.engine.run("inspect", "-f", format_, *found).stdout.strip().splitlines()
+        return {name: rest for name, _, rest in (line.partition(" ") for line in lines)}
+
+    def memory(self) -> str:
+        """What each service uses now."""
+        found = self.compose("ps", "-q").stdout.split()
+        format_ = "{{.Name}} {{.MemUsage}} {{.PIDs}} pids"
+        return "; ".join(self.engine.run("stats", "--no-stream", "--format", format_, *found).stdout.splitlines())
+
+    def guest(self, link: str) -> str:
+        """The cookie of somebody who opened a read-only link."""
+        jar = http.cookiejar.CookieJar()
+        opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(jar))
+        opener.open(link, timeout=60).close()
+        return "; ".join(f"{cookie.name}={cookie.value}" for cookie in jar)
+
     def gateway(self) -> str:
         """The address of this machine on the network of the web server."""
         format_ = "{{range .NetworkSettings.Networks}}{{.Gateway}} {{end}}"
@@ -191,8 +216,15 @@ class User:
 
     def open_language(self, project: str) -> connect:
         """The socket of an editor of Python."""
+        return self._open_socket(project, "language")
+
+    def open_notices(self, project: str) -> connect:
+        """The socket of a page that waits for news."""
+        return self._open_socket(project, "notices")
+
+    def _open_socket(self, project: str, name: str) -> connect:
         return connect(
-            f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/language",
+            f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/{name}",
             additional_headers={"Cookie": self.cookies},
             origin=self._base,
             proxy=None,

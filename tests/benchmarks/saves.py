@@ -1,7 +1,7 @@
 """Saves of Python files by eight clients at once, each answer of which is looked at.
 
-`python -m tests.benchmarks.saves [--saves 100000] [--clients 8] [--workers N]`. The server is one for a team, with
-PostgreSQL and Redis. Half of the clients have a project of their own, the others share one. Each file is of
+`python -m tests.benchmarks.saves [--saves 100000] [--clients 8] [--workers N]`. The server is one for a
+team, with PostgreSQL and Redis. Half of the clients have a project of their own, the others share one. Each file is of
 a different shape each time, and some are broken on purpose: these are saved like all others, and a finding
 says what is wrong. A save is answered with the next revision, or with a conflict where, now and then, its
 base was made stale on purpose; everything else is a false answer. In the end all files are read back.
@@ -42,7 +42,8 @@ BODIES = (
     "        return (lambda *, s=Status.SUCCESS: s)()\n",
     "        " + "(" * 60 + "{n}" + ")" * 60 + "\n        return Status.SUCCESS\n",
     "        value = " + " + ".join(["{n}"] * 150) + "\n        return Status.SUCCESS if value else None\n",
-    "        async def later(n: int = {n}) -> None:\n            async for _ in aiter(()):\n                await n\n"
+    "        async def later(n: int = {n}) -> None:\n            async for _ in aiter(()):\n"
+    "                await n\n"
     "        return Status.SUCCESS\n",
 )
 DAMAGES = (
@@ -99,7 +100,9 @@ class Saver(Editor):
     async def join(self, other: Saver, name: str) -> None:
         """Shares another's project, whose owner lets `name` in."""
         await self._connect()
-        await other.asked("share", "POST", f"projects/{other.project}/shares", {"name": name, "role": "editor"})
+        await other.asked(
+            "share", "POST", f"projects/{other.project}/shares", {"name": name, "role": "editor"}
+        )
         self._project = {"id": other.project}
 
     async def save_next(self) -> None:
@@ -188,7 +191,8 @@ def main() -> None:
         people = sign_in(folder, settings, options.clients)
         answers = asyncio.run(storm(served.port, people, options.saves, seed=options.seed))
     done = answers.saved + answers.conflicts
-    print(f"{done} answers to {options.clients} clients in {answers.seconds:.0f} s: {done / answers.seconds:.0f} a second")
+    rate = f"{answers.seconds:.0f} s: {done / answers.seconds:.0f} a second"
+    print(f"{done} answers to {options.clients} clients in {rate}")
     print(f"{answers.saved} saved, {answers.conflicts} conflicts meant, {len(answers.false)} false answers")
     for lie in answers.false[:SHOWN]:
         print(f"  {lie}")

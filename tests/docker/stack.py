@@ -104,7 +104,9 @@ class Stack:
         """What each service uses now."""
         found = self.compose("ps", "-q").stdout.split()
         format_ = "{{.Name}} {{.MemUsage}} {{.PIDs}} pids"
-        return "; ".join(self.engine.run("stats", "--no-stream", "--format", format_, *found).stdout.splitlines())
+        return "; ".join(
+            self.engine.run("stats", "--no-stream", "--format", format_, *found).stdout.splitlines()
+        )
 
     def guest(self, link: str) -> str:
         """The cookie of somebody who opened a read-only link."""

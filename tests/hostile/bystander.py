@@ -28,7 +28,9 @@ class Sample(NamedTuple):
 class Bystander:
     """Somebody with one project and one connection that stays, as a browser has."""
 
-    def __init__(self, host: str, port: int, origin: str, cookie: str, project: str, session: str = "") -> None:
+    def __init__(
+        self, host: str, port: int, origin: str, cookie: str, project: str, session: str = ""
+    ) -> None:
         self.samples: list[Sample] = []
         self._project, self._session = project, session
         self._headers = {"Host": origin.partition("://")[2], "Origin": origin, "Cookie": cookie}
@@ -70,9 +72,7 @@ class Bystander:
     def _save(self, kind: str, path: str, content: str) -> None:
         file = self._files[path]
         change = {"path": path, "content": content, "base_revision": file["revision"]}
-        answer = json.loads(
-            self._ask(kind, "POST", f"projects/{self._project}/changes", {"files": [change]})
-        )
+        answer = json.loads(self._ask(kind, "POST", f"projects/{self._project}/changes", {"files": [change]}))
         assert answer["revision"] > file["revision"], answer
         self._files[path] = file | {"revision": answer["revision"], "content": content}
 

@@ -31,7 +31,16 @@ DRIPS = 8
 HELD = 20
 """Sockets that each of those holds who open many."""
 JSON = "application/json"
-HEAVY = ("xml", "xml?self_contained=true", "package", "package/preview", "app", "export", "", "revisions/1/diff")
+HEAVY = (
+    "xml",
+    "xml?self_contained=true",
+    "package",
+    "package/preview",
+    "app",
+    "export",
+    "",
+    "revisions/1/diff",
+)
 
 
 def _bomb() -> bytes:
@@ -104,7 +113,11 @@ async def passwords(site: Site, note: Counter[str]) -> None:
         writer.write(site.head("GET", "/accounts/login/", {"Cookie": "a=b"}))
         page = (await reader.read()).decode("latin-1")
     token = page.partition('name="csrfmiddlewaretoken" value="')[2].partition('"')[0]
-    cookies = [line.partition(": ")[2].partition(";")[0] for line in page.split("\r\n") if line.lower().startswith("set-cookie")]
+    cookies = [
+        line.partition(": ")[2].partition(";")[0]
+        for line in page.split("\r\n")
+        if line.lower().startswith("set-cookie")
+    ]
     name = site.account if CHANCE.random() < 0.5 else f"user{CHANCE.randrange(1000)}"
     form = {"login": name, "password": f"wrong {CHANCE.random()}", "csrfmiddlewaretoken": token}
     body = urllib.parse.urlencode(form).encode()
@@ -178,7 +191,8 @@ async def junk(site: Site, note: Counter[str]) -> None:
         b"GET /" + b"a" * 200_000 + b" HTTP/1.1\r\n\r\n",
         b"GET / HTTP/1.1\r\n" + b"X: y\r\n" * 50_000,
         site.head("GET", "/api/v1/me", {"Content-Length": "-1"}),
-        site.head("POST", "/api/v1/me", {"Content-Length": "5", "Transfer-Encoding": "chunked"}) + b"0\r\n\r\n",
+        site.head("POST", "/api/v1/me", {"Content-Length": "5", "Transfer-Encoding": "chunked"})
+        + b"0\r\n\r\n",
         b"\r\n" * 100_000,
     )
     async with connected(site) as (reader, writer):
@@ -248,8 +262,7 @@ async def _thrown_away(reader: asyncio.StreamReader) -> None:
         pass
 
 
-Try = "Callable[[Site, Counter[str]], Awaitable[None]]"
-KINDS: dict[str, tuple[Try, int]] = {
+KINDS: dict[str, tuple[Callable[[Site, Counter[str]], Awaitable[None]], int]] = {
     "heavy": (heavy, 8),
     "cheap": (cheap, 16),
     "forged": (forged, 16),

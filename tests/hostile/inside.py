@@ -8,7 +8,6 @@ import ctypes
 import json
 import os
 import socket
-import sys
 import threading
 import time
 from pathlib import Path
@@ -33,7 +32,12 @@ def gates():
 
 def flood_gates(until):
     """Connections that say nothing, half a word, too much, or a wrong token; as many as there may be."""
-    words = (b"", b'{"session": ', b"x" * 100_000, json.dumps({"session": "a", "token": "b"}).encode() + b"\n")
+    words = (
+        b"",
+        b'{"session": ',
+        b"x" * 100_000,
+        json.dumps({"session": "a", "token": "b"}).encode() + b"\n",
+    )
     held = []
     while time.monotonic() < until:
         for number, path in enumerate(gates()):
@@ -63,8 +67,7 @@ def many_processes(until):
     """Children that each have children."""
     while time.monotonic() < until:
         try:
-            if os.fork() == 0 and len(sys.argv) < 0:
-                os._exit(0)
+            os.fork()
         except OSError:
             time.sleep(0.01)
 

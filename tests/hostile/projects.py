@@ -18,5 +18,12 @@ def large_tree(nodes: int, name: str = "MainTree") -> str:
             leaf = f"{group}_{number}"
             found[group]["children"].append(leaf)
             found[leaf] = {"type": "AlwaysSuccess", "name": f"leaf {number}"}
-    diagram = {"format": "bt-studio/diagram", "version": 1, "id": name, "root": "r", "nodes": found, "drafts": []}
+    diagram = {
+        "format": "bt-studio/diagram",
+        "version": 1,
+        "id": name,
+        "root": "r",
+        "nodes": found,
+        "drafts": [],
+    }
     return json.dumps(diagram)

@@ -108,13 +108,6 @@ class Stack:
             self.engine.run("stats", "--no-stream", "--format", format_, *found).stdout.splitlines()
         )
 
-    def guest(self, link: str) -> str:
-        """The cookie of somebody who opened a read-only link."""
-        jar = http.cookiejar.CookieJar()
-        opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(jar))
-        opener.open(link, timeout=60).close()
-        return "; ".join(f"{cookie.name}={cookie.value}" for cookie in jar)
-
     def gateway(self) -> str:
         """The address of this machine on the network of the web server."""
         format_ = "{{range .NetworkSettings.Networks}}{{.Gateway}} {{end}}"

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 from contextlib import asynccontextmanager
-from pathlib import Path
+from functools import partial
 
 import pytest
 
@@ -23,7 +23,8 @@ from tests.budget import count
 from tests.docker.engine import REPOSITORY, build_images, engine
 from tests.docker.stack import Stack
 from tests.docker.test_stack import BUMP, distance_m, run, run_app, save, ticks
-from tests.hostile.projects import large_tree
+from tests.hostile.projects import large_files
+from tests.hostile.wire import guest_cookie
 
 BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
 TAG = BUILT or "test"
@@ -142,7 +143,7 @@ async def attack_inside(user, project, until):
             app = await asyncio.to_thread(hostile_app, user, project, source)
             await run_app(client, app)
             left_s = max(0.0, until - time.monotonic())
-            await client.until(lambda: client.state != "application_running" or client.is_closed, left_s)
+            await client.until(partial(has_ended, client), left_s)
         except (AssertionError, TimeoutError, OSError) as error:
             said[type(error).__name__] = said.get(type(error).__name__, 0) + 1
         finally:
@@ -151,6 +152,10 @@ async def attack_inside(user, project, until):
                     said[entry["text"].strip()] = said.get(entry["text"].strip(), 0) + 1
             await client.close()
     print(f"inside: {starts} starts, {said}")
+
+
+def has_ended(client):
+    return client.state != "application_running" or client.is_closed
 
 
 def hostile_app(user, project, source):
@@ -162,9 +167,7 @@ def hostile_app(user, project, source):
 def make_large(user):
     """A project of 100,000 nodes, with an earlier version that differs, and a link for anybody to read it."""
     made = user.post("projects", {"name": "Large"})
-    path = next(file["path"] for file in made["files"] if file["path"].startswith("trees/"))
-    base = next(file["revision"] for file in made["files"] if file["path"] == path)
-    save(user, made["id"], path, large_tree(NODES, Path(path).stem), base=base)
+    user.post(f"projects/{made['id']}/changes", {"files": large_files(NODES, made["files"])})
     link = user.post(f"projects/{made['id']}/shares/links", {})["links"][0]["url"]
     return made["id"], link
 
@@ -174,7 +177,7 @@ async def test_a_hostile_user_harms_nobody_else(stack):
     project = ann.post("projects", {"name": "Bump", "template": BUMP})["id"]
     theirs = eve.post("projects", {"name": "Harm", "template": BUMP})["id"]
     large, link = make_large(eve)
-    guest = stack.guest(link)
+    guest = guest_cookie(link)
     site = {
         "host": stack.address[0],
         "port": stack.address[1],

@@ -28,7 +28,7 @@ class Sample(NamedTuple):
 class Bystander:
     """Somebody with one project and one connection that stays, as a browser has."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0917 - as a plan has it
         self, host: str, port: int, origin: str, cookie: str, project: str, session: str = ""
     ) -> None:
         self.samples: list[Sample] = []
@@ -38,6 +38,10 @@ class Bystander:
         self._rounds = 0
         opened = json.loads(self._ask("open", "GET", f"projects/{project}"))
         self._files = {file["path"]: file for file in opened["files"]}
+
+    def close(self) -> None:
+        """Leaves."""
+        self._connection.close()
 
     def round(self, pause_s: float = 0.0) -> None:
         """One of each kind, with pauses between them."""
@@ -99,6 +103,7 @@ def main() -> None:
     end = time.monotonic() + plan["seconds"]
     while time.monotonic() < end:
         worker.round(plan["pause_s"])
+    worker.close()
     json.dump(worker.samples, sys.stdout)
 
 

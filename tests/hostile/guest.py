@@ -10,6 +10,7 @@ import asyncio
 import io
 import json
 import os
+import posixpath
 import random
 import sys
 import time
@@ -103,7 +104,7 @@ async def forged(site: Site, note: Counter[str]) -> None:
         )
     )
     paths = ("me", f"projects/{site.project}/xml", "projects", "../../metrics", "../../health/ready")
-    path = os.path.normpath(f"/api/v1/{CHANCE.choice(paths)}")
+    path = posixpath.normpath(f"/api/v1/{CHANCE.choice(paths)}")
     note[await ask(site, CHANCE.choice(("GET", "POST")), path, **lies, **more)] += 1
 
 
@@ -250,7 +251,9 @@ async def frames(site: Site, note: Counter[str]) -> None:
                 draining = asyncio.ensure_future(writer.drain())
                 await asyncio.wait((draining, reading), return_when=asyncio.FIRST_COMPLETED)
                 draining.cancel()
-                await asyncio.gather(draining, return_exceptions=True)
+                if isinstance((await asyncio.gather(draining, return_exceptions=True))[0], OSError):
+                    break
+            await asyncio.wait((reading,), timeout=DRIP_S)
             note[f"{status} {'closed' if reading.done() else 'taken'}"] += 1
         finally:
             reading.cancel()

@@ -4,10 +4,12 @@ It does one kind after the other and begins with the one in the file's last line
 ended for one of them is started again with the next.
 """
 
+import contextlib
 import ctypes
 import json
 import os
 import socket
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -16,16 +18,15 @@ import py_trees
 from py_trees.common import Status
 
 GATE = Path("/run/bt-studio")
+DISK = Path(tempfile.gettempdir())
 STINT_S = 8
 
 
 def gates():
     """Every socket that is there, and some that might be."""
     found = [GATE / "gate.sock"]
-    try:
+    with contextlib.suppress(OSError):
         found += [path for path in GATE.rglob("*") if path.is_socket()]
-    except OSError:
-        pass
     guessed = [GATE / os.urandom(16).hex() / "gate.sock" for _ in range(20)]
     return [str(path) for path in dict.fromkeys(found)] + [str(path) for path in guessed]
 
@@ -83,11 +84,11 @@ def much_disk(until):
     while time.monotonic() < until:
         number += 1
         try:
-            Path(f"/tmp/{number}").write_bytes(bytes(8 << 20))
+            (DISK / str(number)).write_bytes(bytes(8 << 20))
         except OSError:
-            for path in Path("/tmp").glob("[0-9]*"):
+            for path in DISK.glob("[0-9]*"):
                 path.unlink()
-    for path in Path("/tmp").glob("[0-9]*"):
+    for path in DISK.glob("[0-9]*"):
         path.unlink()
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import http.cookiejar
 import secrets
 import struct
+import urllib.request
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -50,6 +52,14 @@ class Site:
         }
         lines = [f"{method} {path} HTTP/1.1", *(f"{k}: {v}" for k, v in (usual | dict(headers)).items())]
         return "\r\n".join([*lines, "", ""]).encode("latin-1")
+
+
+def guest_cookie(link: str) -> str:
+    """The cookie of somebody who opens a read-only link."""
+    jar = http.cookiejar.CookieJar()
+    opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(jar))
+    opener.open(link, timeout=PATIENCE_S).close()  # the link of a server of our own
+    return "; ".join(f"{cookie.name}={cookie.value}" for cookie in jar)
 
 
 @asynccontextmanager

@@ -15,8 +15,7 @@ from websockets.sync.client import connect
 from backend.config import guard
 from backend.config.server import _make_server, bind
 from backend.config.sockets import Route, serve
-from backend.config.websocket import LARGEST_MESSAGE
-from backend.config.websocket import READ_BYTES, PatientSocket
+from backend.config.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
 from backend.sessions import actions
 from backend.sessions.consumers import (
     ADDRESS,

@@ -3,8 +3,8 @@
 `python -m tests.benchmarks.saves [--saves 100000] [--clients 8] [--workers N]`. The server is one for a
 team, with PostgreSQL and Redis. Half of the clients have a project of their own, the others share one. Each
 file is of a different shape each time, and some are broken on purpose: these are saved like all others, and
-a finding says what is wrong. A save is answered with the next revision, or with a conflict where, now and then, its
-base was made stale on purpose; everything else is a false answer. In the end all files are read back.
+a finding says what is wrong. A save is answered with the next revision, or with a conflict where, now and
+then, its base was made stale on purpose; all else is a false answer. In the end all files are read back.
 """
 
 from __future__ import annotations

@@ -146,10 +146,13 @@ async def _serve(  # noqa: PLR0913, PLR0917 - a socket
     accept: Any = {"subprotocol": subprotocol, "headers": [], MOST_BYTES: most}
     await send({"type": "websocket.accept"} | accept)
     call = Call(address, user, scope["query_string"].decode("latin-1"))
-    if environment().is_team:
-        closed = await _while_allowed(route, call, scope, receive, send)
-    else:
-        closed = await route.handler(call, receive, send)
+    try:
+        if environment().is_team:
+            closed = await _while_allowed(route, call, scope, receive, send)
+        else:
+            closed = await route.handler(call, receive, send)
+    except StudioError as error:
+        closed = Closed(FORBIDDEN, error.detail)
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})

@@ -109,9 +109,17 @@ async def working(stack, user, project):
         await run(client, user, project, "walled_room")
         await client.until(lambda: distance_m(client) > 0.05, 120)
         async with user.open_language(project) as editor, user.open_notices(project) as news:
+            reading = [asyncio.create_task(read_all(socket)) for socket in (editor, news)]
             yield session["id"], client, (editor, news)
+        await asyncio.gather(*reading)
     finally:
         await client.close()
+
+
+async def read_all(socket):
+    """As a browser does; who does not read answers no ping, and is taken for gone."""
+    async for _ in socket:
+        pass
 
 
 async def moves_on(client, until):

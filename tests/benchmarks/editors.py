@@ -46,6 +46,11 @@ class Editor:
         files = {file["path"]: file for file in self._project["files"]}
         self._revision, self._diagram = files[path]["revision"], json.loads(files[path]["content"])
 
+    async def leave(self) -> None:
+        """Disconnects."""
+        self._writer.close()
+        await self._writer.wait_closed()
+
     def look(self) -> connect:
         """A socket that waits for news of the project."""
         uri = f"ws://127.0.0.1:{self._port}/ws/projects/{self._project['id']}/notices"

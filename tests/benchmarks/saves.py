@@ -172,6 +172,7 @@ async def storm(port: int, people: list[tuple[str, str]], saves: int, *, seed: i
     answers.seconds = time.monotonic() - began
     for client in clients:
         await client.read_back()
+        await client.leave()
     return answers
 
 

@@ -44,7 +44,7 @@ THREADS: Final = {"local": 8, "team": 8}
 THREADS_OF_SEVERAL: Final = 4
 """The same for each of several workers."""
 OWNERS_SHARE: Final = 4
-"""On a server with accounts, one user, or all strangers and guests behind one address, have a part of this."""
+"""On a server with accounts, one user, or all strangers and guests behind one address, have one in four."""
 HASHING: Final = ("/accounts/", "/admin/")
 """Where passwords come, each of which takes a processor a third of a second."""
 MOST_WAITING: Final = 600

@@ -36,6 +36,10 @@ def server(tmp_path):
             (tmp_path / ".env").write_text(lines({**least, **made.settings, **SETTINGS}))
             print(made.compose("logs", "--tail=60", check=False).stdout)
             made.down()
+            # What the new compose file knows nothing of.
+            left = running.run("volume", "ls", "-q", "--filter", f"name={made.name}_").stdout.split()
+            for volume in left:
+                running.run("volume", "rm", volume)
 
 
 async def test_an_upgrade_keeps_everything_and_robots_drive(server):

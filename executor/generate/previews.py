@@ -17,7 +17,7 @@ from executor.robots import robot_ids
 from executor.robots.config import preview_path as robot_preview
 from executor.universes import BUILTIN_IDS, load_builtin, parse_universe
 from executor.universes.loader import preview_path as universe_preview
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Final
 
 from executor.universes.model import TEXTURES
-from executor.world.paint import shipped
+from executor.world.physics.paint import shipped
 
 FOLDER: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "textures"
 

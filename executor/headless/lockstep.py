@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from executor.headless.recording import Recording
     from executor.headless.scribe import Scribe
     from executor.ros.spin import DrainingExecutor
-    from executor.world.bullet import BulletWorld
+    from executor.world.physics.bullet import BulletWorld
     from translator import Project
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.node import Node as TreeNode
@@ -169,7 +169,7 @@ class _Run:
     # --- setting up ---
 
     def _make_world(self, project: Project) -> BulletWorld:
-        from executor.world.launch import make_world  # noqa: PLC0415 - slow to load
+        from executor.world.simulation.launch import make_world  # noqa: PLC0415 - slow to load
 
         universe = self._options.universe or project.settings.universe
         file = f"universes/{universe}.yaml"
@@ -191,7 +191,7 @@ class _Run:
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
-        from executor.world.sensors import Sensors  # noqa: PLC0415
+        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
 
         default = DefaultContext(simulated=True)

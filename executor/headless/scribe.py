@@ -8,13 +8,13 @@ import msgspec
 
 from executor.application.report import Reporter
 from executor.session.hearing import APPLICATION_EVENTS
-from executor.world.streams import Streams
+from executor.world.simulation.streams import Streams
 
 if TYPE_CHECKING:
     from executor.headless.recording import Recording
     from executor.messages import StreamName
     from executor.world.interface import World
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.sensors import Sensors
     from tree_gardener import Status, TickError, Tree
 
 STREAMS_HZ: Final[dict[StreamName, float]] = {"poses": 30.0, "scan": 30.0}

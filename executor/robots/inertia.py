@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from executor.world.transforms import compose, rotation
+from executor.world.geometry.transforms import compose, rotation
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
 
 
 @dataclass(frozen=True)

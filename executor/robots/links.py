@@ -8,7 +8,7 @@ from executor.robots.expand import urdf_of
 from executor.robots.prepare import mesh_path
 from executor.robots.urdf import Urdf, UrdfError, parse_urdf
 from executor.universes.document import DocumentError, Problem
-from executor.world.mesh import MeshError, load_mesh
+from executor.world.geometry.mesh import MeshError, load_mesh
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from lxml import etree
 
 from executor.robots.rigid import merge_fixed_links
-from executor.world.mesh import MeshError, write_obj
+from executor.world.geometry.mesh import MeshError, write_obj
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from executor.robots.urdf import read_inertial, read_origin
-from executor.world.transforms import compose, to_xyz_rpy
+from executor.world.geometry.transforms import compose, to_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from executor.robots.inertia import Inertial
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
 
 _TENSOR = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
 

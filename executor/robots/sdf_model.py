@@ -14,7 +14,15 @@ from lxml import etree
 
 from executor.robots.urdf import UrdfError
 from executor.universes.document import Problem
-from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy, inverse, rotate, to_xyz_rpy
+from executor.world.geometry.transforms import (
+    IDENTITY,
+    Pose,
+    compose,
+    from_xyz_rpy,
+    inverse,
+    rotate,
+    to_xyz_rpy,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

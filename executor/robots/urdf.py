@@ -11,7 +11,7 @@ import numpy as np
 from lxml import etree
 
 from executor.robots.inertia import Inertial
-from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy
+from executor.world.geometry.transforms import IDENTITY, Pose, compose, from_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from executor.ros import messages
-from executor.world.transforms import IDENTITY, Pose, compose, inverse
+from executor.world.geometry.transforms import IDENTITY, Pose, compose, inverse
 
 if TYPE_CHECKING:
     from executor.robots.config import RobotConfig

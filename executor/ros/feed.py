@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.sensors import Sensors
 
 
 class Due:

@@ -14,7 +14,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, JointState, LaserScan
 from sensor_msgs.msg import Imu as ImuMessage
 
-from executor.world.transforms import from_xyz_rpy
+from executor.world.geometry.transforms import from_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.robots.config import Camera, Imu, Lidar
-    from executor.world.battery import BatteryReading
-    from executor.world.drive import Odometry
-    from executor.world.imu import ImuReading
+    from executor.world.geometry.transforms import Pose
     from executor.world.interface import LidarReading
-    from executor.world.transforms import Pose
+    from executor.world.physics.drive import Odometry
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.imu import ImuReading
 
 ODOM_FRAME = "odom"
 BASE_FRAME = "base_footprint"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from executor.world.interface import Robot, World
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.sensors import Sensors
 
 __all__ = ["CLOCK_HZ", "Due", "WorldNode", "take"]
 

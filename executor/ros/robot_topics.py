@@ -14,8 +14,8 @@ from executor.ros.commands import Commands
 from executor.ros.feed import Feed
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.taking import ignore, take
-from executor.world.bumper import ZONES
-from executor.world.kinematics import joint_pose
+from executor.world.geometry.kinematics import joint_pose
+from executor.world.sensing.bumper import ZONES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from executor.robots import sensors as config
-    from executor.world.bumper import Zone
     from executor.world.interface import Robot
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.sensors import Sensors
 
 ODOMETRY_HZ: Final = 30.0
 LATCHED_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

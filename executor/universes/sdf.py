@@ -13,7 +13,7 @@ from lxml import etree
 
 from executor.universes.document import Problem
 from executor.universes.loader import UniverseError, parse_universe
-from executor.world.transforms import Pose, compose, from_xyz_rpy, to_xyz_rpy
+from executor.world.geometry.transforms import Pose, compose, from_xyz_rpy, to_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
     from executor.messages import Scene
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
-    from executor.world.battery import BatteryReading
-    from executor.world.bumper import Zone
-    from executor.world.collision import Collision
-    from executor.world.drive import Odometry
-    from executor.world.imu import ImuReading
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
+    from executor.world.physics.collision import Collision
+    from executor.world.physics.drive import Odometry
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.imu import ImuReading
 
 
 class WorldError(Exception):

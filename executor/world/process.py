@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
     from executor.render.interface import Renderer
-    from executor.world.clockwork import Clockwork
-    from executor.world.outside import Outside
+    from executor.world.simulation.clockwork import Clockwork
+    from executor.world.simulation.outside import Outside
 
 _log = logging.getLogger(__name__)
 
@@ -83,7 +83,8 @@ class WorldProcess:
         """Loads now what `start` would otherwise have to wait for."""
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
-        from executor.world import bullet, clockwork, launch  # noqa: F401, PLC0415
+        from executor.world.physics import bullet  # noqa: F401, PLC0415
+        from executor.world.simulation import clockwork, launch  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
@@ -185,9 +186,9 @@ class WorldProcess:
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.topics import Topics  # noqa: PLC0415
-        from executor.world.clockwork import Clockwork  # noqa: PLC0415
-        from executor.world.launch import make_world  # noqa: PLC0415
-        from executor.world.sensors import Sensors  # noqa: PLC0415
+        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
+        from executor.world.simulation.clockwork import Clockwork  # noqa: PLC0415
+        from executor.world.simulation.launch import make_world  # noqa: PLC0415
 
         self._progress(0.2, "Building the world")
         assets = Path(message["assets"]) if message.get("assets") else None
@@ -225,7 +226,7 @@ class WorldProcess:
     def _start_outside(self, message: dict[str, Any]) -> None:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.topics import Topics  # noqa: PLC0415
-        from executor.world.outside import Outside  # noqa: PLC0415
+        from executor.world.simulation.outside import Outside  # noqa: PLC0415
 
         self._progress(0.6, "Joining the outside ROS graph")
         outside = Outside(self._join(int(message.get("domain_id") or 0)), self._channel.send)

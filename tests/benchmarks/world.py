@@ -16,7 +16,7 @@ from executor.render.gl import GlRenderer
 from executor.render.tiny import TinyRenderer
 from executor.ros.environment import ros_environment
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 if TYPE_CHECKING:
     from collections.abc import Callable

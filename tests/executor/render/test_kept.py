@@ -13,7 +13,7 @@ from executor.render import Viewpoint, look_at
 from executor.render.gl import GlRenderer
 from executor.render.kept import Kept
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 SIZE = (480, 270)
 VIEW = look_at((-5.0, -5.5, 4.5), (0.0, 0.0, 0.3), 1.05)

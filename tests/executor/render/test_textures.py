@@ -18,9 +18,9 @@ from executor.render.pieces import Pieces
 from executor.render.tiny import TinyRenderer
 from executor.universes import UniverseError, parse_universe
 from executor.universes.model import TEXTURES
-from executor.world.bullet import BulletWorld
 from executor.world.interface import WorldError
-from executor.world.paint import PaintError, image_size, textures_of
+from executor.world.physics.bullet import BulletWorld
+from executor.world.physics.paint import PaintError, image_size, textures_of
 
 HEAD = (
     "format: bt-studio/universe\nversion: 1\nname: test\nrobots: []\nlights: [{direction: [0, 0.7, -0.7]}]\n"

@@ -15,9 +15,9 @@ from executor.robots import load_robot, robot_ids
 from executor.ros import base_frames, messages
 from executor.ros.node import WorldNode, take
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
-from executor.world.drive import DifferentialDrive
-from executor.world.sensors import Sensors
+from executor.world.physics.bullet import BulletWorld
+from executor.world.physics.drive import DifferentialDrive
+from executor.world.sensing.sensors import Sensors
 
 OWN = """<robot name="own"><link name="{root}"/>{more}
   <link name="left"/><link name="right"/>

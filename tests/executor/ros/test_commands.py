@@ -17,7 +17,7 @@ from executor.ros.node import WorldNode
 from executor.ros.shared_topics import share_commands
 from executor.ros.topics import TopicError, Topics
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 from tests.executor.ros.conftest import DOMAIN_ID
 
 WAIT_S = 30

@@ -60,7 +60,7 @@ def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
     from executor.ros.mismatches import Mismatches
     from executor.ros.node import WorldNode
     from executor.ros.values import message_type
-    from executor.world.launch import make_world
+    from executor.world.simulation.launch import make_world
 
     world = make_world("walled_room")
     ours, theirs = WorldNode(world, context), Node("theirs", context=context)

@@ -20,10 +20,10 @@ from executor.render import make_renderer
 from executor.ros.environment import has_tf
 from executor.ros.node import Due, WorldNode, take
 from executor.universes import load_builtin
-from executor.world.adaptation import FIRST_PATIENCE
-from executor.world.bullet import BulletWorld
-from executor.world.clockwork import SLOW_CAMERAS, Clockwork
-from executor.world.sensors import Sensors
+from executor.world.physics.bullet import BulletWorld
+from executor.world.sensing.sensors import Sensors
+from executor.world.simulation.adaptation import FIRST_PATIENCE
+from executor.world.simulation.clockwork import SLOW_CAMERAS, Clockwork
 
 
 class Rig:

@@ -143,10 +143,10 @@ def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():
     play = play_in(State.APPLICATION_RUNNING)
     play.stuck.add("world")
     play.ran["world"] = LOOK_S
-    play.place["world"] = {"text": "executor/world/bullet.py:120"}
+    play.place["world"] = {"text": "executor/world/physics/bullet.py:120"}
     play.goes_on(2.5)
     (fault,) = play.faults
-    assert "executor/world/bullet.py:120" in fault.message
+    assert "executor/world/physics/bullet.py:120" in fault.message
     play.goes_on(6)
     assert play.state is State.CONNECTED
     assert play.sent("finished")[0].reason == "process_died"

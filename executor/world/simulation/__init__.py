@@ -1,0 +1,1 @@
+"""A running world: time, streams and the load that it adapts to."""

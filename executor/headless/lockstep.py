@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
-    from executor.headless.scribe import Scribe
     from executor.ros.spin import DrainingExecutor
     from executor.world.physics.bullet import BulletWorld
     from translator import Project
@@ -109,7 +109,7 @@ class _Run:
         self._durations: list[float] = []
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
-        self._scribe: Scribe | None = None  # until the tree is there
+        self._recorder: RunRecorder | None = None  # until the tree is there
 
     def set_up(self) -> None:
         """Makes world and application; what was made is taken down by `close` in any case."""
@@ -120,7 +120,7 @@ class _Run:
         self._join_ros()
         self._tree = self._make_tree(project)
         self._counts = [NodeCount(node.path) for node in self._tree.nodes]
-        self._scribe = self._make_scribe(recording)
+        self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
         """Ticks until the end."""
@@ -153,8 +153,8 @@ class _Run:
                 progress(self._world.time_s)
             if runner.is_finished:
                 self._report.root_status = (status or runner.status).name
-                if self._scribe is not None:
-                    self._scribe.finished(status)
+                if self._recorder is not None:
+                    self._recorder.finished(status)
                 break
         else:
             self._advance(round(ticks / self._tick_hz / self._world.step_s))
@@ -254,12 +254,12 @@ class _Run:
         self._stack.append(recording.close)
         return recording
 
-    def _make_scribe(self, recording: Recording | None) -> Scribe | None:
+    def _make_recorder(self, recording: Recording | None) -> RunRecorder | None:
         if recording is None:
             return None
-        from executor.headless.scribe import Scribe  # noqa: PLC0415 - few runs are recorded
+        from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return Scribe(recording, self._world, self._sensors, self._tree)
+        return RunRecorder(recording, self._world, self._sensors, self._tree)
 
     # --- running ---
 
@@ -276,8 +276,8 @@ class _Run:
             self._sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:
                 self._node.publish(self._sensors)
-                if self._scribe is not None:
-                    self._scribe.look()
+                if self._recorder is not None:
+                    self._recorder.look()
 
     def _let_time_pass(self) -> None:
         """An action waits: its world goes on, as it would in real time."""
@@ -324,8 +324,8 @@ class _Run:
         )
 
     def _note_fault(self, error: TickError) -> None:
-        if self._scribe is not None:
-            self._scribe.raised(error)
+        if self._recorder is not None:
+            self._recorder.raised(error)
         self._report.errors.append(
             {
                 "node_path": error.path,

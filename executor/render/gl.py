@@ -15,8 +15,8 @@ import numpy as np
 from executor.render import geometry, programs, shadow
 from executor.render.compiler import release_compiler
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
-from executor.render.kept import Kept, KeptPictures
 from executor.render.layers import SIDE, pixels
+from executor.render.picture_cache import CachedPicture, PictureCache
 from executor.render.pieces import VERTEX, Pieces, matrices
 from executor.render.shadow import ShadowPlan
 from executor.render.smoothing import smoothed
@@ -71,7 +71,7 @@ class GlRenderer:
         self._pictures: Any = None
         self._textured_ground: Any = None
         self._plan: ShadowPlan | None = None
-        self._kept = KeptPictures()
+        self._cached = PictureCache()
         self._unsettled = 0
         self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
@@ -86,7 +86,7 @@ class GlRenderer:
         self._stock = _Stock(self._context, self._programs, scene)
         self._hang_pictures(scene, self._stock.pieces.layers)
         self._plan, self._drawn_poses = None, None
-        self._kept.clear()
+        self._cached.clear()
         self._unsettled = SETTLED
         self._set_light(scene)
 
@@ -110,12 +110,12 @@ class GlRenderer:
             return self.draw(poses, view, width, height)
         stock, key = self._place(poses), (view, width, height)
         plan = self._cast_shadow(stock, view)
-        kept = self._kept.find(key)
+        kept = self._cached.find(key)
         parts = None if kept is None else kept.outdated(stock.pieces, self._placed, plan, key)
         if kept is None or parts is None:
             raw = self._whole(stock, view, width, height, smooth=True)
-            kept = Kept(raw, _finished(raw.copy()), self._placed.copy(), plan.matrix.copy())
-            self._kept.keep(key, kept)
+            kept = CachedPicture(raw, _finished(raw.copy()), self._placed.copy(), plan.matrix.copy())
+            self._cached.keep(key, kept)
         elif parts:
             self._draw_parts(stock, key, parts, kept.raw)
             kept.finished = _finished(kept.raw.copy())

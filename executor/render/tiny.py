@@ -9,7 +9,7 @@ import numpy as np
 from executor.render import geometry
 from executor.render.interface import GROUND, NOTHING
 from executor.render.layers import mean_color
-from executor.world.physics.engine import Bullet
+from executor.world.engine import Bullet
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

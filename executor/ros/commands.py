@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
 
-from executor.ros.taking import ignore, take_with_info
+from executor.ros.raw_take import ignore, take_with_info
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -18,8 +18,8 @@ from executor.ros import messages
 from executor.ros.environment import has_tf
 from executor.ros.feed import Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
+from executor.ros.raw_take import take
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
-from executor.ros.taking import take
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection

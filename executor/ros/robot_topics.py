@@ -13,7 +13,7 @@ from executor.ros import base_frames, messages
 from executor.ros.commands import Commands
 from executor.ros.feed import Feed
 from executor.ros.outlet import Outlet, Piped
-from executor.ros.taking import ignore, take
+from executor.ros.raw_take import ignore, take
 from executor.world.geometry.kinematics import joint_pose
 from executor.world.sensing.bumper import ZONES
 

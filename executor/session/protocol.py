@@ -18,8 +18,7 @@ import msgspec
 from msgspec import Struct
 
 from executor import messages
-from executor.session import actions, endings, hearing, steps, streaming, watch
-from executor.session.asked import ANSWER_S, Asked
+from executor.session import child_events, child_exits, immediate, steps, streaming, watch
 from executor.session.child import Child
 from executor.session.clients import Clients
 from executor.session.events import (
@@ -48,14 +47,15 @@ from executor.session.events import (
     Unpacked,
 )
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
+from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
-from executor.session.nodes import Nodes
+from executor.session.questions import ANSWER_S, Questions
 from executor.session.waits import NOT_ANSWERING, StepFailed, Wait
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Mapping
 
-    from executor.session.asked import Question
+    from executor.session.questions import Question
     from executor.session.waits import Step
 
 __all__ = ["About", "Session"]
@@ -114,8 +114,8 @@ class Session:
         self._effects: list[Effect] = []
         self._job: _Job | None = None
         self._count = _Counters()
-        self.asked = Asked()
-        self.nodes = Nodes()
+        self.questions = Questions()
+        self.nodes = LaunchNodes()
         self.renderer = ""
         self.has_tf = False
 
@@ -130,7 +130,7 @@ class Session:
     def deadline_s(self) -> float | None:
         """When `TimePassed` is due at the latest, if nothing else happens."""
         times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
-        times.append(self.asked.deadline_s)
+        times.append(self.questions.deadline_s)
         if self._job is not None:
             times.append(self._job.deadline_s)
         return min((t for t in times if t is not None), default=None)
@@ -215,7 +215,7 @@ class Session:
                 self.clients.echo(event.client, topic, 0.0)
             self.refuse(event, NOT_ANSWERING, child.hang)
             return
-        token = self.asked.add(
+        token = self.questions.add(
             event.client,
             event.request,
             (kind, child.number),
@@ -228,7 +228,7 @@ class Session:
 
     def order(self, kind: Kind, type_: str, **fields: Any) -> tuple[Child, str]:
         """Has a child confirm what it is told; returns it, and the token that its answer will have."""
-        child, token = self.child(kind), self.asked.token()
+        child, token = self.child(kind), self.questions.token()
         child.expect(token)
         self.tell(kind, type_, request=token, **fields)
         return child, token
@@ -254,7 +254,7 @@ class Session:
         if child is None:
             return
         child.end(reason)  # whoever waits for it waits no more
-        self.answer_late(self.asked.orphaned((kind, child.number)), "process_died", reason)
+        self.answer_late(self.questions.orphaned((kind, child.number)), "process_died", reason)
         self.leaving.add((kind, child.number))
         if grace_s:
             self._effects.append(Tell(kind, child.number, {"type": "stop"}))
@@ -311,7 +311,7 @@ class Session:
             case ChildTraced():
                 watch.traced(self, event)
             case ChildExited():
-                endings.exited(self, event)
+                child_exits.exited(self, event)
             case Unpacked():
                 self._count.unpacked = {event.token: event}
             case TimePassed():
@@ -348,10 +348,10 @@ class Session:
         child = self.children.get(event.kind)
         if child is None or child.number != event.number:
             if event.message["type"] == "log":
-                hearing.forward(self, event)  # the last words of a child that was let go
+                child_events.forward(self, event)  # the last words of a child that was let go
             return
         child.note(event.message)
-        hearing.hear(self, event)
+        child_events.hear(self, event)
         self._after_forward(child, event.message)
 
     def _after_forward(self, child: Child, message: dict[str, Any]) -> None:
@@ -383,8 +383,8 @@ class Session:
         elif row.is_step:
             self._begin(event)
         else:
-            actions.ACTIONS[event.command](self, event)
-            if event.command not in actions.ANSWER_LATER:
+            immediate.ACTIONS[event.command](self, event)
+            if event.command not in immediate.ANSWER_LATER:
                 self._ack(event.client, event.request)
 
     def _begin(self, event: CommandCame) -> None:
@@ -465,7 +465,7 @@ class Session:
             self.answer(question, messages.Error(code, text))
 
     def _expire(self) -> None:
-        self.answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
+        self.answer_late(self.questions.expired(self._now_s), "timeout", "did not answer in time")
         for client in self.clients.promote(self._now_s, self.about.promote_s):
             self.introspect(client)
         if self.clients.is_abandoned(self._now_s, self.about.grace_s):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from executor import messages
-from executor.session import endings, steps
+from executor.session import child_exits, steps
 from executor.session.events import Inspect
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.trace import Frame, action_frame, own_frame
@@ -86,7 +86,7 @@ def _tell(session: Session, child: Child, trace: ChildTraced | None) -> None:
     child.hang = fault.message
     session.emit(fault)
     session.answer_late(
-        session.asked.orphaned((child.kind, child.number)),
+        session.questions.orphaned((child.kind, child.number)),
         NOT_ANSWERING,
         "does not answer",
         fault.message,
@@ -155,7 +155,7 @@ def _end(session: Session, child: Child) -> None:
         _tell(session, child, None)
     reason = f"was ended: it did not answer for {END_AFTER_S:g} s"
     if child.is_in_use:
-        endings.lose(session, child, reason, f"{_name(child)} {reason}.")
+        child_exits.lose(session, child, reason, f"{_name(child)} {reason}.")
         return
     name = _name(child)
     session.drop(child.kind, reason=reason)
@@ -195,4 +195,4 @@ def _listen_for_time(session: Session, child: Child, counted_s: float, now_s: fl
         return
     session.emit(messages.Fault("timeout", text, hint=_TIME_HINT))
     reason = "was ended: the application had no simulated time, also after it was started again"
-    endings.lose(session, world, reason, f"The simulated world {reason}.")
+    child_exits.lose(session, world, reason, f"The simulated world {reason}.")

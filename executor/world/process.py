@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from rclpy.context import Context
 
     from executor.render.interface import Renderer
-    from executor.world.simulation.clockwork import Clockwork
-    from executor.world.simulation.outside import Outside
+    from executor.world.simulation.loop import SimulationLoop
+    from executor.world.simulation.outside_graph import OutsideGraph
 
 _log = logging.getLogger(__name__)
 
@@ -43,12 +43,12 @@ class _Stop(Exception):  # noqa: N818 - the way out, not an error
 
 
 class WorldProcess:
-    """Receives messages and keeps the clockwork going, in one thread."""
+    """Receives messages and keeps the loop going, in one thread."""
 
     def __init__(self, channel: Channel, pulse: Pulse) -> None:
         self._channel = channel
         self._pulse = pulse
-        self._clockwork: Clockwork | Outside | None = None
+        self._loop: SimulationLoop | OutsideGraph | None = None
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
@@ -70,21 +70,21 @@ class WorldProcess:
 
     def _turn(self) -> None:
         self._pulse.moved()
-        clockwork = self._clockwork
-        wait_s = LONGEST_WAIT_S if clockwork is None else clockwork.next_due_s(time.monotonic())
+        loop = self._loop
+        wait_s = LONGEST_WAIT_S if loop is None else loop.next_due_s(time.monotonic())
         message = self._channel.receive(min(wait_s, LONGEST_WAIT_S))
         while message is not None:
             self._obey(message)
             message = self._channel.receive(0)
-        if self._clockwork is not None:
-            self._clockwork.run_due(time.monotonic())
+        if self._loop is not None:
+            self._loop.run_due(time.monotonic())
 
     def _warm_up(self) -> None:
         """Loads now what `start` would otherwise have to wait for."""
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
         from executor.world.physics import bullet  # noqa: F401, PLC0415
-        from executor.world.simulation import clockwork, launch  # noqa: F401, PLC0415
+        from executor.world.simulation import launch, loop  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
@@ -124,50 +124,50 @@ class WorldProcess:
             with self._pulse.busy("building the world"):
                 self._start(message)
             return
-        if self._clockwork is None:
+        if self._loop is None:
             self._say_error("not_started", f"The world must be started before {kind!r}.")
             return
-        self._command(self._clockwork, kind, message)
+        self._command(self._loop, kind, message)
 
-    def _command(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
+    def _command(self, loop: SimulationLoop | OutsideGraph, kind: str, message: dict[str, Any]) -> None:
         match kind:
             case "pause":
-                clockwork.pause()
+                loop.pause()
             case "resume":
-                clockwork.resume()
+                loop.resume()
             case "step":
-                clockwork.step(float(message["dt_s"]))
+                loop.step(float(message["dt_s"]))
             case "reset":
                 with self._pulse.busy("resetting the world"):
-                    clockwork.reset()
+                    loop.reset()
             case "set_speed":
-                clockwork.set_speed(float(message["speed"]))
+                loop.set_speed(float(message["speed"]))
             case "stop_robot":
-                clockwork.stop_robots()
+                loop.stop_robots()
             case "teleop":
                 goes_on = bool(message.get("goes_on"))
-                clockwork.teleop(float(message["linear"]), float(message["angular"]), goes_on=goes_on)
+                loop.teleop(float(message["linear"]), float(message["angular"]), goes_on=goes_on)
             case "move_body":
-                clockwork.move_body(str(message["id"]), message["pose"])
+                loop.move_body(str(message["id"]), message["pose"])
             case "subscribe" | "unsubscribe" | "pace":
-                self._stream(clockwork, kind, message)
+                self._stream(loop, kind, message)
             case "list_topics" | "echo_topic" | "publish_topic" | "describe_type":
                 self._topics.obey(message)
             case _:
                 self._say_error("unknown_message", f"The world knows no message {kind!r}.")
 
-    def _stream(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
+    def _stream(self, loop: SimulationLoop | OutsideGraph, kind: str, message: dict[str, Any]) -> None:
         match kind:
             case "unsubscribe":
-                clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
+                loop.streams.unsubscribe(message.get("client"), str(message["stream"]))
             case "pace":
-                clockwork.streams.pace(message.get("client"), float(message["lost"]))
+                loop.streams.pace(message.get("client"), float(message["lost"]))
             case _:
-                self._subscribe(clockwork, message)
+                self._subscribe(loop, message)
 
-    def _subscribe(self, clockwork: Clockwork | Outside, message: dict[str, Any]) -> None:
+    def _subscribe(self, loop: SimulationLoop | OutsideGraph, message: dict[str, Any]) -> None:
         pose = message.get("camera_pose")
-        clockwork.streams.subscribe(
+        loop.streams.subscribe(
             message.get("client"),
             message["stream"],
             max_hz=float(message.get("max_hz") or 30.0),
@@ -176,7 +176,7 @@ class WorldProcess:
         )
 
     def _start(self, message: dict[str, Any]) -> None:
-        if self._clockwork is not None:
+        if self._loop is not None:
             self._say_error("already_started", "The world is running already.")
             return
         if message["universe"] == "none":
@@ -187,8 +187,8 @@ class WorldProcess:
         from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.topics import Topics  # noqa: PLC0415
         from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
-        from executor.world.simulation.clockwork import Clockwork  # noqa: PLC0415
         from executor.world.simulation.launch import make_world  # noqa: PLC0415
+        from executor.world.simulation.loop import SimulationLoop  # noqa: PLC0415
 
         self._progress(0.2, "Building the world")
         assets = Path(message["assets"]) if message.get("assets") else None
@@ -213,12 +213,12 @@ class WorldProcess:
         node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
         self._topics = Topics(node.node, self._say, commands=node, outlet=outlet)
-        clockwork = Clockwork(
+        loop = SimulationLoop(
             world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
         )
-        clockwork.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
-        clockwork.moved = self._moved
-        self._clockwork = clockwork
+        loop.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
+        loop.moved = self._moved
+        self._loop = loop
         self._channel.send(
             {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
         )
@@ -226,14 +226,14 @@ class WorldProcess:
     def _start_outside(self, message: dict[str, Any]) -> None:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.topics import Topics  # noqa: PLC0415
-        from executor.world.simulation.outside import Outside  # noqa: PLC0415
+        from executor.world.simulation.outside_graph import OutsideGraph  # noqa: PLC0415
 
         self._progress(0.6, "Joining the outside ROS graph")
-        outside = Outside(self._join(int(message.get("domain_id") or 0)), self._channel.send)
+        outside = OutsideGraph(self._join(int(message.get("domain_id") or 0)), self._channel.send)
         self._close.append(outside.close)
         self._topics = Topics(outside.node, self._say)
         outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
-        self._clockwork = outside
+        self._loop = outside
         self._channel.send({"type": "ready", "renderer": "", "tf": has_tf(), "universe": "none"})
 
     def _moved(self, clocks: int) -> None:

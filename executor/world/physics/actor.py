@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from executor.universes.model import Actor
+    from executor.world.engine import Bullet
     from executor.world.geometry.objects import SceneObjects
-    from executor.world.physics.engine import Bullet
 
 
 class BulletActor:

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from executor.messages import Mesh
     from executor.robots.urdf import Urdf
     from executor.universes.model import Model
+    from executor.world.engine import Bullet
     from executor.world.geometry.objects import Kind, SceneObjects
-    from executor.world.physics.engine import Bullet
 
 Links = tuple["Urdf", dict[str, "Mesh"]]
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from executor.messages import Mesh
     from executor.universes.model import Model
-    from executor.world.physics.engine import Bullet
+    from executor.world.engine import Bullet
 
 FINITE_PLANE_THICKNESS = 0.02
 

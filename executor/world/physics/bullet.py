@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from executor.messages import Light, Mesh, Scene, SensorPlacement
 from executor.robots.config import RobotConfig, load_robot
+from executor.world.engine import Bullet
 from executor.world.geometry.kinematics import mesh_key
 from executor.world.geometry.objects import Kind, SceneObjects
 from executor.world.geometry.transforms import Pose, compose, from_xyz_rpy
@@ -16,7 +17,6 @@ from executor.world.physics.actor import BulletActor
 from executor.world.physics.assembly import Assembly, Links, read_assembly
 from executor.world.physics.bodies import Body, make_body, make_ground, model_mesh, rgba, scene_shape
 from executor.world.physics.ceiling import ceiling_of, upper_part
-from executor.world.physics.engine import Bullet
 from executor.world.physics.paint import texture_key, textures_of
 from executor.world.physics.placement import put_at_rest
 from executor.world.physics.randomize import draw

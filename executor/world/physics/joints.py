@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from executor.robots.config import JointDrive, RobotConfig
-    from executor.world.physics.engine import Bullet
+    from executor.world.engine import Bullet
 
 GAIN: Final = 0.3
 """Share of an error in position that a motor makes good in one physics step."""

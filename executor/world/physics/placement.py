@@ -9,8 +9,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from executor.world.engine import Bullet
     from executor.world.geometry.transforms import Pose
-    from executor.world.physics.engine import Bullet
 
 
 def put(bullet: Bullet, body: int, pose: Pose) -> None:

@@ -16,7 +16,7 @@ from executor.world.physics.collision import Collision, CollisionCounter
 from executor.world.physics.drive import DifferentialDrive, DriveState, Odometry
 from executor.world.physics.joints import JointMotors
 from executor.world.sensing.lidar import LidarCaster
-from executor.world.sensing.senses import Senses
+from executor.world.sensing.proprioception import Proprioception
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from executor.messages import SensorPlacement
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
     from executor.universes.model import RobotPlace
+    from executor.world.engine import Bullet
     from executor.world.geometry.objects import SceneObjects
     from executor.world.interface import LidarReading
-    from executor.world.physics.engine import Bullet
     from executor.world.sensing.battery import BatteryReading
     from executor.world.sensing.bumper import Zone
     from executor.world.sensing.imu import ImuReading
@@ -79,7 +79,7 @@ class BulletRobot:
         self._drive = DifferentialDrive(config.drive, self._noise)
         self._counter = CollisionCounter()
         self._carriers: dict[str, tuple[str, Pose]] = {}
-        self._senses = Senses(config, (seed, index), self._pose_of)
+        self._proprioception = Proprioception(config, (seed, index), self._pose_of)
         self._joints, self._links = self._index_links()
         self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
         self._motors = JointMotors(bullet, self.uid, config, self._joints)
@@ -163,15 +163,15 @@ class BulletRobot:
 
     def imu(self, imu: Imu) -> ImuReading:
         """Measures now."""
-        return self._senses.imu(imu, self._clock_s)
+        return self._proprioception.imu(imu, self._clock_s)
 
     def battery(self, battery: Battery) -> BatteryReading:
         """Measures now."""
-        return self._senses.battery(battery)
+        return self._proprioception.battery(battery)
 
     def pressed(self) -> frozenset[Zone]:
         """Returns the zones of the bumper that are pressed."""
-        return self._senses.pressed(self._clock_s)
+        return self._proprioception.pressed(self._clock_s)
 
     def camera_pose(self, camera: Camera) -> Pose:
         """Where a camera is in the world."""
@@ -182,10 +182,10 @@ class BulletRobot:
     def control(self, now_s: float, dt_s: float) -> None:
         """Sets the wheels' motors; at the start of a control period."""
         self._clock_s = now_s
-        rates = self._drive.wheel_rates(now_s, dt_s) if self._senses.has_power else (0.0, 0.0)
+        rates = self._drive.wheel_rates(now_s, dt_s) if self._proprioception.has_power else (0.0, 0.0)
         if rates != self._applied:
             self._apply(rates)
-        if self._motors and self._senses.has_power:
+        if self._motors and self._proprioception.has_power:
             self._motors.control()
 
     def measure(self, now_s: float, dt_s: float) -> None:
@@ -208,7 +208,7 @@ class BulletRobot:
         for contact in self._contacts():
             body = name_of(contact[2])
             if body is not None:
-                self._senses.touch(contact[5], now_s)
+                self._proprioception.touch(contact[5], now_s)
                 touched = touched or body
         return None if touched is None else self._counter.observe(now_s, touched)
 
@@ -217,7 +217,7 @@ class BulletRobot:
         """Tells whether anything of the robot is random: LIDARs, wheels, or what somebody was told."""
         config = self.config
         is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
-        return is_noisy or self._senses.has_drawn
+        return is_noisy or self._proprioception.has_drawn
 
     def moved_by_hand(self) -> None:
         """Takes note that somebody put the robot elsewhere: that is no travel of its own."""
@@ -229,7 +229,7 @@ class BulletRobot:
 
     def save(self) -> object:
         """Returns what the physics server does not keep itself."""
-        noise, senses = self._noise.bit_generator.state, self._senses.save()
+        noise, senses = self._noise.bit_generator.state, self._proprioception.save()
         return _Saved(
             self._drive.state,
             copy.copy(self._counter),
@@ -249,13 +249,13 @@ class BulletRobot:
         self._counter = copy.copy(saved.counter)
         self.distance_m, self._at = saved.distance_m, saved.at
         self._noise.bit_generator.state = saved.noise
-        self._senses.restore(saved.senses)
+        self._proprioception.restore(saved.senses)
         self._motors.restore(saved.motors)
         drive = self.config.drive
         half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
         linear, turn = saved.drive.linear, saved.drive.angular * half_track
         rates = ((linear - turn) / radius, (linear + turn) / radius)
-        self._apply(rates if self._senses.has_power else (0.0, 0.0))
+        self._apply(rates if self._proprioception.has_power else (0.0, 0.0))
 
     def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
         """Adds what one sees of the robot, and its sensors."""
@@ -294,10 +294,10 @@ class BulletRobot:
     def _feel(self, base: Pose, center: Vector, dt_s: float) -> None:
         drive, odometry = self.config.drive, self._drive.state.odometry
         effort = abs(odometry.linear) / drive.max_linear + abs(odometry.angular) / drive.max_angular
-        self._senses.drain(effort, dt_s)
-        if self._senses.has_imu:
+        self._proprioception.drain(effort, dt_s)
+        if self._proprioception.has_imu:
             linear, rate = self._bullet.getBaseVelocity(self.uid)
-            self._senses.move(base, center, linear, rate, dt_s)
+            self._proprioception.move(base, center, linear, rate, dt_s)
 
     def _wheel_angles(self) -> tuple[float, float]:
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)

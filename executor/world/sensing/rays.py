@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from executor.world.physics.engine import Bullet
+    from executor.world.engine import Bullet
 
     Floats = NDArray[np.float64]
     Halves = tuple[float, float, float]

@@ -15,8 +15,8 @@ from executor.robots.inertia import Inertial
 from executor.robots.prepare import physical_urdf
 from executor.robots.rigid import merge_fixed_links
 from executor.robots.urdf import UrdfError, parse_urdf, read_inertial
+from executor.world.engine import Bullet
 from executor.world.geometry.transforms import compose, from_xyz_rpy, rotation
-from executor.world.physics.engine import Bullet
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -23,7 +23,7 @@ from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 from executor.world.sensing.sensors import Sensors
 from executor.world.simulation.adaptation import FIRST_PATIENCE
-from executor.world.simulation.clockwork import SLOW_CAMERAS, Clockwork
+from executor.world.simulation.loop import SLOW_CAMERAS, SimulationLoop
 
 
 class Rig:
@@ -108,7 +108,7 @@ def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
 
 def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None:
     said: list[dict[str, Any]] = []
-    clockwork = Clockwork(rig.world, rig.sensors, rig.node, said.append)
+    clockwork = SimulationLoop(rig.world, rig.sensors, rig.node, said.append)
     clockwork.resume()
     rig.listen(CameraInfo, "/camera/camera_info")
     rig.listen(Image, "/camera/image_raw")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from executor.messages import COMMANDS
-from executor.session.actions import ACTIONS
 from executor.session.events import (
     ChildExited,
     ChildSaid,
@@ -18,6 +17,7 @@ from executor.session.events import (
     Unpack,
     Unpacked,
 )
+from executor.session.immediate import ACTIONS
 from executor.session.ladder import TABLE, State, is_legal
 from executor.session.protocol import About, Session
 from executor.session.steps import STEPS

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from executor.world.engine import Bullet
 from executor.world.geometry.transforms import from_xyz_rpy, rotation
-from executor.world.physics.engine import Bullet
 from executor.world.sensing.rays import RayCaster
 
 ALL = 0x7FFF

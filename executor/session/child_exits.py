@@ -27,7 +27,7 @@ def exited(session: Session, event: ChildExited) -> None:
         return
     del session.children[event.kind]
     child.end(event.reason, event.last_lines)
-    session.answer_late(session.asked.orphaned((event.kind, event.number)), "process_died", event.reason)
+    session.answer_late(session.questions.orphaned((event.kind, event.number)), "process_died", event.reason)
     if child.is_stopping:
         _stopped(session)
         return

@@ -35,7 +35,7 @@ STEEPEST: Final = -0.1
 
 
 @dataclass
-class Kept:
+class CachedPicture:
     """A picture as it was drawn, and after smoothing; where everything was, and the light's map."""
 
     raw: NDArray[np.uint8]
@@ -63,29 +63,29 @@ class Kept:
         return rectangles if covered < WORTH_IT * width * height else None
 
 
-class KeptPictures:
+class PictureCache:
     """The pictures of the views that were asked for last."""
 
     def __init__(self) -> None:
-        self._kept: dict[Key, Kept] = {}
+        self._cached: dict[Key, CachedPicture] = {}
 
-    def find(self, key: Key) -> Kept | None:
+    def find(self, key: Key) -> CachedPicture | None:
         """Returns the picture of a view of a size."""
-        found = self._kept.pop(key, None)
+        found = self._cached.pop(key, None)
         if found is not None:
-            self._kept[key] = found
+            self._cached[key] = found
         return found
 
-    def keep(self, key: Key, picture: Kept) -> None:
+    def keep(self, key: Key, picture: CachedPicture) -> None:
         """Takes a picture; the one that was not asked for longest is dropped."""
-        self._kept.pop(key, None)
-        while len(self._kept) >= MOST_KEPT:
-            del self._kept[next(iter(self._kept))]
-        self._kept[key] = picture
+        self._cached.pop(key, None)
+        while len(self._cached) >= MOST_KEPT:
+            del self._cached[next(iter(self._cached))]
+        self._cached[key] = picture
 
     def clear(self) -> None:
         """Drops all: the scene is another one."""
-        self._kept.clear()
+        self._cached.clear()
 
 
 def _reached(

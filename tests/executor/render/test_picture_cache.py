@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from executor.messages import Light, Scene, SceneObject, Shape
 from executor.render import Viewpoint, look_at
 from executor.render.gl import GlRenderer
-from executor.render.kept import Kept
+from executor.render.picture_cache import CachedPicture
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 
@@ -33,13 +33,13 @@ def renderer() -> Iterator[GlRenderer]:
 def parts(monkeypatch: pytest.MonkeyPatch) -> list[list[Rectangle] | None]:
     """What each picture was drawn in; None is the whole."""
     seen: list[list[Rectangle] | None] = []
-    ask = Kept.outdated
+    ask = CachedPicture.outdated
 
-    def told(self: Kept, *arguments: object) -> list[Rectangle] | None:
+    def told(self: CachedPicture, *arguments: object) -> list[Rectangle] | None:
         seen.append(ask(self, *arguments))  # type: ignore[arg-type]
         return seen[-1]
 
-    monkeypatch.setattr(Kept, "outdated", told)
+    monkeypatch.setattr(CachedPicture, "outdated", told)
     return seen
 
 

@@ -93,7 +93,7 @@ def _answer(session: Session, event: ChildSaid) -> None:
     message = event.message
     if session.children[event.kind].take_answer(message):
         return
-    question = session.asked.answered(message.get("request"))
+    question = session.questions.answered(message.get("request"))
     if question is None:
         return
     given = message.get("error")
@@ -112,7 +112,7 @@ def _forward_topics(session: Session, message: dict[str, Any], kind: type[Struct
     if payload is None:
         return
     if isinstance(payload, messages.TypeDescription):
-        asker = session.asked.asker(message.get("request"))
+        asker = session.questions.asker(message.get("request"))
         clients = [asker] if asker is not None else []
     else:
         clients = session.clients.listeners(payload)

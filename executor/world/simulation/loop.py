@@ -34,7 +34,7 @@ class _Report:
     running_s: float = 0.0
 
 
-class Clockwork:
+class SimulationLoop:
     """Steps a world at its pace and has everything sent that is due. Starts paused."""
 
     def __init__(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from executor.world.sensing.imu import ImuReading
 
 
-class Senses:
+class Proprioception:
     """The inner sensors of one robot; `pose_of` says where a link is now, or where it is with a root."""
 
     def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from executor.session.events import ChildExited, ChildSaid
     from executor.session.protocol import Session
 
-__all__ = ["Nodes"]
+__all__ = ["LaunchNodes"]
 
 GRACE_S: Final = 1.0
 
@@ -42,7 +42,7 @@ class _Node:
         )
 
 
-class Nodes:
+class LaunchNodes:
     """They live while the application lives."""
 
     def __init__(self) -> None:

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
     from executor.session.events import Kind
 
-__all__ = ["Asked", "Question"]
+__all__ = ["Question", "Questions"]
 
 ANSWER_S: Final = 5.0
 
@@ -27,7 +27,7 @@ class Question:
     then: Callable[[], None] | None = None
 
 
-class Asked:
+class Questions:
     """The open questions by the token that the child repeats."""
 
     def __init__(self) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from executor.application.report import Reporter
-from executor.session.hearing import APPLICATION_EVENTS
+from executor.session.child_events import APPLICATION_EVENTS
 from executor.world.simulation.streams import Streams
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 STREAMS_HZ: Final[dict[StreamName, float]] = {"poses": 30.0, "scan": 30.0}
 
 
-class Scribe:
+class RunRecorder:
     """Writes one run into a recording.
 
     Args:

@@ -1,7 +1,7 @@
 """No world of ours: a session in which the application drives what an outside ROS graph has.
 
-It has the face of `Clockwork`, for the same messages. Nothing is simulated, time is the outside's own, and a
-pause cannot stop it: what it can do is to tell the robot to stand.
+It has the face of `SimulationLoop`, for the same messages. Nothing is simulated, time is the outside's own,
+and a pause cannot stop it: what it can do is to tell the robot to stand.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     Send = Callable[[dict[str, Any]], None]
 
-__all__ = ["NONE", "Outside"]
+__all__ = ["NONE", "OutsideGraph"]
 
 NONE: Final = "none"
 LOOK_S: Final = 0.02
@@ -41,7 +41,7 @@ class _NoStreams:
         """Slows nothing."""
 
 
-class Outside:
+class OutsideGraph:
     """A node in an outside graph, through which a session looks at it and stops its robot."""
 
     def __init__(self, context: Context, send: Send) -> None:

@@ -1,6 +1,6 @@
 """The page of the session protocol, generated from `executor.session.ladder` and `executor.messages`.
 
-Run ``python -m executor.generate.protocol_page`` after a change of either; a test says when it was forgotten.
+Run ``python -m executor.generate.protocol_page`` after a change of either; a test fails otherwise.
 """
 
 from __future__ import annotations
@@ -168,7 +168,7 @@ def _default(field: Any) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Writes the page, or checks that it is what would be written."""
+    """Writes the page, or checks that it is current."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args(arguments)

@@ -13,7 +13,7 @@ FOLDER: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "
 
 
 def main() -> None:
-    """Writes a picture each, and the width and height in m that it covers."""
+    """Writes each picture, with the width and height in m that it covers."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     tiles = {}
     for name in TEXTURES:

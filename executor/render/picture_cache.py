@@ -1,7 +1,7 @@
-"""Pictures of a view that stays: what stands in them is drawn once, and again only where something moved.
+"""Cache of pictures of fixed views: only the parts where something moved are drawn again.
 
-A thing that moves changes a picture where it was, where it is, and where its shadow was and is. These parts
-are drawn again with everything that is in them, so the picture is the one that drawing all of it would give.
+A moving object changes a picture where it was, where it is, and where its shadow was and is. These parts are
+redrawn with everything in them, so the result equals a full redraw.
 """
 
 from __future__ import annotations
@@ -27,16 +27,16 @@ if TYPE_CHECKING:
 MOST_KEPT: Final = 2
 MOST_RECTANGLES: Final = 8
 WORTH_IT: Final = 0.6
-"""Of the picture: beyond that, drawing all of it is as quick."""
+"""Share of the picture from which a full redraw is as fast."""
 BLUR_M: Final = 0.03
-"""How far beside a thing its shadow is looked up, and two texels of the shadow map more."""
+"""Margin around an object in which its shadow is sampled; two texels of the shadow map are added."""
 STEEPEST: Final = -0.1
-"""Light that comes in flatter than this throws shadows too long to follow."""
+"""Flatter light casts shadows that are too long to track."""
 
 
 @dataclass
 class CachedPicture:
-    """A picture as it was drawn, and after smoothing; where everything was, and the light's map."""
+    """A picture before and after smoothing, with the poses and the shadow map of that time."""
 
     raw: NDArray[np.uint8]
     finished: NDArray[np.uint8]
@@ -44,7 +44,7 @@ class CachedPicture:
     light: NDArray[np.float64]
 
     def outdated(self, pieces: Pieces, placed: Floats, plan: ShadowPlan, key: Key) -> list[Rectangle] | None:
-        """Returns what has to be drawn again, and counts it as drawn; None is all of it."""
+        """Returns the parts to redraw, and counts them as drawn; None is the full picture."""
         if not np.array_equal(self.light, plan.matrix) or plan.sun[2] > STEEPEST:
             return None
         moved = np.abs(placed - self.placed).max(axis=(1, 2), initial=0.0) > MOVED
@@ -64,7 +64,7 @@ class CachedPicture:
 
 
 class PictureCache:
-    """The pictures of the views that were asked for last."""
+    """The pictures of the last views."""
 
     def __init__(self) -> None:
         self._cached: dict[Key, CachedPicture] = {}
@@ -77,21 +77,21 @@ class PictureCache:
         return found
 
     def keep(self, key: Key, picture: CachedPicture) -> None:
-        """Takes a picture; the one that was not asked for longest is dropped."""
+        """Stores a picture; the least recently used one is dropped."""
         self._cached.pop(key, None)
         while len(self._cached) >= MOST_KEPT:
             del self._cached[next(iter(self._cached))]
         self._cached[key] = picture
 
     def clear(self) -> None:
-        """Drops all: the scene is another one."""
+        """Drops all pictures, for a new scene."""
         self._cached.clear()
 
 
 def _reached(
     pieces: Pieces, numbers: NDArray[np.intp], placed: Floats, plan: ShadowPlan
 ) -> NDArray[np.float64]:
-    """Returns points whose hull holds each piece and its shadow: (pieces, points, 3)."""
+    """Returns points whose hull contains each piece and its shadow: (pieces, points, 3)."""
     margin = BLUR_M + 2 * plan.texel_m
     corners = pieces.corners_of(numbers, placed, margin)
     falls = np.maximum(corners[:, :, 2:], 0.0) / -plan.sun[2]
@@ -99,7 +99,7 @@ def _reached(
 
 
 def _boxes(points: NDArray[np.float64], view: Viewpoint, width: int, height: int) -> NDArray[np.int64] | None:
-    """Returns [left, top, right, bottom] in pixels of each row of points; None if one is beside the eye."""
+    """Returns [left, top, right, bottom] in pixels of each row of points; None if one is behind the eye."""
     matrix = view.projection_matrix(width, height) @ view.view_matrix()
     clip = points @ matrix[:, :3].T + matrix[:, 3]
     ahead = clip[:, :, 3]

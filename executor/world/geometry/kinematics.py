@@ -1,4 +1,4 @@
-"""Where the links of a robot are, and what one sees of them. Pure geometry."""
+"""Poses and scene objects of a robot's links. Pure geometry."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def joint_pose(joint: Joint, position: float) -> Pose:
-    """Returns where a joint's child is in its parent's frame, at an angle in rad or a shift in m."""
+    """Returns the pose of a joint's child in its parent's frame, at an angle in rad or a shift in m."""
     if joint.kind == "prismatic":
         x, y, z = (value * position for value in joint.axis)
         return compose(joint.origin, (x, y, z, 0.0, 0.0, 0.0, 1.0))
@@ -25,7 +25,7 @@ def joint_pose(joint: Joint, position: float) -> Pose:
 
 
 def link_pose(urdf: Urdf, base: Pose, link: str, positions: Mapping[str, float]) -> Pose:
-    """Returns where a link is, given its root and the joints' positions; those not named are at 0."""
+    """Returns the pose of a link, from its root and the joints' positions; others are at 0."""
     chain: list[Joint] = []
     while (joint := urdf.joint_above.get(link)) is not None:
         chain.append(joint)
@@ -38,13 +38,13 @@ def link_pose(urdf: Urdf, base: Pose, link: str, positions: Mapping[str, float])
 
 
 def add_links(body: str, urdf: Urdf, meshes: str, objects: SceneObjects, kind: Kind) -> dict[str, int]:
-    """Adds one object for the root with all that is fixed to it, and one for each link that moves.
+    """Adds one object for the root with its fixed links, and one for each moving link.
 
     Args:
-        body: whose links they are.
+        body: of the links.
         urdf: the links.
-        meshes: what the names of their meshes in the scene begin with.
-        objects: where to add them.
+        meshes: prefix of the names of their meshes in the scene.
+        objects: receives them.
         kind: of all of them.
     """
     shapes: dict[str, list[Shape]] = {}
@@ -57,7 +57,7 @@ def add_links(body: str, urdf: Urdf, meshes: str, objects: SceneObjects, kind: K
 
 
 def sensor_placements(config: RobotConfig, ids: Mapping[str, int]) -> list[SensorPlacement]:
-    """Returns where the sensors sit that see far, for who draws them."""
+    """Returns the placements of LIDARs and cameras, for clients that draw them."""
     placed = []
     for lidar in config.lidars:
         carrier, pose = config.urdf.rigid_parent(lidar.link)
@@ -72,7 +72,7 @@ def sensor_placements(config: RobotConfig, ids: Mapping[str, int]) -> list[Senso
 
 
 def mesh_key(of: str, name: str) -> str:
-    """Names a mesh in the scene: two robots may have meshes of one name."""
+    """Returns the name of a mesh in the scene: two robots may have meshes of the same name."""
     return f"{of}/{name}"
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 SUFFIXES: Final = (".stl", ".obj", ".dae", ".ply", ".glb")
 MAX_BYTES: Final = 50_000_000
 MAX_TRIANGLES: Final = 300_000
-SHARP_COSINE: Final = 0.77  # an edge of more than 40° between faces is drawn as one
+SHARP_COSINE: Final = 0.77  # edges of more than 40° between faces are shaded sharp
 
 
 class MeshError(Exception):
@@ -27,7 +27,7 @@ def load_mesh(path: Path) -> Mesh:
     """Returns the triangles of a file, all its parts in one, in the file's own units.
 
     Raises:
-        MeshError: it is missing, too large, of a kind that we do not read, or broken.
+        MeshError: it is missing, too large, of an unsupported format, or broken.
     """
     if path.suffix.lower() not in SUFFIXES:
         raise MeshError(f"meshes of kind {path.suffix or '(none)'} are not read; use {', '.join(SUFFIXES)}")
@@ -54,7 +54,7 @@ def load_mesh(path: Path) -> Mesh:
 def _shaded(
     points: NDArray[np.float64], faces: NDArray[np.int64], uvs: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Returns rows of point, normal and uv, and the faces by row: smooth where round, sharp at edges."""
+    """Returns rows of point, normal and uv, and the faces by row: smooth if round, sharp at edges."""
     _, place = np.unique(np.round(points, 6), axis=0, return_inverse=True)
     across = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
     flat = _unit(across)
@@ -76,7 +76,7 @@ def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def write_obj(mesh: Mesh, path: Path) -> None:
-    """Writes a mesh as the physics reads it."""
+    """Writes a mesh in the format of the physics engine."""
     points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3)
     faces = np.frombuffer(mesh.indices, "<u4").reshape(-1, 3) + 1
     lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in points.tolist()]
@@ -91,7 +91,7 @@ class _Found(NamedTuple):
 
 
 def _triangles(path: Path) -> _Found:
-    """Reads a file's parts and puts them together. The library would do that, but not without Pillow."""
+    """Reads and merges the parts of a file. The library could, but only with Pillow."""
     import trimesh  # noqa: PLC0415 - slow to load, and few robots have meshes
 
     try:
@@ -104,7 +104,7 @@ def _triangles(path: Path) -> _Found:
             parts = [_part(mesh, matrix) for mesh, matrix in found if isinstance(mesh, trimesh.Trimesh)]
         else:
             parts = []
-    except Exception as error:  # whatever a parser of hostile files raises
+    except Exception as error:  # parsers raise anything on hostile files
         raise MeshError(f"{path.name} cannot be read: {error}") from error
     if not parts:
         raise MeshError(f"{path.name} has no triangles")
@@ -120,7 +120,7 @@ def _triangles(path: Path) -> _Found:
 def _part(mesh: Any, matrix: NDArray[np.float64]) -> _Found:
     points = np.asarray(mesh.vertices, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     faces = np.asarray(mesh.faces, np.int64)
-    if np.linalg.det(matrix[:3, :3]) < 0:  # a mirror turns triangles inside out
+    if np.linalg.det(matrix[:3, :3]) < 0:  # a reflection inverts triangles
         faces = faces[:, ::-1]
     uvs = getattr(mesh.visual, "uv", None)
     if uvs is None or np.shape(uvs) != (len(points), 2) or not np.isfinite(uvs).all():

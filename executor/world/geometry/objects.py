@@ -1,4 +1,4 @@
-"""The list of what there is to see: scene objects, and for those that move, how to ask where they are."""
+"""The scene objects of a world, with functions that return the poses of those that move."""
 
 from __future__ import annotations
 
@@ -33,23 +33,23 @@ class SceneObjects:
         return object_id
 
     def add_mover(self, where: Callable[[], Sequence[tuple[int, Pose]]]) -> None:
-        """Adds a function that says where some objects are now."""
+        """Adds a function that returns the current poses of some objects."""
         self._movers.append(where)
 
     def place(self, object_id: int, pose: Pose) -> None:
-        """Takes note of where an object is put that nobody is asked about."""
+        """Stores the pose of an object that has no such function."""
         self.objects[object_id].pose = list(pose)
         if object_id < len(self._poses):
-            self._poses = self._poses.copy()  # who got the last array keeps it as it was
+            self._poses = self._poses.copy()  # callers may keep the last array unchanged
             self._poses[object_id] = pose
 
     def tell(self, poses: NDArray[np.float32]) -> None:
-        """Writes the poses into the objects themselves, which a scene shows."""
+        """Writes the poses into the objects, for a scene."""
         for scene_object, pose in zip(self.objects, poses.tolist(), strict=True):
             scene_object.pose = pose
 
     def update(self) -> NDArray[np.float32]:
-        """Asks all that moves, and returns the poses of all objects in a new array."""
+        """Returns the current poses of all objects in a new array."""
         if len(self._poses) != len(self.objects):
             self._poses = np.array([o.pose for o in self.objects], np.float32).reshape(-1, 7)
         poses = self._poses.copy()

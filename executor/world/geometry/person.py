@@ -1,4 +1,4 @@
-"""What a person is made of: parts with a hinge, in the frame of someone who stands and looks along x."""
+"""The parts of a person, with hinges, in the frame of a standing person who looks along x."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Rgba = list[float]
 
 @dataclass(frozen=True)
 class Part:
-    """A rigid part. `sign` says how it swings with the gait; `capsule` is its radius, length, z."""
+    """A rigid part. `sign` is its direction of swing in the gait; `capsule` is its radius, length, z."""
 
     name: str
     hinge: tuple[float, float, float]
@@ -29,13 +29,13 @@ class Part:
     capsule: tuple[float, float, float] | None = None
 
     def pose(self, gait: Gait) -> Pose:
-        """Returns where the part is in the world."""
+        """Returns the pose of the part in the world."""
         stand = from_xyz_rpy((gait.x, gait.y, 0, 0, 0, gait.yaw))
         return compose(stand, from_xyz_rpy((*self.hinge, 0, -self.sign * gait.swing, 0)))
 
 
 def person_parts(color: Rgba) -> tuple[Part, ...]:
-    """Returns the parts of a person 1.75 m tall whose clothes are of one colour."""
+    """Returns the parts of a person 1.75 m tall in clothes of one colour."""
     trousers = [channel * 0.8 for channel in color[:3]] + [1.0]
     return (
         Part("body", (0, 0, 0), 0.0, _body(color, trousers), (0.2, 0.65, 1.2)),

@@ -18,7 +18,7 @@ Pose = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Final[Pose] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 _STRAIGHT_UP: Final = 1 - 1e-12
-"""Sine of a pitch at which roll and yaw cannot be told apart any more."""
+"""Sine of the pitch from which roll and yaw cannot be distinguished any more."""
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
@@ -42,7 +42,7 @@ def quaternion_about(axis: Sequence[float], angle: float) -> Quaternion:
 
 
 def multiply(a: Sequence[float], b: Sequence[float]) -> Quaternion:
-    """Returns the rotation `b`, then `a`."""
+    """Returns the rotation that applies `b`, then `a`."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -54,7 +54,7 @@ def multiply(a: Sequence[float], b: Sequence[float]) -> Quaternion:
 
 
 def rotate(q: Sequence[float], v: Sequence[float]) -> Vector:
-    """Returns a vector turned by a rotation."""
+    """Returns a rotated vector."""
     qx, qy, qz, qw = q
     x, y, z = v
     tx, ty, tz = 2 * (qy * z - qz * y), 2 * (qz * x - qx * z), 2 * (qx * y - qy * x)
@@ -66,13 +66,13 @@ def rotate(q: Sequence[float], v: Sequence[float]) -> Vector:
 
 
 def compose(a: Pose, b: Pose) -> Pose:
-    """Returns the pose `b`, given in the frame of `a`, in the frame in which `a` is given."""
+    """Transforms the pose `b` from the frame of `a` into the parent frame of `a`."""
     x, y, z = rotate(a[3:], b[:3])
     return (a[0] + x, a[1] + y, a[2] + z, *multiply(a[3:], b[3:]))
 
 
 def inverse(pose: Pose) -> Pose:
-    """Returns the transform back."""
+    """Returns the inverse transform."""
     q = (-pose[3], -pose[4], -pose[5], pose[6])
     x, y, z = rotate(q, pose[:3])
     return (-x, -y, -z, *q)
@@ -100,7 +100,7 @@ def to_xyz_rpy(pose: Pose) -> tuple[float, float, float, float, float, float]:
     """Returns [x, y, z, roll, pitch, yaw] of a pose."""
     qx, qy, qz, qw = pose[3:]
     sine = 2 * (qw * qy - qz * qx)
-    if abs(sine) > _STRAIGHT_UP:  # roll and yaw turn about one axis then: all of it is called yaw
+    if abs(sine) > _STRAIGHT_UP:  # gimbal lock: roll and yaw share an axis, so all is yaw
         return (
             *pose[:3],
             0.0,
@@ -118,5 +118,5 @@ def yaw_of(q: Sequence[float]) -> float:
 
 
 def wrap(angle: float) -> float:
-    """Returns the same angle between -pi and pi."""
+    """Normalizes an angle to the range -pi to pi."""
     return math.atan2(math.sin(angle), math.cos(angle))

@@ -1,4 +1,4 @@
-"""How a person walks: along a path at constant speed, with swinging legs. Pure geometry."""
+"""The gait of a person: along a path at constant speed, with swinging legs. Pure geometry."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TURN_RATE: Final = 3.0  # rad/s
 
 
 class Path:
-    """A polyline that is walked from its first point on, closed if `loop`, else there and back."""
+    """A polyline, walked from its first point; closed if `loop`, otherwise back and forth."""
 
     def __init__(self, points: Sequence[tuple[float, float]], *, loop: bool) -> None:
         closed = [*points, points[0]] if loop or len(points) == 1 else [*points, *reversed(points[:-1])]
@@ -31,11 +31,11 @@ class Path:
 
     @property
     def length_m(self) -> float:
-        """The length of one round."""
+        """The length of one lap."""
         return self._ends[-1]
 
     def at(self, distance_m: float) -> tuple[float, float, float]:
-        """Returns x, y and heading after walking so far."""
+        """Returns x, y and heading after a distance."""
         if self.length_m <= 0:
             return (*self._points[0], 0.0)
         along = distance_m % self.length_m
@@ -51,7 +51,7 @@ class Path:
 
 @dataclass(frozen=True)
 class Gait:
-    """Where a walker is and how the limbs stand: `swing` in rad, of the left leg and the right arm."""
+    """Pose of a walker: `swing` is the angle in rad of the left leg and the right arm."""
 
     x: float
     y: float
@@ -61,7 +61,7 @@ class Gait:
 
 
 class Walker:
-    """Someone on a path. The heading follows the path's with a limited rate, so that corners look natural."""
+    """A person on a path. The heading follows the path's with a limited rate, for natural corners."""
 
     def __init__(self, path: Path, speed: float, start_m: float = 0.0) -> None:
         self._path = path
@@ -69,7 +69,7 @@ class Walker:
         self.gait = self._gait(start_m, path.at(start_m)[2])
 
     def advance(self, dt_s: float) -> Gait:
-        """Walks on for `dt_s`."""
+        """Walks for `dt_s`."""
         distance = self.gait.distance_m + self._speed * dt_s
         wanted = wrap(self._path.at(distance)[2] - self.gait.yaw)
         limit = TURN_RATE * dt_s

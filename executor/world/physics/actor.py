@@ -1,4 +1,4 @@
-"""Actors in the physics server: bodies that are carried along their path, and that robots can bump into."""
+"""Actors in the physics server: bodies that are moved along their path, and that robots can bump into."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class BulletActor:
-    """A person who walks whatever happens."""
+    """A person who walks, unaffected by collisions."""
 
     def __init__(self, bullet: Bullet, actor: Actor) -> None:
         self.id = actor.id
@@ -40,16 +40,16 @@ class BulletActor:
 
     @property
     def uids(self) -> list[int]:
-        """The bodies that stand for the actor in the physics server."""
+        """The bodies of the actor in the physics server."""
         return [uid for _, uid in self._solid]
 
     @property
     def position(self) -> tuple[float, float]:
-        """Where the actor is, in m."""
+        """Position of the actor in m."""
         return self._walker.gait.x, self._walker.gait.y
 
     def advance(self, dt_s: float) -> None:
-        """Walks on."""
+        """Walks for `dt_s`."""
         self._walker.advance(dt_s)
         self._carry()
 
@@ -58,7 +58,7 @@ class BulletActor:
         return self._walker.gait
 
     def restore(self, gait: Gait) -> None:
-        """Takes back what `save` gave."""
+        """Restores a state of `save`."""
         self._walker.gait = gait
         self._carry()
 

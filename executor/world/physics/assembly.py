@@ -1,4 +1,4 @@
-"""A thing of several links and joints in the physics server: a door, a shelf on castors, a whole kitchen."""
+"""A model of several links and joints in the physics server: a door, a shelf on castors, a kitchen."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def read_assembly(model: Model, assets: Path | None) -> Links:
     """Reads the links of a model from the project's files.
 
     Raises:
-        DocumentError: the file is not there, or something in it is wrong; with the line.
+        DocumentError: the file is missing or invalid; with the line.
     """
     if assets is None:
         problem = Problem(f"{model.id!r} needs the project's files", code="BTR002")
@@ -42,7 +42,7 @@ def read_assembly(model: Model, assets: Path | None) -> Links:
 
 
 class Assembly:
-    """A thing made from a URDF. It stands fast at its root, or is free if its model has a mass."""
+    """A model made from a URDF. Its root is fixed, or free if the model has a mass."""
 
     def __init__(self, bullet: Bullet, model: Model, links: Links) -> None:
         self._bullet = bullet
@@ -65,11 +65,11 @@ class Assembly:
 
     @property
     def is_dynamic(self) -> bool:
-        """Whether any of it can move."""
+        """Whether any part of it can move."""
         return self._model.mass > 0 or bool(self._joints)
 
     def add_to_scene(self, objects: SceneObjects) -> None:
-        """Adds what one sees of it."""
+        """Adds its visual shapes."""
         kind: Kind = "dynamic" if self.is_dynamic else "static"
         self._ids = add_links(self._model.id, self._urdf, self._model.file, objects, kind)
         for object_id, pose in self._where():
@@ -78,7 +78,7 @@ class Assembly:
             objects.add_mover(self._where)
 
     def move_body(self, pose: Pose, objects: SceneObjects) -> None:
-        """Puts its root somewhere; its joints stay as they are."""
+        """Sets the pose of its root; its joints are unchanged."""
         put_at_rest(self._bullet, self.uid, compose(pose, self._inertial))
         for object_id, link in self._where():
             objects.place(object_id, link)
@@ -115,6 +115,6 @@ class Assembly:
             if not model.solid:
                 bullet.setCollisionFilterGroupMask(self.uid, link, 0, 0)
         for joint in self._joints.values():
-            # Bullet holds every joint by a motor until told not to; what is left is the joint's own friction.
+            # Bullet holds every joint by a motor by default; the remaining force is the joint's own friction.
             friction = bullet.getJointInfo(self.uid, joint)[7]
             bullet.setJointMotorControl2(self.uid, joint, bullet.VELOCITY_CONTROL, force=friction)

@@ -1,4 +1,4 @@
-"""Makes the bodies of a universe's models."""
+"""Creates the bodies of a universe's models."""
 
 from __future__ import annotations
 
@@ -39,9 +39,9 @@ def rgba(color: str) -> list[float]:
 
 
 def make_ground(bullet: Bullet, friction: float) -> int:
-    """Makes the endless floor and returns its body."""
+    """Creates the infinite floor and returns its body."""
     ground: int = bullet.createMultiBody(0, bullet.createCollisionShape(bullet.GEOM_PLANE))
-    # Bullet multiplies both sides' restitution: the ground leaves it to what falls.
+    # Bullet multiplies the restitution of both sides: with 1, that of the falling body counts.
     bullet.changeDynamics(ground, -1, lateralFriction=friction, restitution=1.0)
     return ground
 
@@ -50,7 +50,7 @@ def model_mesh(model: Model, assets: Path | None) -> Mesh:
     """Reads the mesh of a model from the project's files.
 
     Raises:
-        WorldError: it is not there, or cannot be used.
+        WorldError: it is missing, or cannot be used.
     """
     try:
         if assets is None:
@@ -64,27 +64,27 @@ def model_mesh(model: Model, assets: Path | None) -> Mesh:
 
 
 def make_body(bullet: Bullet, model: Model, mesh: Mesh | None = None) -> Body:
-    """Makes the body of a model."""
+    """Creates the body of a model."""
     pose = from_xyz_rpy(model.pose)
     uid: int = bullet.createMultiBody(
         model.mass,
         _collision_shape(bullet, model, mesh) if model.solid else -1,
         basePosition=pose[:3],
         baseOrientation=pose[3:],
-        useMaximalCoordinates=model.mass == 0,  # a third of the cost of a step where much stands about
+        useMaximalCoordinates=model.mass == 0,  # saves a third of a step in worlds with many static bodies
     )
     bullet.changeDynamics(
         uid, -1, lateralFriction=model.friction, rollingFriction=0.001, spinningFriction=0.001,
         restitution=model.restitution, linearDamping=0.0, angularDamping=0.0,
     )  # fmt: skip
     if model.mass == 0:
-        # What never moves need not be told about in each step; what runs into it is stopped all the same.
+        # Static bodies need no update in each step; they stop other bodies all the same.
         bullet.changeDynamics(uid, -1, activationState=bullet.ACTIVATION_STATE_SLEEP)
     return Body(uid, is_dynamic=model.mass > 0)
 
 
 def scene_shape(model: Model) -> Shape:
-    """Returns what one sees of a model of one shape."""
+    """Returns the visual shape of a model of one shape."""
     return Shape(
         shape=model.shape,  # type: ignore[arg-type]  # assemblies are not asked
         size=list(model.size or (1.0, 1.0, 1.0)),
@@ -96,7 +96,7 @@ def scene_shape(model: Model) -> Shape:
 
 
 def capsule(bullet: Bullet, radius: float, length: float, at: Pose) -> int:
-    """Makes a body without mass that somebody will carry about, and returns it."""
+    """Creates a body without mass, to be moved from outside."""
     shape = bullet.createCollisionShape(
         bullet.GEOM_CAPSULE, radius=radius, height=length, collisionFramePosition=at[:3]
     )
@@ -123,7 +123,7 @@ def _collision_shape(bullet: Bullet, model: Model, mesh: Mesh | None) -> int:
 
 
 def _mesh_shape(bullet: Bullet, model: Model, mesh: Mesh) -> int:
-    """Makes a shape of a mesh: true to its triangles if it never moves, else its convex hull."""
+    """Creates a collision shape of a mesh: its triangles if it never moves, otherwise its convex hull."""
     points = np.frombuffer(mesh.positions, "<f4").reshape(-1, 3).tolist()
     options: dict[str, Any] = {"meshScale": list(model.size or (1.0, 1.0, 1.0))}
     if model.mass == 0:

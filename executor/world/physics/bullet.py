@@ -37,7 +37,7 @@ STEP_HZ: Final = 240
 CONTROL_EVERY: Final = 4  # steps
 GRAVITY: Final = 9.81
 RESIDUAL: Final = 1e-6
-"""Where the solver may stop. A drive of 8 m ends within 3 mm of where 300 iterations take it."""
+"""Residual at which the solver stops. A drive of 8 m ends within 3 mm of the result of 300 iterations."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class _Saved:
 
 @dataclass
 class _Content:
-    """What a reset makes anew."""
+    """Content that a reset creates again."""
 
     ground: int = -1
     bodies: dict[str, Body] = field(default_factory=dict)
@@ -62,16 +62,16 @@ class _Content:
 
 
 class BulletWorld:
-    """A world made of a universe.
+    """A world in PyBullet.
 
     Args:
-        universe: what there is.
-        seed: draws the universe's random values and the sensors' noise.
-        robot: id of a robot that takes the place of the universe's own.
+        universe: the document.
+        seed: of the universe's random values and the sensors' noise.
+        robot: id of a robot that replaces the universe's own.
         assets: folder of the project's own robots and meshes.
 
     Raises:
-        RobotError: a robot of the universe does not exist or is wrong.
+        RobotError: a robot of the universe does not exist or is invalid.
     """
 
     step_s: Final = 1.0 / STEP_HZ
@@ -104,12 +104,12 @@ class BulletWorld:
 
     @property
     def universe(self) -> Universe:
-        """What the world was made of, random values drawn."""
+        """The universe, with its random values drawn."""
         return self._universe
 
     @property
     def has_drawn(self) -> bool:
-        """Tells whether anything in the world came from the seed so far."""
+        """Whether any random number was drawn from the seed so far."""
         return bool(self._universe.random) or any(robot.has_drawn for robot in self.robots)
 
     @property
@@ -119,7 +119,7 @@ class BulletWorld:
 
     @property
     def scene(self) -> Scene:
-        """What there is to see, and where it is now."""
+        """The scene, with current poses."""
         self._objects.tell(self.poses())
         self._scene.t = self.time_s
         return self._scene
@@ -153,12 +153,12 @@ class BulletWorld:
         self._poses = None
 
     def reset(self) -> None:
-        """Makes the world anew, as it was at the start."""
+        """Restores the initial state."""
         self._bullet.resetSimulation()
         self._build()
 
     def save(self) -> _Saved:
-        """Returns the whole state."""
+        """Returns the full state."""
         content = self._content
         return _Saved(
             self._bullet.saveState(),
@@ -168,7 +168,7 @@ class BulletWorld:
         )
 
     def restore(self, state: _Saved) -> None:
-        """Goes on from a saved state."""
+        """Restores a saved state."""
         self._bullet.restoreState(state.physics)
         self._steps = state.steps
         for robot, saved in zip(self._content.robots, state.robots, strict=True):
@@ -184,7 +184,7 @@ class BulletWorld:
         self._bullet.removeState(state.physics)
 
     def poses(self) -> NDArray[np.float32]:
-        """Poses of the scene's objects, worked out once a step at most."""
+        """Poses of the scene's objects, computed at most once a step."""
         if self._poses is None:
             self._poses = self._objects.update()
         return self._poses
@@ -227,7 +227,7 @@ class BulletWorld:
             robot.control(now_s, dt_s)
 
     def _obstacle_name(self, uid: int) -> str | None:
-        """Names what a robot touches; None for the ground, which it may."""
+        """Returns the name of a body that a robot touches; None for the ground, which is no collision."""
         return self._content.names.get(uid)
 
     def _inertial_of(self, uid: int) -> Pose:

@@ -1,7 +1,7 @@
-"""Ceilings: what a universe has overhead for its robots' cameras alone.
+"""Ceilings: visible to robots' cameras alone.
 
-Who looks from outside would see a roof and nothing else, so views of the world leave it out, and walls are as
-low there as they are written. It casts no shadow: the sun lights rooms as if it were not there.
+From outside only a roof would be visible, so views of the world leave ceilings out, and show walls with their
+own height. A ceiling casts no shadow: the sun lights rooms as if it did not exist.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 NAME: Final = "ceiling"
 OVERLAP_M: Final = 0.01
-"""By which a wall's upper part stands in its lower one, so that no crack is seen."""
+"""Overlap of a wall's upper and lower parts, so that no crack is visible."""
 
 
 def ceiling_of(universe: Universe) -> tuple[Shape, Pose] | None:
-    """Returns what is overhead and where: a face that looks down on all walls, or on all that stands."""
+    """Returns the ceiling: a face that looks down, over all walls, or over all models."""
     ceiling = universe.ceiling
     standing = [model for model in universe.models if model.mass == 0 and len(model.size) == 3]
     under = [model for model in standing if model.to_ceiling] or standing
@@ -42,7 +42,7 @@ def ceiling_of(universe: Universe) -> tuple[Shape, Pose] | None:
 
 
 def upper_part(model: Model, universe: Universe) -> list[Shape]:
-    """Returns what a wall has above its own height, if it reaches the ceiling."""
+    """Returns the part of a wall above its own height, if it reaches the ceiling."""
     if universe.ceiling is None or not model.to_ceiling:
         return []
     x, y, z = model.size
@@ -57,7 +57,7 @@ def upper_part(model: Model, universe: Universe) -> list[Shape]:
 
 
 def _reach(models: list[Model], axis: int) -> tuple[float, float]:
-    """Returns how far along x (0) or y (1) models reach."""
+    """Returns the range of models along x (0) or y (1)."""
     ends = []
     for model in models:
         yaw, (x, y, _) = model.pose[5], model.size

@@ -1,4 +1,4 @@
-"""Counts collisions by episode: one long scrape along a wall is one collision."""
+"""Counts collisions by episode: a long scrape along a wall is one collision."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ EPISODE_GAP_S: Final = 0.5
 
 @dataclass(frozen=True)
 class Collision:
-    """The start of an episode, and what was hit."""
+    """The start of an episode, with the body that was hit."""
 
     time_s: float
     body: str
@@ -24,7 +24,7 @@ class CollisionCounter:
     last_contact_s: float = float("-inf")
 
     def observe(self, now_s: float, body: str | None) -> Collision | None:
-        """Takes what is touched now (None for nothing); returns a collision when an episode starts."""
+        """Takes the body in contact (None without one); returns a collision when an episode starts."""
         if body is None:
             return None
         is_new = now_s - self.last_contact_s > EPISODE_GAP_S

@@ -1,4 +1,4 @@
-"""A differential drive: from the wanted twist to wheel rates, and from wheel angles to odometry."""
+"""A differential drive: from target twist to wheel rates, and from wheel angles to odometry."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Covariance = tuple[float, float, float, float, float, float]
 
 
 class Odometry(NamedTuple):
-    """Where the wheels say that the robot is: pose in the odom frame, m and rad, and twist in its own.
+    """Pose in the odom frame in m and rad, and twist in the robot's own, by its wheels.
 
     `covariance` is that of the pose: xx, xy, x·yaw, yy, y·yaw and yaw·yaw.
     """
@@ -31,7 +31,7 @@ class Odometry(NamedTuple):
 
 
 class DriveState(NamedTuple):
-    """All that the drive remembers, so that a world can be saved."""
+    """The state of the drive, to save a world."""
 
     wanted: tuple[float, float] = (0.0, 0.0)
     commanded_s: float = -math.inf
@@ -42,7 +42,7 @@ class DriveState(NamedTuple):
 
 
 class DifferentialDrive:
-    """Turns twists into wheel rates within the limits of the drive; stops when no command comes."""
+    """Makes wheel rates of twists, within the limits of the drive; stops without commands."""
 
     def __init__(self, config: Drive, noise: np.random.Generator | None = None) -> None:
         self._config = config
@@ -50,7 +50,7 @@ class DifferentialDrive:
         self.state = DriveState()
 
     def command(self, linear: float, angular: float, now_s: float) -> bool:
-        """Sets the wanted twist in m/s and rad/s; tells whether it was one (not infinite or NaN)."""
+        """Sets the target twist in m/s and rad/s; returns whether it is valid (finite)."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             return False
         limit = self._config
@@ -80,7 +80,7 @@ class DifferentialDrive:
             return old
         ways = (left - last[0]) * limit.wheel_radius, (right - last[1]) * limit.wheel_radius
         moved, turned = self._motion(*ways)
-        rates = moved / dt_s, turned / dt_s  # what the wheels do is measured well, only its sum drifts
+        rates = moved / dt_s, turned / dt_s  # the twist is measured well, only its integral drifts
         moved, turned = self._motion(*map(self._believed, ways))
         middle = old.yaw + turned / 2
         # The chord of an arc, not its length: exact for constant rates.
@@ -100,18 +100,19 @@ class DifferentialDrive:
         return (left + right) / 2, (right - left) / (limit.track * limit.turn_factor)
 
     def _grown(self, old: Covariance, ways: tuple[float, float], moved: float, middle: float) -> Covariance:
-        """Returns the covariance after one more piece of way: J P Jᵀ + G Q Gᵀ.
+        """Returns the covariance after another distance: J P Jᵀ + G Q Gᵀ.
 
-        J is how the new pose follows from the old one, G from the ways of the wheels; Q = slip_noise² ·
-        diag(|left|, |right|), which is the noise that `_believed` adds. Siegwart and Nourbakhsh,
-        Introduction to Autonomous Mobile Robots, 5.2.4: the error of odometry for a differential drive.
+        J is the Jacobian of the new pose by the old one, G that by the distances of the wheels; Q =
+        slip_noise² · diag(|left|, |right|), which is the noise that `_believed` adds. Siegwart and
+        Nourbakhsh, Introduction to Autonomous Mobile Robots, 5.2.4: the error of odometry for a differential
+        drive.
         """
         limit = self._config
         if limit.slip_noise <= 0:
             return old
         xx, xy, xt, yy, yt, tt = old
         cosine, sine = math.cos(middle), math.sin(middle)
-        a, b = -moved * sine, moved * cosine  # J: x grows by a, y by b for each rad of yaw
+        a, b = -moved * sine, moved * cosine  # J: x changes by a, y by b for each rad of yaw
         xx, xy, yy = (
             xx + 2 * a * xt + a * a * tt,
             xy + a * yt + b * xt + a * b * tt,
@@ -128,7 +129,7 @@ class DifferentialDrive:
         return xx, xy, xt, yy, yt, tt
 
     def _believed(self, way: float) -> float:
-        """Returns what odometry takes a wheel's way for: a random walk along the way."""
+        """Returns a wheel's distance as odometry measures it: with a random walk along the distance."""
         if self._noise is None or self._config.slip_noise <= 0:
             return way
         return way + self._config.slip_noise * math.sqrt(abs(way)) * float(self._noise.normal())

@@ -1,4 +1,4 @@
-"""The motors of a robot's joints other than wheels: each holds the position that it was told last."""
+"""The motors of a robot's joints other than wheels: each holds its last target position."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from executor.world.engine import Bullet
 
 GAIN: Final = 0.3
-"""Share of an error in position that a motor makes good in one physics step."""
+"""Share of a position error that a motor corrects in one physics step."""
 
 
 class JointMotors:
-    """Moves joints to where they are wanted, no faster than they may.
+    """Moves joints to their targets within their rate limits.
 
     Args:
         bullet: the physics server.
@@ -39,14 +39,14 @@ class JointMotors:
         return bool(self._drives)
 
     def command(self, joint: str, position: float) -> bool:
-        """Sets where a joint is wanted, in rad or m, within its limits; refuses what is no number."""
+        """Sets the target of a joint in rad or m, within its limits; refuses one that is not finite."""
         if not math.isfinite(position):
             return False
         self._wanted[joint] = self._within(joint, position)
         return True
 
     def control(self) -> None:
-        """Tells the motors what is wanted now; once a control period, while there is power."""
+        """Sets the motors' current targets; called once a control period while there is power."""
         for name, wanted in self._wanted.items():
             if self._held.get(name) != wanted:
                 self._hold(self._drives[name], wanted)
@@ -59,11 +59,11 @@ class JointMotors:
         return {name: (state[0], state[1]) for name, state in zip(self._indices, states, strict=True)}
 
     def save(self) -> object:
-        """Returns what the physics server does not keep itself."""
+        """Returns the state that the physics server does not save itself."""
         return dict(self._wanted), dict(self._held)
 
     def restore(self, saved: object) -> None:
-        """Takes back what `save` gave."""
+        """Restores a state of `save`."""
         if not isinstance(saved, tuple):
             raise TypeError("not saved joints")
         wanted, held = saved

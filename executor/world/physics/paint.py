@@ -1,4 +1,4 @@
-"""The pictures on things: those that we ship, drawn by rule, and image files of a project."""
+"""Textures: procedural ones that we ship, and image files of a project."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class PaintError(Exception):
 
 
 def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
-    """Returns all pictures that a universe uses, by the keys of `texture_key`.
+    """Returns all textures of a universe, by the keys of `texture_key`.
 
     Raises:
         WorldError: an image file is missing or cannot be used.
@@ -59,7 +59,7 @@ def textures_of(universe: Universe, assets: Path | None) -> dict[str, Texture]:
 
 
 def texture_key(thing: Painted) -> str:
-    """Names a picture in the scene: one of another size is another."""
+    """Returns the key of a texture in the scene; each size has its own."""
     tile = "" if thing.tile is None else f"@{thing.tile[0]:g}x{thing.tile[1]:g}"
     return f"{thing.texture}{tile}" if thing.texture else ""
 
@@ -91,7 +91,7 @@ def _own(name: str, assets: Path | None) -> tuple[bytes, tuple[float, float]]:
 
 
 def image_size(data: bytes) -> tuple[int, int]:
-    """Returns width and height of a PNG or JPEG without unpacking it.
+    """Returns width and height of a PNG or JPEG without decoding it.
 
     Raises:
         PaintError: it is neither.
@@ -128,7 +128,7 @@ def _cells() -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _noise(generator: np.random.Generator, across: float, down: float) -> Grey:
-    """Returns noise from -1 to 1 or so that goes on at the edges, with grains of these sizes in pixels."""
+    """Returns tileable noise from about -1 to 1, with grains of these sizes in pixels."""
     spectrum = np.fft.fft2(generator.normal(size=(SIZE, SIZE)))
     fy, fx = np.fft.fftfreq(SIZE)[:, None], np.fft.fftfreq(SIZE)[None, :]
     spectrum *= np.exp(-((fx * across) ** 2 + (fy * down) ** 2) * np.pi)
@@ -161,7 +161,7 @@ def _wood(generator: np.random.Generator) -> Picture:
 
 
 def _brick(generator: np.random.Generator) -> Picture:
-    """Eight rows of four bricks, each row half a brick on."""
+    """Eight rows of four bricks, each row shifted by half a brick."""
     rows, columns = _cells()
     high, wide = SIZE // 8, SIZE // 4
     row = rows // high

@@ -1,7 +1,7 @@
-"""The only place that puts a body somewhere: at reset, at a drag, and for actors, which are moved by nature.
+"""The only module that sets poses of bodies: at reset, at a drag, and for actors, which are moved by design.
 
 Robots move by their wheels and by contact alone;
-`tests/executor/world/physics/test_motion_lint.py` holds us to it.
+`tests/executor/world/physics/test_motion_lint.py` checks this.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 
 def put(bullet: Bullet, body: int, pose: Pose) -> None:
-    """Puts the base of a body somewhere."""
+    """Sets the pose of the base of a body."""
     bullet.resetBasePositionAndOrientation(body, pose[:3], pose[3:])
 
 
 def put_at_rest(bullet: Bullet, body: int, pose: Pose) -> None:
-    """Puts a body somewhere, without motion."""
+    """Sets the pose of a body, with zero velocity."""
     put(bullet, body, pose)
     bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))

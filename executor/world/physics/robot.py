@@ -1,4 +1,4 @@
-"""A robot in the physics server. It moves by its wheel motors and by contact, and in no other way."""
+"""A robot in the physics server. It moves by its wheel motors and by contact only."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ DEFAULT_FRICTION: Final = 0.8
 ANY_LINK: Final = -2  # PyBullet's default
 MOST_QUESTIONS: Final = 2
 TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
-FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are Bullet's own and ours for things
+FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are used by Bullet, and by us for models
 ALL_GROUPS: Final = 0x7FFF
 
 
@@ -100,12 +100,12 @@ class BulletRobot:
 
     @property
     def odometry(self) -> Odometry:
-        """Where the wheels say that the robot is."""
+        """Pose and twist by its wheels."""
         return self._drive.state.odometry
 
     @property
     def collisions(self) -> int:
-        """How many times the robot has bumped into something."""
+        """Number of collisions since the start."""
         return self._counter.count
 
     @property
@@ -122,7 +122,7 @@ class BulletRobot:
 
     @property
     def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Lowest and highest corner in m of the box round all that can collide."""
+        """Lowest and highest corner in m of the bounding box of all collision shapes."""
         boxes = [self._bullet.getAABB(self.uid, link) for link in self._links.values()]
         lows, highs = zip(*boxes, strict=True)
         return tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
@@ -131,7 +131,7 @@ class BulletRobot:
     def twist(self) -> tuple[float, float, float]:
         """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
         (x, y, _), (_, _, turn) = self._bullet.getBaseVelocity(self.uid)
-        # The velocity is that of the centre of mass.
+        # PyBullet's velocity is that of the centre of mass.
         center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
         base = self.base_pose
         x, y = x + turn * (center[1] - base[1]), y - turn * (center[0] - base[0])
@@ -139,15 +139,15 @@ class BulletRobot:
         return x * cosine + y * sine, y * cosine - x * sine, turn
 
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
-        """Sets the wanted twist, as of now or of some time before; refuses one that is not finite."""
+        """Sets the target twist, of now or an earlier time; refuses one that is not finite."""
         return self._drive.command(linear, angular, self._clock_s if at_s is None else at_s)
 
     def stop(self) -> None:
-        """Wants no motion any more."""
+        """Sets the target velocity to zero."""
         self._drive.command(0.0, 0.0, self._clock_s)
 
     def command_joint(self, joint: str, position: float) -> bool:
-        """Sets where a joint with a motor is wanted; refuses what is no number."""
+        """Sets the target of a joint with a motor; refuses one that is not finite."""
         return self._motors.command(joint, position)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
@@ -174,13 +174,13 @@ class BulletRobot:
         return self._proprioception.pressed(self._clock_s)
 
     def camera_pose(self, camera: Camera) -> Pose:
-        """Where a camera is in the world."""
+        """Pose of a camera in the world."""
         return self._pose_of(camera.link)
 
     # --- what the world calls ---
 
     def control(self, now_s: float, dt_s: float) -> None:
-        """Sets the wheels' motors; at the start of a control period."""
+        """Sets the wheels' motors; called at the start of a control period."""
         self._clock_s = now_s
         rates = self._drive.wheel_rates(now_s, dt_s) if self._proprioception.has_power else (0.0, 0.0)
         if rates != self._applied:
@@ -189,7 +189,7 @@ class BulletRobot:
             self._motors.control()
 
     def measure(self, now_s: float, dt_s: float) -> None:
-        """Reads wheels and inner sensors; at the end of a control period, so that they are of this moment."""
+        """Reads wheels and inner sensors; called at the end of a control period."""
         self._clock_s = now_s
         self._drive.observe(*self._wheel_angles(), dt_s)
         center, turn = self._bullet.getBasePositionAndOrientation(self.uid)
@@ -197,12 +197,12 @@ class BulletRobot:
         self._feel(base, center, dt_s)
         x, y = base[:2]
         moved = math.dist((x, y), self._at)
-        if moved > 1e-5:  # the solver's own trembling is no travel
+        if moved > 1e-5:  # jitter of the solver is no travel
             self.distance_m += moved
             self._at = (x, y)
 
     def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
-        """Looks at what touches the robot; once a physics step."""
+        """Reads the contacts of the robot; called once a physics step."""
         self._clock_s = now_s
         touched = None
         for contact in self._contacts():
@@ -214,13 +214,13 @@ class BulletRobot:
 
     @property
     def has_drawn(self) -> bool:
-        """Tells whether anything of the robot is random: LIDARs, wheels, or what somebody was told."""
+        """Whether anything of the robot is random: LIDARs, wheels, or a noisy measurement."""
         config = self.config
         is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
         return is_noisy or self._proprioception.has_drawn
 
     def moved_by_hand(self) -> None:
-        """Takes note that somebody put the robot elsewhere: that is no travel of its own."""
+        """Notes that the robot was moved by hand, which is no travel."""
         self._at = self.pose[:2]
         self._drive.state = DriveState(
             wheel_angles=self._drive.state.wheel_angles, odometry=self._drive.state.odometry
@@ -228,7 +228,7 @@ class BulletRobot:
         self._apply((0.0, 0.0))
 
     def save(self) -> object:
-        """Returns what the physics server does not keep itself."""
+        """Returns the state that the physics server does not save itself."""
         noise, senses = self._noise.bit_generator.state, self._proprioception.save()
         return _Saved(
             self._drive.state,
@@ -241,7 +241,7 @@ class BulletRobot:
         )
 
     def restore(self, saved: object, now_s: float) -> None:
-        """Takes back what `save` gave."""
+        """Restores a state of `save`."""
         if not isinstance(saved, _Saved):
             raise TypeError("not a saved robot")
         self._clock_s = now_s
@@ -258,7 +258,7 @@ class BulletRobot:
         self._apply(rates if self._proprioception.has_power else (0.0, 0.0))
 
     def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
-        """Adds what one sees of the robot, and its sensors."""
+        """Adds the robot's visual shapes and its sensors."""
         ids = add_links(self.id, self.config.urdf, self.config.id, objects, "robot")
         objects.add_mover(lambda: self._where(ids))
         sensors += sensor_placements(self.config, ids)
@@ -266,7 +266,7 @@ class BulletRobot:
     # --- inside ---
 
     def _contacts(self) -> Iterator[Sequence[Any]]:
-        """Gives PyBullet's points of contact elsewhere than at the wheels."""
+        """Returns PyBullet's contact points, except those of wheels."""
         for link in self._bumping:
             for contact in self._bullet.getContactPoints(bodyA=self.uid, linkIndexA=link):
                 if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
@@ -329,7 +329,7 @@ class BulletRobot:
         return joints, links
 
     def _bumping_links(self) -> list[int]:
-        """Returns the links to ask for contacts: all by one question where one for each would cost more."""
+        """Returns the links to query for contacts: all with one query if single queries would cost more."""
         solid = [
             index
             for index in self._links.values()

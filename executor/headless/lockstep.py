@@ -1,8 +1,8 @@
 """Runs a project with its world in one process, in lock-step: sensors, then the tick, then the actuators.
 
-Time is simulated, so a run is as fast as the machine and comes out the same every time. The application is
-the real one on a real rclpy node: Fast DDS delivers within a process before `publish` returns, so that
-publishing and then calling what is ready is all the waiting that there is.
+Time is simulated, so a run is as fast as the machine and deterministic. The application is the real one on a
+real rclpy node: Fast DDS delivers within a process before `publish` returns, so there is nothing to wait for
+between publishing and calling the callbacks that are ready.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     Progress = Callable[[float], None]
 
-PERIOD_STEPS: Final = 4  # steps between looks at the world's topics, as in real time
+PERIOD_STEPS: Final = 4  # steps between polls of the world's topics, as in real time
 TRAJECTORY_HZ: Final = 10.0
 TREE_FILE: Final = "self_contained_tree.xml"
 MISMATCHES_S: Final = 5.0
@@ -46,7 +46,7 @@ TOO_LONG: Final = "an action waited in rclpy until the end of the run; let updat
 
 @dataclass(frozen=True)
 class LockstepOptions:
-    """How to run; None leaves it to the project."""
+    """Options of a run; None takes the project's setting."""
 
     universe: str | None = None
     robot: str | None = None
@@ -70,12 +70,12 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     """Runs a project until its tree ends or the time is over.
 
     Args:
-        project: opened already, or its files by path, or where it is.
-        options: what differs from the project's own settings.
+        project: an opened project, its files by path, or its path.
+        options: that replace the project's own settings.
         progress: called about once a simulated second with the simulated time.
         watch: called before each tick with the world, for measurements.
         say: called with each warning; on standard error if None.
-        moved: called each time that the world has come a step further.
+        moved: called after each step of the world.
 
     Raises:
         TranslatorError: the project has errors.
@@ -95,7 +95,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
 
 
 class _Run:
-    """One run: world, application and what connects them."""
+    """One run: world, application and their connection."""
 
     def __init__(self, project: Project, options: LockstepOptions, say: Callable[[str], None]) -> None:
         settings = project.settings
@@ -112,7 +112,7 @@ class _Run:
         self._recorder: RunRecorder | None = None  # until the tree is there
 
     def set_up(self) -> None:
-        """Makes world and application; what was made is taken down by `close` in any case."""
+        """Makes world and application; `close` frees them also after an error."""
         project = self._project
         recording = self._open_recording(project)
         self._world = self._make_world(project)
@@ -162,7 +162,7 @@ class _Run:
         return self._finish(began_s, runner.statistics.overruns)
 
     def close(self) -> None:
-        """Takes all down, in reverse."""
+        """Frees everything, in reverse order."""
         while self._stack:
             self._stack.pop()()
 
@@ -215,7 +215,10 @@ class _Run:
         self._executor: DrainingExecutor = DrainingExecutor(context=context)
         self._executor.add_node(self._application)
         self._stack.append(self._executor.shutdown)
-        self._mismatches = Mismatches(self._application, lambda found: self._say(mismatch_line(found)))
+        self._mismatches = Mismatches(
+            self._application,
+            lambda found: self._say(mismatch_line(found.topic, found.message, found.hint)),
+        )
         self._stack.append(wait_in_simulation(lambda: self._world.time_s, self._let_time_pass))
 
     def _make_tree(self, project: Project) -> Tree:
@@ -264,7 +267,7 @@ class _Run:
     # --- running ---
 
     def _advance(self, until_step: int) -> None:
-        """Steps the world up to a step, and has its sensors measure on the way as in real time."""
+        """Steps the world up to a step; its sensors measure meanwhile as in real time."""
         done = round(self._world.time_s / self._world.step_s)
         if done == 0:
             self._node.publish(self._sensors)
@@ -280,14 +283,14 @@ class _Run:
                     self._recorder.look()
 
     def _let_time_pass(self) -> None:
-        """An action waits: its world goes on, as it would in real time."""
+        """Simulates while an action waits in rclpy, as real time would pass."""
         if self._world.time_s >= self._options.duration_s:
             raise TimeoutError(TOO_LONG)
         self._advance(round(self._world.time_s / self._world.step_s) + PERIOD_STEPS)
         self._node.poll()
 
     def _call_back(self) -> bool:
-        """Runs the callbacks of the actions; tells whether none of them broke."""
+        """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
             self._executor.drain()
         except (Exception, SystemExit) as error:
@@ -309,7 +312,7 @@ class _Run:
             setattr(count, name, getattr(count, name) + 1)
 
     def _note_broken(self, error: BaseException) -> None:
-        """Notes what a callback raised."""
+        """Stores the exception of a callback."""
         place = self._locator.place_of_error(error)
         self._report.errors.append(
             {
@@ -377,7 +380,7 @@ class _WorldClock:
         return self._world.time_s
 
     def sleep(self, duration_s: float) -> None:
-        """Within a tick simulated time stands still, so there is nothing to wait for."""
+        """Does nothing: simulated time does not pass within a tick."""
 
 
 def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
@@ -391,7 +394,7 @@ def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
 
 
 def _write_assets(project: Project, folder: Path) -> None:
-    """Writes the project's robots and assets where the world finds them."""
+    """Writes the project's robots and assets into the folder that the world reads."""
     write_files(folder, {k: v for k, v in project.files.items() if k.startswith(("assets/", "robots/"))})
 
 
@@ -400,6 +403,6 @@ def _say(line: str) -> None:
 
 
 def _use_environment() -> None:
-    """Shuts other processes out, unless ROS was loaded already with an environment of its own."""
+    """Isolates ROS from other processes, unless it was loaded already."""
     if "rclpy" not in sys.modules:
         os.environ.update(lockstep_environment())

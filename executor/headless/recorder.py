@@ -1,16 +1,17 @@
-"""Follows a run in lock-step and writes down what its session would have told: by simulated time alone."""
+"""Records a run in lock-step: the events and frames that a session would send, by simulated time."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
-import msgspec
-
+from executor import messages
 from executor.application.report import Reporter
-from executor.session.child_events import APPLICATION_EVENTS
+from executor.child_messages import Log, event_of, name_of
 from executor.world.simulation.streams import Streams
 
 if TYPE_CHECKING:
+    from executor.application.report import Report
+    from executor.child_messages import Frame
     from executor.headless.recording import Recording
     from executor.messages import StreamName
     from executor.world.interface import World
@@ -24,10 +25,10 @@ class RunRecorder:
     """Writes one run into a recording.
 
     Args:
-        recording: open.
-        world: that is simulated.
-        sensors: of it.
-        tree: that is ticked; each of its ticks is written from now on.
+        recording: an open one.
+        world: the simulated one.
+        sensors: of the world.
+        tree: the ticked one; each of its ticks is written from now on.
     """
 
     def __init__(self, recording: Recording, world: World, sensors: Sensors, tree: Tree) -> None:
@@ -42,26 +43,30 @@ class RunRecorder:
         tree.observe(self._reporter.ticked)
 
     def look(self) -> None:
-        """Writes what is due of the world."""
+        """Writes the frames that are due."""
         self._streams.send_due(self._now_s())
 
     def raised(self, error: TickError) -> None:
-        """An action raised."""
+        """Writes an exception of an action."""
         self._reporter.raised(error)
 
     def finished(self, status: Status | None) -> None:
-        """The run ended by itself."""
-        self._reporter.finished(status, "finished", "")
+        """Writes the end of the tree."""
+        self._reporter.finished(status, "root_finished", "")
 
     def _now_s(self) -> float:
         return self._world.time_s
 
-    def _write_frame(self, message: dict[str, Any]) -> None:
-        self._recording.packed_frame(message["data"])
+    def _write_frame(self, frame: Frame) -> None:
+        self._recording.packed_frame(frame.data)
 
-    def _write_event(self, message: dict[str, Any]) -> None:
-        name = message["type"]
-        data = msgspec.convert(message, APPLICATION_EVENTS[name], strict=False)
+    def _write_event(self, message: Report) -> None:
+        name = name_of(message)
+        if isinstance(message, Log):
+            place = message.node_id, message.node_path
+            data: object = messages.Log("action", message.level, message.text, *place, time=self._now_s())
+        else:
+            data = event_of(message, messages.EVENTS[name])
         self._recording.event(
             {"command": name, "t": self._now_s(), "tick": self._tree.tick_number, "data": data}
         )

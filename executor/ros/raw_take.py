@@ -12,7 +12,7 @@ def take(subscription: Any) -> Any:
 
 
 def take_with_info(subscription: Any) -> tuple[Any, dict[str, Any]] | None:
-    """Takes one message, and what the middleware says of it."""
+    """Takes one message with its metadata of the middleware."""
     with subscription.handle:
         taken: tuple[Any, dict[str, Any]] | None = subscription.handle.take_message(
             subscription.msg_type, subscription.raw
@@ -21,4 +21,4 @@ def take_with_info(subscription: Any) -> tuple[Any, dict[str, Any]] | None:
 
 
 def ignore(message: object) -> None:
-    """Stands for a callback; never called: messages are taken, no executor spins the node."""
+    """Placeholder callback, never called: messages are taken, and no executor spins the node."""

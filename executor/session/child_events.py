@@ -1,120 +1,96 @@
-"""What the session makes of the messages of its children: events for its clients."""
+"""Makes events for the clients of the messages of the child processes."""
 
 from __future__ import annotations
 
-import logging
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING
 
-import msgspec
-
-from executor import messages
+from executor import child_messages, messages
+from executor.child_messages import Answer, Failed, Log, Progress, WorldReady, event_of
 from executor.session.ladder import State
+from executor.session.questions import answer
 
 if TYPE_CHECKING:
     from msgspec import Struct
 
-    from executor.session.events import ChildSaid, Kind
-    from executor.session.protocol import Session
+    from executor.session.child import Child
+    from executor.session.events import ChildSaid
+    from executor.session.stage import Stage
 
-__all__ = ["APPLICATION_EVENTS", "forward", "hear"]
+__all__ = ["forward", "log"]
 
-_log = logging.getLogger(__name__)
-
-APPLICATION_EVENTS: Final[dict[str, type[Struct]]] = {
-    "tree": messages.Tree,
-    "tick": messages.Tick,
-    "blackboard": messages.Blackboard,
-    "log": messages.Log,
-    "fault": messages.Fault,
-    "finished": messages.Finished,
+_SAME: dict[type[Struct], type[Struct]] = {
+    child_messages.Tree: messages.Tree,
+    child_messages.Blackboard: messages.Blackboard,
+    child_messages.Fault: messages.Fault,
+    child_messages.Finished: messages.Finished,
+    child_messages.TopicMismatch: messages.TopicMismatch,
 }
-"""What an application says that becomes an event of its own name."""
-_FORWARDED: Final[dict[Kind, dict[str, type[Struct]]]] = {
-    "application": APPLICATION_EVENTS,
-    "world": {"log": messages.Log, "sim": messages.Sim, "topic_mismatch": messages.TopicMismatch},
-    "node": {},
-}
-_TOPICS: Final[dict[str, type[Struct]]] = {
-    "topics": messages.Topics,
-    "topic_message": messages.TopicMessage,
-    "type_description": messages.TypeDescription,
-}
+"""Messages that are an event as they are."""
 
 
-def hear(session: Session, event: ChildSaid) -> None:
-    """Sends what a living child said to those whom it concerns."""
-    type_ = event.message["type"]
-    if type_ == "progress":
-        rung = "launch_universe" if event.kind == "world" else "run_application"
-        _emit(session, messages.Progress, {**event.message, "rung": rung})
-    elif type_ in _TOPICS:
-        _forward_topics(session, event.message, _TOPICS[type_])
-    elif type_ == "answer":
-        _answer(session, event)
-    elif type_ == "error" and session.state.reaches(State.UNIVERSE_READY):
-        text = f"{event.message.get('message', '')} {event.message.get('hint', '')}".strip()
-        session.emit(messages.Log("world", "error", text))
-    elif type_ == "ready" and event.kind == "world":
-        session.know_world(str(event.message.get("renderer", "")), has_tf=bool(event.message.get("tf")))
-    else:
-        forward(session, event)
-
-
-def forward(session: Session, event: ChildSaid) -> None:
-    """Sends a message of a child to all clients, if it is one of those meant for them."""
-    message, kind = event.message, _FORWARDED[event.kind].get(event.message["type"])
-    if kind is None:
-        return
-    if kind is messages.Log:
-        source = "action" if event.kind == "application" else "world"
-        message = {"source": source, "time": session.sim_time_s, **message}
-    elif kind is messages.Sim:
-        # The world does not know how long ticks take.
-        message = {**message, **session.mirror.tick_load()}
-    _emit(session, kind, message)
-
-
-def _emit(session: Session, kind: type[Struct], message: dict[str, Any]) -> None:
-    if isinstance(t := message.get("t"), float | int):
-        session.sim_time_s = float(t)
-    if (payload := _payload(kind, message)) is not None:
-        session.emit(payload)
-
-
-def _payload(kind: type[Struct], message: dict[str, Any]) -> Struct | None:
-    try:
-        return msgspec.convert(message, kind, strict=False)
-    except msgspec.ValidationError as error:
-        _log.warning("a %s message of a child is dropped: %s", kind.__name__, error)
-        return None
-
-
-def _answer(session: Session, event: ChildSaid) -> None:
+def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
+    """Sends a message of a living child to the clients that it concerns."""
     message = event.message
-    if session.children[event.kind].take_answer(message):
+    match message:
+        case child_messages.Tick():
+            stage.sim_time_s = message.t
+            stage.emit(event_of(message, messages.Tick))
+        case child_messages.Sim():
+            stage.sim_time_s = message.t
+            sim = event_of(message, messages.Sim)
+            sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world does not know these
+            stage.emit(sim)
+        case Log():
+            log(stage, event)
+        case Progress():
+            stage.emit(messages.Progress("launch_universe", message.fraction, message.message))
+        case Answer():
+            _answer(stage, child, message)
+        case Failed() if stage.state.reaches(State.UNIVERSE_READY):
+            stage.emit(messages.Log("world", "error", f"{message.message} {message.hint}".strip()))
+        case WorldReady():
+            stage.know_world(message.renderer, has_tf=message.tf)
+        case child_messages.Topics() | child_messages.TopicMessage() | child_messages.TypeDescription():
+            _forward_topics(stage, message)
+        case _:
+            if (kind := _SAME.get(type(message))) is not None:
+                stage.emit(event_of(message, kind))
+
+
+def log(stage: Stage, event: ChildSaid) -> None:
+    """Sends a line of a child's output to all clients; also the last lines of a child that was dropped."""
+    message = event.message
+    if not isinstance(message, Log) or event.kind == "node":
         return
-    question = session.questions.answered(message.get("request"))
-    if question is None:
+    time_s = stage.sim_time_s if message.time is None else message.time
+    source: messages.LogSource = "action" if event.kind == "application" else "world"
+    stage.emit(messages.Log(source, message.level, message.text, message.node_id, message.node_path, time_s))
+
+
+def _answer(stage: Stage, child: Child, message: Answer) -> None:
+    if message.request is None or child.take_answer(message):
         return
-    given = message.get("error")
-    session.answer(question, None if given is None else _payload_error(given))
+    question = stage.questions.answered(message.request)
+    if question is not None:
+        answer(stage, question, message.error)
 
 
-def _payload_error(given: Any) -> messages.Error:
-    try:
-        return msgspec.convert(given, messages.Error)
-    except msgspec.ValidationError:
-        return messages.Error("bad_request", "The command is refused.")
-
-
-def _forward_topics(session: Session, message: dict[str, Any], kind: type[Struct]) -> None:
-    payload = _payload(kind, {**message, "type": message.get("message_type", "")})
-    if payload is None:
-        return
-    if isinstance(payload, messages.TypeDescription):
-        asker = session.questions.asker(message.get("request"))
+def _forward_topics(
+    stage: Stage,
+    message: child_messages.Topics | child_messages.TopicMessage | child_messages.TypeDescription,
+) -> None:
+    event: messages.Topics | messages.TopicMessage | messages.TypeDescription
+    if isinstance(message, child_messages.TypeDescription):
+        event = messages.TypeDescription(message.message_type, message.fields, message.example)
+        asker = stage.questions.asker(message.request)
         clients = [asker] if asker is not None else []
+    elif isinstance(message, child_messages.Topics):
+        event = messages.Topics(message.topics)
+        clients = stage.clients.listeners(event)
     else:
-        clients = session.clients.listeners(payload)
+        event = messages.TopicMessage(
+            message.topic, message.message_type, message.message, message.bytes, message.cut
+        )
+        clients = stage.clients.listeners(event)
     for client in clients:
-        session.send(client, payload)
+        stage.send(client, event)

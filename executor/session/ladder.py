@@ -1,4 +1,4 @@
-"""The session's ladder as data: its states, and what each command does in which of them.
+"""The session's ladder as data: its states, and the effect of each command in each of them.
 
 The state machine (`executor.session.protocol`), its tests and `docs/reference/protocol.md` all read `TABLE`.
 """
@@ -13,7 +13,7 @@ __all__ = ["TABLE", "Row", "State", "is_legal", "where"]
 
 
 class State(StrEnum):
-    """A rung of the ladder, from the ground up; PAUSED is as high as APPLICATION_RUNNING."""
+    """A rung of the ladder, from bottom to top; PAUSED is as high as APPLICATION_RUNNING."""
 
     IDLE = "idle"
     CONNECTED = "connected"
@@ -24,7 +24,7 @@ class State(StrEnum):
 
     @property
     def height(self) -> int:
-        """How many rungs are below."""
+        """The number of rungs below."""
         return min(list(State).index(self), 4)
 
     def reaches(self, other: State) -> bool:
@@ -46,7 +46,7 @@ class Row:
     Attributes:
         sources: the states in which it is legal.
         target: the state that it leads to; None leaves the state as it is.
-        is_step: it takes time: others of its kind are refused until it ends, `cancel` ends it early.
+        is_step: it takes time: other steps are refused until it ends, `cancel` ends it early.
         for_viewers: clients that do not drive may send it too.
         does: one sentence for the reference page.
     """

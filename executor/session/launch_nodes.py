@@ -1,4 +1,4 @@
-"""The extra nodes of the application: what runs, what ended and why, and starting one again."""
+"""The launch nodes of an application: starting, restarting and ending them, and reporting their state."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 from executor import messages
+from executor.child_messages import Log
 from executor.session.events import Retire, Spawn
 
 if TYPE_CHECKING:
     from executor.launching.model import LaunchPlan, NodeSpec
     from executor.session.events import ChildExited, ChildSaid
-    from executor.session.protocol import Session
+    from executor.session.stage import Stage
 
 __all__ = ["LaunchNodes"]
 
@@ -22,7 +23,7 @@ GRACE_S: Final = 1.0
 class _Node:
     spec: NodeSpec
     number: int = 0
-    """Of its process; 0 while there is none."""
+    """Number of its process; 0 while there is none."""
     state: messages.LaunchState = "ended"
     restarts: int = 0
     end: str = ""
@@ -43,67 +44,67 @@ class _Node:
 
 
 class LaunchNodes:
-    """They live while the application lives."""
+    """All launch nodes; they run as long as the application."""
 
     def __init__(self) -> None:
         self._nodes: dict[str, _Node] = {}
         self._folder = ""
 
-    def start(self, session: Session, plan: LaunchPlan) -> None:
-        """Starts all that the launch files ask for."""
-        self.stop(session)
+    def start(self, stage: Stage, plan: LaunchPlan) -> None:
+        """Starts all nodes of the launch files."""
+        self.stop(stage)
         self._folder = plan.folder
         for note in plan.notes:
-            session.emit(messages.Log("launch", "warning", note))
+            stage.emit(messages.Log("launch", "warning", note))
         had_nodes = bool(self._nodes)
         self._nodes = {spec.id: _Node(spec) for spec in plan.nodes}
         for node in self._nodes.values():
             if node.spec.refusal:
-                self._refuse(session, node)
+                self._refuse(stage, node)
             else:
-                self._spawn(session, node)
+                self._spawn(stage, node)
         if had_nodes or self._nodes:
-            self._tell(session)
+            self._tell(stage)
 
-    def stop(self, session: Session) -> None:
-        """Ends all; they have a second to end by themselves."""
+    def stop(self, stage: Stage) -> None:
+        """Ends all nodes; each has a second to end by itself."""
         running = [node for node in self._nodes.values() if node.number]
         for node in running:
-            self._retire(session, node)
+            self._retire(stage, node)
             node.state, node.end = "ended", "ended with the application"
         if running:
-            self._tell(session)
+            self._tell(stage)
 
-    def restart(self, session: Session, id_: str) -> str:
-        """Starts one again, running or not; returns why it cannot be, or ""."""
+    def restart(self, stage: Stage, id_: str) -> str:
+        """Restarts a node, running or not; returns why it cannot, or ""."""
         node = self._nodes.get(id_)
         if node is None:
             return f"The launch files have no node {id_!r}."
         if node.spec.refusal:
             return f"{node.spec.name} {node.spec.refusal}"
         if node.number:
-            self._retire(session, node)
+            self._retire(stage, node)
         node.restarts += 1
-        self._spawn(session, node)
-        self._tell(session)
+        self._spawn(stage, node)
+        self._tell(stage)
         return ""
 
-    def said(self, session: Session, event: ChildSaid) -> None:
-        """A node printed a line."""
+    def said(self, stage: Stage, event: ChildSaid) -> None:
+        """Reports a line that a node printed."""
         node = self._of(event.number)
-        if event.message["type"] == "log":
-            session.emit(
+        if isinstance(event.message, Log):
+            stage.emit(
                 messages.Log(
                     "launch",
-                    event.message["level"],
-                    event.message["text"],
-                    time=session.sim_time_s,
+                    event.message.level,
+                    event.message.text,
+                    time=stage.sim_time_s,
                     launch_node=node.spec.id if node else "",
                 )
             )
 
-    def exited(self, session: Session, event: ChildExited) -> None:
-        """A node's process ended, by itself if it is still known."""
+    def exited(self, stage: Stage, event: ChildExited) -> None:
+        """Reports the exit of a node; one that the session ended is not known any more."""
         node = self._of(event.number)
         if node is None:
             return
@@ -112,7 +113,7 @@ class LaunchNodes:
         node.state = "ended" if is_well else "failed"
         if not is_well:
             message = f"The node {node.spec.name} {event.reason}."
-            session.emit(
+            stage.emit(
                 messages.Fault(
                     "process",
                     message,
@@ -122,27 +123,27 @@ class LaunchNodes:
                     traceback="\n".join(event.last_lines),
                 )
             )
-        self._tell(session)
+        self._tell(stage)
 
-    def _refuse(self, session: Session, node: _Node) -> None:
+    def _refuse(self, stage: Stage, node: _Node) -> None:
         spec = node.spec
         node.state, node.end = "failed", spec.refusal
         text = f"{spec.file}:{spec.line}: {spec.name} {spec.refusal}"
-        session.emit(messages.Log("launch", "warning", text, launch_node=spec.id))
+        stage.emit(messages.Log("launch", "warning", text, launch_node=spec.id))
 
-    def _spawn(self, session: Session, node: _Node) -> None:
-        node.number, node.state, node.end = session.next_number(), "running", ""
-        domain = ("ROS_DOMAIN_ID", str(session.run.domain_id))
+    def _spawn(self, stage: Stage, node: _Node) -> None:
+        node.number, node.state, node.end = stage.children.next_number(), "running", ""
+        domain = ("ROS_DOMAIN_ID", str(stage.run.domain_id))
         spec = replace(node.spec, environment=(domain, *node.spec.environment))
-        session.effect(Spawn("node", node.number, spec, self._folder))
+        stage.effect(Spawn("node", node.number, spec, self._folder))
 
-    def _retire(self, session: Session, node: _Node) -> None:
-        session.leaving.add(("node", node.number))
-        session.effect(Retire("node", node.number, GRACE_S))
+    def _retire(self, stage: Stage, node: _Node) -> None:
+        stage.children.leaving.add(("node", node.number))
+        stage.effect(Retire("node", node.number, GRACE_S))
         node.number = 0
 
     def _of(self, number: int) -> _Node | None:
         return next((node for node in self._nodes.values() if node.number == number), None)
 
-    def _tell(self, session: Session) -> None:
-        session.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))
+    def _tell(self, stage: Stage) -> None:
+        stage.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))

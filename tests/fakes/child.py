@@ -11,6 +11,7 @@ import time
 
 import msgspec
 
+from executor.child_messages import Frame
 from executor.messages import View
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
@@ -37,14 +38,7 @@ def obey(channel, pulse, *, on_start=lambda: None):
                     on_start()
                 channel.send(READY)
             case "subscribe":
-                channel.send(
-                    {
-                        "type": "frame",
-                        "client": message["client"],
-                        "stream": message["stream"],
-                        "data": FRAME,
-                    }
-                )
+                channel.send(Frame(message["client"], message["stream"], FRAME))
             case _ if message.get("request"):
                 channel.send({"type": "answer", "request": message["request"]})
             case "exit":
@@ -110,7 +104,7 @@ def main():
     parser.add_argument("--channel-fd", type=int, required=True)
     arguments = parser.parse_args()
     die_with_parent()
-    channel = Channel(arguments.channel_fd)
+    channel = Channel(arguments.channel_fd, msgspec.msgpack.decode)
     pulse = Pulse(channel.send)
     habits = {
         "good": lambda: obey(channel, pulse),

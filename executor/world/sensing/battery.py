@@ -1,4 +1,4 @@
-"""A battery that idling and driving empty. Pure; time is an argument."""
+"""A battery, discharged by idling and driving. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ if TYPE_CHECKING:
     from executor.robots.config import Battery
 
 _HOUR_S: Final = 3600.0
-_EMPTY_VOLTAGE: Final = 0.86  # of the nominal one
+_EMPTY_VOLTAGE: Final = 0.86  # of the nominal voltage
 _FULL_VOLTAGE: Final = 1.10
 
 
 @dataclass(frozen=True)
 class BatteryReading:
-    """Voltage in V, current in A (negative while it empties, as in `BatteryState`), charge in Ah."""
+    """Voltage in V, current in A (negative while discharging, as in `BatteryState`), charge in Ah."""
 
     voltage: float
     current: float
@@ -29,7 +29,7 @@ class BatteryReading:
 
 
 class BatteryModel:
-    """Counts the charge that is left; the voltage falls with it."""
+    """Tracks the remaining charge; the voltage falls with it."""
 
     def __init__(self, config: Battery) -> None:
         self._config = config
@@ -38,16 +38,16 @@ class BatteryModel:
 
     @property
     def is_empty(self) -> bool:
-        """Tells whether nothing is left to drive with."""
+        """Whether it is empty."""
         return self.charge <= 0.0
 
     def drain(self, effort: float, dt_s: float) -> None:
-        """Takes what `dt_s` of idling and driving costs; `effort` is 0 at rest and 1 at full speed."""
+        """Discharges for `dt_s` of idling and driving; `effort` is 0 at rest and 1 at full speed."""
         self._current = self._config.idle_a + self._config.drive_a * min(1.0, max(0.0, effort))
         self.charge = max(0.0, self.charge - self._current * dt_s / _HOUR_S)
 
     def reading(self) -> BatteryReading:
-        """Returns what a gauge would show."""
+        """Returns the current measurement."""
         config = self._config
         part = self.charge / config.capacity_ah
         voltage = config.voltage * (_EMPTY_VOLTAGE + (_FULL_VOLTAGE - _EMPTY_VOLTAGE) * part)

@@ -1,4 +1,4 @@
-"""A bumper: which part of a robot's front was pressed. Pure; time is an argument."""
+"""A bumper: the pressed zones of a robot's front. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ Zone = Literal["left", "center", "right"]
 ZONES: Final[tuple[Zone, ...]] = get_args(Zone)
 CENTER_RAD: Final = math.radians(30)
 SIDE_RAD: Final = math.radians(100)
-HELD_S: Final = 0.1  # a touch between two looks must not be missed
+HELD_S: Final = 0.1  # longer than the period of measurements, so that no touch is missed
 
 
 def zone_of(x: float, y: float) -> Zone | None:
-    """Returns the zone of a contact at x ahead and y to the left of the middle; None behind."""
+    """Returns the zone of a contact at x ahead and y to the left of the center; None behind."""
     bearing = math.atan2(y, x)
     if abs(bearing) <= CENTER_RAD:
         return "center"
@@ -23,13 +23,13 @@ def zone_of(x: float, y: float) -> Zone | None:
 
 
 class Bumper:
-    """Remembers when each zone was touched last."""
+    """Stores the last contact of each zone."""
 
     def __init__(self) -> None:
         self.touched_s: dict[Zone, float] = {}
 
     def touch(self, x: float, y: float, now_s: float) -> None:
-        """Takes a contact in the robot's frame, in m."""
+        """Adds a contact in the robot's frame, in m."""
         zone = zone_of(x, y)
         if zone is not None:
             self.touched_s[zone] = now_s

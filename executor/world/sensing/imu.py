@@ -1,4 +1,4 @@
-"""An inertial measurement unit: what a body at a pose with a velocity feels. Pure; time is an argument."""
+"""An inertial measurement unit: from pose and velocity of a body. Pure; time is an argument."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ImuReading:
 
 
 class ImuModel:
-    """Works the acceleration out from one control period to the next, as the real thing averages."""
+    """Computes the acceleration over a control period, as a real sensor averages."""
 
     def __init__(self, config: Imu, seed: tuple[int, ...]) -> None:
         self._config = config
@@ -40,7 +40,7 @@ class ImuModel:
         self._felt: Vector = (0.0, 0.0, GRAVITY)
 
     def observe(self, velocity: Vector, dt_s: float) -> None:
-        """Takes the velocity of the sensor in the world frame, `dt_s` after the last one."""
+        """Takes the velocity of the sensor in the world frame, `dt_s` after the last call."""
         old = self.velocity
         if old is not None and dt_s > 0:
             x, y, z = ((now - before) / dt_s for now, before in zip(velocity, old, strict=True))

@@ -22,8 +22,8 @@ class LidarCaster:
     """Casts the rays of one LIDAR, which pass through its own robot.
 
     Args:
-        rays: casts them.
-        config: how many, and how far.
+        rays: the ray caster.
+        config: number and range of the rays.
         own: the robot's body.
         mask: Bullet's collision filter, in which the robot's group is missing.
         seed: of the noise.
@@ -35,7 +35,7 @@ class LidarCaster:
         self._own, self._mask = own, mask
         self._seed = seed
         angles = config.angle_min + np.arange(config.rays) * config.angle_increment
-        # A little longer than the range, so that what is just in range is never missed by rounding.
+        # Slightly longer than the range, so that rounding hides nothing at its limit.
         self._reach = config.range_max * 1.001
         self._directions = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)]) * self._reach
 

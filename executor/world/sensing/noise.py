@@ -1,4 +1,4 @@
-"""Noise that depends on the seed, the sensor and the time alone: who listens changes nothing."""
+"""Noise that depends on the seed, the sensor and the time alone: subscribers do not change it."""
 
 from __future__ import annotations
 

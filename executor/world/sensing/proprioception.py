@@ -1,4 +1,4 @@
-"""What a robot feels of itself: inertia, touch and charge."""
+"""The inner sensors of a robot: IMU, bumper and battery."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Proprioception:
-    """The inner sensors of one robot; `pose_of` says where a link is now, or where it is with a root."""
+    """The inner sensors of one robot; `pose_of` returns the pose of a link, now or for a given root."""
 
     def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:
         self._config = config
@@ -32,17 +32,17 @@ class Proprioception:
 
     @property
     def has_power(self) -> bool:
-        """Tells whether the wheels may turn."""
+        """Whether the battery is not empty."""
         return not any(battery.is_empty for battery in self._batteries.values())
 
     @property
     def has_drawn(self) -> bool:
-        """Tells whether somebody was given a measurement with noise."""
+        """Whether a noisy measurement was made."""
         return any(imu.has_drawn for imu in self._imus.values())
 
     @property
     def has_imu(self) -> bool:
-        """Tells whether anybody wants to know velocities."""
+        """Whether the robot has an IMU, which needs velocities."""
         return bool(self._imus)
 
     def move(self, root: Pose, center: Vector, linear: Vector, rate: Vector, dt_s: float) -> None:
@@ -56,12 +56,12 @@ class Proprioception:
             self._imus[imu.name].observe(velocity, dt_s)
 
     def drain(self, effort: float, dt_s: float) -> None:
-        """Takes what driving costs."""
+        """Discharges the battery."""
         for battery in self._batteries.values():
             battery.drain(effort, dt_s)
 
     def touch(self, point: tuple[float, float, float], now_s: float) -> None:
-        """Takes a contact at a point of the world."""
+        """Adds a contact at a point of the world."""
         for bumper in self._config.bumpers[:1]:
             x, y, *_ = compose(inverse(self._pose_of(bumper.link)), (*point, 0.0, 0.0, 0.0, 1.0))
             self._bumper.touch(x, y, now_s)
@@ -79,10 +79,10 @@ class Proprioception:
         return self._batteries[battery.name].reading()
 
     def save(self) -> object:
-        """Returns what `restore` needs."""
+        """Returns the state."""
         return copy.deepcopy((self._imus, self._batteries, self._bumper, self._rate))
 
     def restore(self, saved: object) -> None:
-        """Takes back what `save` gave."""
+        """Restores a state of `save`."""
         if isinstance(saved, tuple):
             self._imus, self._batteries, self._bumper, self._rate = copy.deepcopy(saved)

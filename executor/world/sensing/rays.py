@@ -1,7 +1,7 @@
-"""What rays hit first. Boxes and cylinders that stand still are worked out here, all rays at once.
+"""Ray casting. Static boxes and cylinders are computed here, for all rays at once.
 
 A ray costs the physics server several microseconds, most of them for walls and shelves. Only rays that enter
-the axis-aligned box round something else before they hit one of these are cast there.
+the bounding box of another body before they hit one of these are cast there.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Halves = tuple[float, float, float]
 
-# Bullet's shapes reach a little beyond the boxes that it tells of them.
+# Bullet's shapes extend slightly beyond their bounding boxes.
 MARGIN_M: Final = 0.01
 
 
 class RayCaster:
-    """Casts rays into one world, whose floor is at z = 0. Make it anew with the world's content.
+    """Casts rays into one world, whose floor is at z = 0. Create a new one with the world's content.
 
     Args:
-        bullet: where the bodies are.
+        bullet: the physics server.
     """
 
     def __init__(self, bullet: Bullet) -> None:
@@ -42,33 +42,33 @@ class RayCaster:
         self._others: list[tuple[int, int]] = []
 
     def add_still_box(self, uid: int, size: Sequence[float]) -> None:
-        """Takes over a body that is a box and stands still; its size in m."""
+        """Adds a static box; its size in m."""
         x, y, z = (length / 2 for length in size)
         self._boxes[uid] = (x, y, z)
 
     def add_still_cylinder(self, uid: int, radius: float, length: float) -> None:
-        """Takes over a body that is a cylinder along its z and stands still."""
+        """Adds a static cylinder along its z."""
         self._cylinders[uid] = (radius, radius, length / 2)
 
     def add_body(self, uid: int) -> None:
-        """Takes a body that can be hit, of any shape."""
+        """Adds a body of any shape."""
         links = range(-1, self._bullet.getNumJoints(uid))
-        # Bullet knows no shapes of a body that has one link and stands still; it has got one.
+        # Bullet reports no shapes of a static body with a single link, although it has one.
         solid = [link for link in links if len(links) == 1 or self._bullet.getCollisionShapeData(uid, link)]
         self._others += [(uid, link) for link in solid]
 
     def moved(self) -> None:
-        """Something that stood still has been moved."""
+        """Notes that a static body was moved."""
         self._still = []
 
     def cast(self, origin: Sequence[float], rays: Floats, own: int, mask: int) -> Floats:
-        """Returns how far each ray gets, as a share of its length; 1 where it hits nothing.
+        """Returns the share of each ray before its first hit; 1 without a hit.
 
-        A ray that begins within a body passes out of it.
+        A ray that begins within a body leaves it without a hit.
 
         Args:
-            origin: where all rays begin, in m.
-            rays: (3, n), from there to where each ends, in m.
+            origin: of all rays, in m.
+            rays: (3, n), vectors from there to their ends, in m.
             own: the body that carries the sensor, which is not hit.
             mask: Bullet's collision filter, in which that body's group is missing.
         """
@@ -106,18 +106,18 @@ class RayCaster:
 
 
 class _Still(ABC):
-    """Bodies of one kind of shape, where they stand now."""
+    """Bodies of one shape, at their current poses."""
 
     def __init__(self, poses: list[tuple[Sequence[float], Sequence[float]]], halves: list[Halves]) -> None:
         count = len(poses)
         self._centres = np.array([position for position, _ in poses]).reshape(count, 3)
         self._turns = np.array([rotation(turn) for _, turn in poses]).reshape(count, 3, 3)
         self._halves = np.array(halves).reshape(count, 3)
-        # How far each reaches along the world's axes.
+        # Half the extent of each along the world's axes.
         self._reaches = (np.abs(self._turns) @ self._halves[:, :, None])[:, :, 0]
 
     def cast(self, start: Floats, rays: Floats) -> Floats:
-        """Returns the shares at which the rays enter the first of them; 1 for those that enter none."""
+        """Returns the shares at which rays enter the first body; 1 for rays that enter none."""
         low, high = start + np.minimum(rays.min(axis=1), 0), start + np.maximum(rays.max(axis=1), 0)
         is_near = np.all(
             (self._centres + self._reaches >= low) & (self._centres - self._reaches <= high), axis=1
@@ -136,7 +136,7 @@ class _Still(ABC):
         """Returns where lines enter and leave the bodies, each in its body's frame, as shares of the rays.
 
         Args:
-            starts: (m, 3), where the rays begin.
+            starts: (m, 3), origins of the rays.
             rays: (m, 3, n).
             halves: (m, 3), half the bodies' sizes.
         """
@@ -145,21 +145,21 @@ class _Still(ABC):
 class _Boxes(_Still):
     @staticmethod
     def crossings(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-        """The slab method."""
+        """Uses the slab method."""
         near, far = _between(starts, rays, halves)
         return np.fmax.reduce(near, axis=1), np.fmin.reduce(far, axis=1)
 
 
 class _Cylinders(_Still):
-    """Round about z, with the radius as the halves along x and y."""
+    """Cylinders about z, with the radius as half size along x and y."""
 
     @staticmethod
     def crossings(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-        """A quadratic about the axis, a slab along it."""
+        """Solves a quadratic about the axis, and uses a slab along it."""
         along, across = (rays[:, :2] ** 2).sum(axis=1), (starts[:, :2, None] * rays[:, :2]).sum(axis=1)
         outside = (starts[:, :2] ** 2).sum(axis=1) - halves[:, 0] ** 2
         with np.errstate(divide="ignore", invalid="ignore"):
-            root = np.sqrt(across**2 - along * outside[:, None])  # no number where the line passes by
+            root = np.sqrt(across**2 - along * outside[:, None])  # NaN if the line misses
             enters, leaves = (-across - root) / along, (-across + root) / along
         is_inside = (along == 0) & (outside[:, None] <= 0)
         enters, leaves = np.where(is_inside, -np.inf, enters), np.where(is_inside, np.inf, leaves)
@@ -168,12 +168,12 @@ class _Cylinders(_Still):
 
 
 def _between(starts: Floats, rays: Floats, halves: Floats) -> tuple[Floats, Floats]:
-    """Returns where lines enter and leave what lies between two planes, for each axis."""
+    """Returns where lines enter and leave the slab of each axis."""
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / rays
         first = (-halves - starts)[:, :, None] * inverse
         second = (halves - starts)[:, :, None] * inverse
-    # A line within a plane gives 0 · ∞, which limits nothing.
+    # A line within a plane gives 0 · ∞ (NaN), which is no limit.
     return np.fmin(first, second), np.fmax(first, second)
 
 

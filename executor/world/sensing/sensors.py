@@ -1,4 +1,4 @@
-"""What a world's sensors measure, each at most once at a time, for ROS and for streams alike."""
+"""Measurements of a world's sensors, each made at most once a step, for ROS and streams."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
 
 class Sensors:
-    """Measures and draws on demand. Call `changed` when the world has moved on.
+    """Measures and draws on demand. Call `changed` after each step.
 
     Args:
-        renderer: makes the renderer at the first picture; who needs none never pays for it.
+        renderer: makes the renderer, at the first picture.
     """
 
     def __init__(self, world: World, renderer: Callable[[], Renderer]) -> None:
@@ -34,25 +34,25 @@ class Sensors:
         self.version = 0
 
     def changed(self) -> None:
-        """The world is not as it was: measure anew."""
+        """Discards all measurements."""
         self.version += 1
         self._kept.clear()
 
     def load_scene(self) -> None:
-        """Takes the world's scene, which a reset made anew."""
+        """Loads the world's scene again after a reset."""
         if self._renderer is not None:
             self._renderer.load(self._world.scene)
         self.changed()
 
     def scan(self, robot: Robot, lidar: Lidar) -> LidarReading:
-        """Returns what a LIDAR measures now."""
+        """Returns the current scan of a LIDAR."""
         key = ("scan", robot.id, lidar.name)
         if key not in self._kept:
             self._kept[key] = robot.scan(lidar)
         return self._kept[key]  # type: ignore[return-value]
 
     def picture(self, robot: Robot, camera: Camera, width: int | None = None) -> Picture:
-        """Returns what a camera sees now, in its own size or narrower."""
+        """Returns the current image of a camera, in its own size or narrower."""
         wide = min(width or camera.width, camera.width)
         high = max(1, round(camera.height * wide / camera.width))
         key = ("picture", robot.id, camera.name, wide)
@@ -62,7 +62,7 @@ class Sensors:
         return self._kept[key]  # type: ignore[return-value]
 
     def depth(self, robot: Robot, camera: Camera) -> NDArray[np.float32]:
-        """Returns how far a camera sees now, in m along its axis; -inf too near, +inf too far."""
+        """Returns the current depth image of a camera, in m along its axis; -inf too near, +inf too far."""
         key = ("depth", robot.id, camera.name)
         if key not in self._kept:
             view = Viewpoint.of_pose(robot.camera_pose(camera), camera.fov, camera.near, camera.far)
@@ -73,7 +73,7 @@ class Sensors:
         return self._kept[key]  # type: ignore[return-value]
 
     def view(self, viewpoint: Viewpoint, width: int, height: int) -> Picture:
-        """Returns the world seen from anywhere; the same array as before if nothing in it has changed."""
+        """Returns a view of the world; the same array as before if nothing in it changed."""
         return self._loaded().redraw(self._world.poses(), viewpoint, width, height)
 
     def close(self) -> None:

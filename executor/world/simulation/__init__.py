@@ -1,1 +1,1 @@
-"""A running world: time, streams and the load that it adapts to."""
+"""A running world: time, streams, and adaptation to the load."""

@@ -1,12 +1,11 @@
-"""How much is tried where there may not be enough for all of it. Pure.
+"""Adaptation of picture quality and rates to the load. Pure.
 
-Three things give way so. Pictures for a client that is too slow for them get smaller, worse and fewer: the
-manager says for each client which share of its pictures had to be thrown away because newer ones came before
-they could be sent, and each step down costs about half the bytes. And cameras yield to time: on a machine
-that cannot draw them at their rates in real time they draw less often, and robots go on as they should. The
-server's own view gets smaller where it cannot be drawn as often as asked.
+Three things adapt. Pictures for a slow client get smaller, worse and fewer: the manager reports the share of
+each client's pictures that newer ones replaced before they could be sent, and each level down halves the
+bytes. Cameras draw less often on a machine that cannot draw them at their rates in real time, so that robots
+are not slowed down. The server's own view gets smaller if it cannot be drawn at its rate.
 
-A step up is tried when nothing was lost for a while, and more rarely each time that it proved too much.
+A level up is tried when nothing was lost for a while, and less often each time that it proved too much.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ LONGEST_PATIENCE: Final = 96
 
 @dataclass(frozen=True)
 class Level:
-    """A share of the width and of the rate that the client asked for, and JPEG's quality."""
+    """Shares of the requested width and rate, and the JPEG quality."""
 
     width: float
     rate: float
@@ -45,22 +44,22 @@ LEVELS: Final = (
 
 
 CAMERA_SHARES: Final = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15)
-"""Of a camera's rate."""
+"""Shares of a camera's rate."""
 TOO_SLOW: Final = 0.03
 
 VIEW_SHARES: Final = (1.0, 0.75, 0.6, 0.5, 0.35)
-"""Of the width that was asked for."""
+"""Shares of the requested width."""
 TOO_FEW: Final = 0.15
 COUNTED_S: Final = 0.5
 COUNTED_PERIODS: Final = 4
 
 
 class Adaptation(Generic[T]):
-    """Which of several levels, the best first, is in use.
+    """Selects one of several levels, of which the first is the best.
 
     Args:
-        levels: what there is to choose from.
-        too_much: the share lost from which on it is too much.
+        levels: the choices.
+        too_much: the lost share from which the level is too high.
     """
 
     def __init__(self, levels: Sequence[T], too_much: float = TOO_MUCH) -> None:
@@ -73,11 +72,11 @@ class Adaptation(Generic[T]):
 
     @property
     def level(self) -> T:
-        """The one in use."""
+        """The current level."""
         return self._levels[self._at]
 
     def note(self, lost: float) -> None:
-        """Takes the share that was lost since the last report, 0 to 1."""
+        """Takes the share lost since the last call, 0 to 1."""
         if lost > self._too_much:
             if self._has_just_risen:
                 self._patience = min(self._patience * 2, LONGEST_PATIENCE)
@@ -96,7 +95,7 @@ class Adaptation(Generic[T]):
 
 
 class CameraRates:
-    """The share of their rates at which cameras draw, by how well the world keeps up with real time."""
+    """The share of their rates at which cameras draw, by the real-time factor of the world."""
 
     def __init__(self) -> None:
         self._adaptation = Adaptation(CAMERA_SHARES, TOO_SLOW)
@@ -108,14 +107,14 @@ class CameraRates:
         return self._adaptation.level
 
     def note(self, real_time_factor: float, speed: float) -> None:
-        """Takes how the last second went. Who wants more than real time gets every picture, late or not."""
+        """Takes the real-time factor of the last second. Above real time no picture is dropped."""
         late = max(0.0, 1 - real_time_factor / speed) if 0 < speed <= 1 else 0.0
-        self._adaptation.note(min(late, self._late))  # one slow second is a start, or a hiccup
+        self._adaptation.note(min(late, self._late))  # a single slow second may be the start, or a hiccup
         self._late = late
 
 
 class ViewSize:
-    """The share of its width at which a view is drawn, by how many of its pictures came in time."""
+    """The share of its width at which a view is drawn, by the share of its pictures that were on time."""
 
     def __init__(self) -> None:
         self._adaptation = Adaptation(VIEW_SHARES, TOO_FEW)
@@ -128,7 +127,7 @@ class ViewSize:
         return self._adaptation.level
 
     def sent(self, now_s: float, period_s: float, version: int) -> None:
-        """Takes note of a picture of a version of the world; of a world that pauses there are no more."""
+        """Notes a picture of a version of the world; a paused world has no more versions."""
         if self._since is None:
             self._since = (now_s, version)
             return

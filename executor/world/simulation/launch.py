@@ -1,4 +1,4 @@
-"""Makes a world of what a client asked for."""
+"""Makes the world that a client requested."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def find_universe(universe: str, file: str = "") -> Universe:
     """Returns a universe by its built-in id, or from its YAML text; errors in the text name `file`.
 
     Raises:
-        UniverseError: there is none, or the text is wrong.
+        UniverseError: there is none, or the text is invalid.
     """
     if "\n" in universe or ":" in universe:
         return parse_universe(universe, file or "universe.yaml")
@@ -28,6 +28,6 @@ def make_world(
     """Returns the world of a universe; errors in its text name `file`.
 
     Raises:
-        DocumentError: the universe or its robot does not exist or is wrong.
+        DocumentError: the universe or its robot does not exist or is invalid.
     """
     return BulletWorld(find_universe(universe, file), seed=seed, robot=robot, assets=assets)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
+from executor.child_messages import Log, Sim
 from executor.world.simulation.adaptation import CameraRates
 from executor.world.simulation.pacing import Pacer
 from executor.world.simulation.streams import Streams
@@ -12,15 +13,17 @@ from executor.world.simulation.streams import Streams
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from executor.child_messages import Frame
+    from executor.messages import LogLevel
     from executor.ros.node import WorldNode
     from executor.world.interface import World
     from executor.world.sensing.sensors import Sensors
 
-    Send = Callable[[dict[str, Any]], None]
+    Send = Callable[[Sim | Log | Frame], None]
 
-PERIOD_STEPS: Final = 4  # steps between looks at the world's topics: 60 Hz
+PERIOD_STEPS: Final = 4  # steps between polls of the world's topics: 60 Hz
 IDLE_CLOCK_S: Final = 0.05
-DRIVEN_S: Final = 0.6  # a paused world goes on this long after a command by hand: time to come to rest
+DRIVEN_S: Final = 0.6  # a paused world runs this long after a command by hand, to come to rest
 REPORT_S: Final = 1.0
 SLOW_CAMERAS: Final = (
     "This machine is too slow to draw the cameras at their rates in real time; they draw less often now."
@@ -35,7 +38,7 @@ class _Report:
 
 
 class SimulationLoop:
-    """Steps a world at its pace and has everything sent that is due. Starts paused."""
+    """Steps a world at its pace and publishes everything that is due. Starts paused."""
 
     def __init__(
         self, world: World, sensors: Sensors, node: WorldNode, send: Send, *, speed: float = 1.0
@@ -55,18 +58,18 @@ class SimulationLoop:
         self.is_paused = True
         self._clocks = 0
         self.moved: Callable[[int], None] = lambda clocks: None
-        """Called after each piece of work with how often the time was published."""
+        """Called after each part of the work, with the number of published times."""
         self.watchers: list[Callable[[float], None]] = []
         self.streams = Streams(world, sensors, send)
 
     def pause(self) -> None:
-        """Lets simulated time stand still."""
+        """Pauses simulated time."""
         self.is_paused = True
         self._is_driven, self._driven_until_s = False, -1.0
         self._pacer.pause()
 
     def resume(self) -> None:
-        """Lets simulated time go on."""
+        """Resumes simulated time."""
         self.is_paused = False
 
     def set_speed(self, speed: float) -> None:
@@ -74,11 +77,11 @@ class SimulationLoop:
         self._pacer.set_speed(speed)
 
     def step(self, dt_s: float) -> None:
-        """Simulates a stretch at once; for a paused world."""
+        """Simulates a duration at once; for a paused world."""
         self._advance(max(1, round(dt_s / self._world.step_s)))
 
     def reset(self) -> None:
-        """Makes the world anew; it stays paused if it is."""
+        """Resets the world; a paused world stays paused."""
         self._world.reset()
         self._sensors.load_scene()
         self._node.restart()
@@ -87,24 +90,24 @@ class SimulationLoop:
         self._steps, self._report = 0, None
 
     def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
-        """Drives the first robot by hand; a paused world goes on for it for a while if it is told to."""
+        """Drives the first robot by hand; with `goes_on` a paused world runs for a moment."""
         if self._world.robots:
             self._world.robots[0].command(linear, angular)
             self._is_driven = goes_on
 
     def stop_robots(self) -> None:
-        """Wants no robot to move, whatever is still under way."""
+        """Sets the target velocity of all robots to zero; pending commands are discarded."""
         self._node.poll()
         for robot in self._world.robots:
             robot.stop()
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Drags a body."""
+        """Moves a body."""
         self._world.move_body(body, pose)
         self._sensors.changed()
 
     def run_due(self, now_s: float) -> None:
-        """Does all that is due at a real time."""
+        """Does everything that is due at a real time."""
         if self._stands_still(now_s):
             self._pacer.pause()
             self._idle(now_s)
@@ -116,7 +119,7 @@ class SimulationLoop:
         self._report_due(now_s)
 
     def next_due_s(self, now_s: float) -> float:
-        """Returns the seconds until `run_due` has something to do."""
+        """Returns the seconds until `run_due` is due."""
         if not self.is_paused or self._is_driven or now_s < self._driven_until_s:
             return self._pacer.next_due_s(now_s, PERIOD_STEPS - self._steps % PERIOD_STEPS)
         idle = self._clock_s + IDLE_CLOCK_S - now_s
@@ -130,7 +133,7 @@ class SimulationLoop:
         return self.is_paused and now_s >= self._driven_until_s
 
     def _idle(self, now_s: float) -> None:
-        """Who joins while time stands still must learn what time it is."""
+        """Publishes the time also while paused, for nodes that join then."""
         if now_s - self._clock_s >= IDLE_CLOCK_S:
             self._clock_s = now_s
             self._node.poll()
@@ -177,23 +180,22 @@ class SimulationLoop:
         self._report = _Report(now_s, self._world.time_s)
         robot = self._world.robots[0] if self._world.robots else None
         self._send(
-            {
-                "type": "sim",
-                "t": self._world.time_s,
-                "real_time_factor": factor,
-                "speed": self._pacer.speed,
-                "paused": self.is_paused,
-                "camera_share": self.streams.camera_share,
-                "tick_ms": 0.0,
-                "tick_budget_ms": 0.0,
-                "collisions": robot.collisions if robot else 0,
-                "distance_m": robot.distance_m if robot else 0.0,
-                "pose": robot.pose if robot else (0.0, 0.0, 0.0),
-            }
+            Sim(
+                t=self._world.time_s,
+                real_time_factor=factor,
+                speed=self._pacer.speed,
+                paused=self.is_paused,
+                camera_share=self.streams.camera_share,
+                tick_ms=0.0,
+                tick_budget_ms=0.0,
+                collisions=robot.collisions if robot else 0,
+                distance_m=robot.distance_m if robot else 0.0,
+                pose=robot.pose if robot else (0.0, 0.0, 0.0),
+            )
         )
 
     def _slow_cameras(self, real_time_factor: float) -> None:
-        """Pictures yield to time where the machine is too slow for both."""
+        """Reduces the rates of cameras if the machine is too slow for real time."""
         old = self._camera_rates.share
         in_use = self._node.wants_pictures() or self.streams.has_camera
         self._camera_rates.note(real_time_factor if in_use else self._pacer.speed, self._pacer.speed)
@@ -207,6 +209,6 @@ class SimulationLoop:
         elif share == 1.0:
             self._log("info", "The cameras are at their full rates again.")
 
-    def _log(self, level: str, text: str, time_s: float | None = None) -> None:
+    def _log(self, level: LogLevel, text: str, time_s: float | None = None) -> None:
         at = self._world.time_s if time_s is None else time_s
-        self._send({"type": "log", "level": level, "text": text, "time": at})
+        self._send(Log(level, text, time=at))

@@ -1,7 +1,7 @@
-"""No world of ours: a session in which the application drives what an outside ROS graph has.
+"""An outside ROS graph in place of a simulated world: the application controls its robot.
 
-It has the face of `SimulationLoop`, for the same messages. Nothing is simulated, time is the outside's own,
-and a pause cannot stop it: what it can do is to tell the robot to stand.
+It has the interface of `SimulationLoop`, for the same messages. Nothing is simulated, and time is that of the
+outside graph. A pause cannot stop it; it only sets the robot's target velocity to zero.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, NoReturn
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 
+from executor.child_messages import Sim
 from executor.world.interface import WorldError
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
-    Send = Callable[[dict[str, Any]], None]
+    Send = Callable[[Sim], None]
 
 __all__ = ["NONE", "OutsideGraph"]
 
@@ -29,7 +30,7 @@ REPORT_S: Final = 1.0
 
 
 class _NoStreams:
-    """There is nothing to see."""
+    """Streams of a graph without a world."""
 
     def subscribe(self, client: str | None, stream: str, **wishes: Any) -> None:
         """Sends nothing."""
@@ -42,7 +43,7 @@ class _NoStreams:
 
 
 class OutsideGraph:
-    """A node in an outside graph, through which a session looks at it and stops its robot."""
+    """A node in an outside graph, for topic tools, driving by hand, and stopping the robot."""
 
     def __init__(self, context: Context, send: Send) -> None:
         self.node = Node("bt_studio", context=context)
@@ -56,33 +57,33 @@ class OutsideGraph:
         self.streams = _NoStreams()
 
     def pause(self) -> None:
-        """Has the robot stand; time goes on."""
+        """Stops the robot; time continues."""
         self.is_paused = True
         self.stop_robots()
 
     def resume(self) -> None:
-        """Lets the application drive again."""
+        """Allows the application to drive again."""
         self.is_paused = False
 
     def step(self, dt_s: float) -> None:
-        """Does nothing: the outside's time cannot be stepped."""
+        """Does nothing: outside time cannot be stepped."""
 
     def set_speed(self, speed: float) -> None:
         """Refuses."""
         self._refuse(f"the speed cannot be {speed:g}")
 
     def reset(self) -> None:
-        """Has the robot stand; it stays where it is."""
+        """Stops the robot; it is not moved back."""
         self.stop_robots()
 
     def teleop(self, linear: float, angular: float, *, goes_on: bool = False) -> None:
-        """Drives the robot by hand; the outside's time goes on anyway."""
+        """Drives the robot by hand; outside time passes anyway."""
         twist = Twist()
         twist.linear.x, twist.angular.z = linear, angular
         self._velocity.publish(twist)
 
     def stop_robots(self) -> None:
-        """Tells the robot to stand."""
+        """Sets the robot's target velocity to zero."""
         self._velocity.publish(Twist())
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
@@ -90,7 +91,7 @@ class OutsideGraph:
         self._refuse(f"{body!r} cannot be moved to {list(pose)[:2]}")
 
     def run_due(self, now_s: float) -> None:
-        """Looks at the graph, and says once a second that it is there."""
+        """Runs the watchers, and sends a `Sim` once a second."""
         self._seen_s = now_s
         for watch in self.watchers:
             watch(now_s)
@@ -98,26 +99,25 @@ class OutsideGraph:
             return
         self._report_s = now_s
         self._send(
-            {
-                "type": "sim",
-                "t": now_s - self._start_s,
-                "real_time_factor": 1.0,
-                "speed": 1.0,
-                "paused": self.is_paused,
-                "tick_ms": 0.0,
-                "tick_budget_ms": 0.0,
-                "collisions": 0,
-                "distance_m": 0.0,
-                "pose": (0.0, 0.0, 0.0),
-            }
+            Sim(
+                t=now_s - self._start_s,
+                real_time_factor=1.0,
+                speed=1.0,
+                paused=self.is_paused,
+                tick_ms=0.0,
+                tick_budget_ms=0.0,
+                collisions=0,
+                distance_m=0.0,
+                pose=(0.0, 0.0, 0.0),
+            )
         )
 
     def next_due_s(self, now_s: float) -> float:
-        """Returns the seconds until `run_due` has something to do."""
+        """Returns the seconds until `run_due` is due."""
         return max(0.0, self._seen_s + LOOK_S - now_s)
 
     def close(self) -> None:
-        """Has the robot stand, and leaves the graph."""
+        """Stops the robot and leaves the graph."""
         self.stop_robots()
         self.node.destroy_node()
 

@@ -11,7 +11,7 @@ FREE_RUN_STEPS: Final = 48
 
 
 class Pacer:
-    """Says how many steps are due. What a stalled machine misses beyond `LARGEST_DELAY_S` is left out."""
+    """Computes how many steps are due. After a stall, at most `LARGEST_DELAY_S` is caught up."""
 
     def __init__(self, step_s: float, speed: float = 1.0) -> None:
         self._step_s = step_s
@@ -32,11 +32,11 @@ class Pacer:
         self._anchor_s = None
 
     def pause(self) -> None:
-        """Real time that passes from now until the next `due` counts for nothing."""
+        """Ignores the real time from now until the next `due`."""
         self._anchor_s = None
 
     def due(self, now_s: float) -> int:
-        """Returns how many steps to do now, and counts them as done."""
+        """Returns the number of steps that are due, and counts them as done."""
         if self._speed == FREE_RUN:
             return FREE_RUN_STEPS
         if self._anchor_s is None:

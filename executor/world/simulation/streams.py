@@ -1,7 +1,7 @@
-"""What clients see: each stream at the rate that its client asked for, and nothing that nobody asked for.
+"""Streams of clients, each at its requested rate.
 
-Scene first, then only the poses that changed. Frames say nothing twice: a world that stands still sends
-nothing but what a new or changed subscription has not yet seen.
+The scene comes first, then only poses that changed. Nothing is sent twice: a paused world sends only data
+that is new to a new or changed subscription.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import msgspec
 import numpy as np
 import simplejpeg
 
+from executor.child_messages import Frame
 from executor.messages import Camera, CameraPose, Poses, Scan, StreamName, View
 from executor.render.interface import look_at
 from executor.stream.pose_codec import pack
@@ -29,12 +30,12 @@ if TYPE_CHECKING:
     from executor.world.interface import World
     from executor.world.sensing.sensors import Sensors
 
-    Send = Callable[[dict[str, Any]], None]
+    Send = Callable[[Frame], None]
 
 MAX_HZ: Final[dict[str, float]] = {"poses": 60.0, "scan": 30.0, "camera": 30.0, "view": 30.0}
 PICTURES: Final = ("camera", "view")
 REST_SHARE: Final = 0.25
-"""Of the time that a picture took, for which no other is drawn."""
+"""Pause after a picture before the next one, as a share of the time that it took."""
 MOVED_M: Final = 1e-4
 VIEW_WIDTH: Final = 960
 WIDTHS: Final = (64, 1920)
@@ -46,7 +47,7 @@ _encode = msgspec.msgpack.Encoder().encode
 
 @dataclass
 class Subscription:
-    """One stream of one client, and what it was sent last."""
+    """One stream of one client, and its last frame."""
 
     client: str | None
     stream: StreamName
@@ -60,7 +61,7 @@ class Subscription:
 
 
 class Streams:
-    """All subscriptions of a world. `send` takes messages of type ``frame``."""
+    """All subscriptions of a world. `send` takes frames."""
 
     def __init__(
         self, world: World, sensors: Sensors, send: Send, *, clock: Callable[[], float] = time.monotonic
@@ -71,14 +72,14 @@ class Streams:
         self._clock = clock
         self._rests_until_s = -math.inf
         self.camera_share = 1.0
-        """Of their rates at which cameras draw now."""
+        """Share of their rates at which cameras draw."""
         self._subscriptions: dict[tuple[str | None, str], Subscription] = {}
         self._adaptations: dict[str | None, Adaptation[Level]] = {}
         self._encoded: tuple[NDArray[np.uint8] | None, int, bytes] = (None, 0, b"")
 
     @property
     def has_camera(self) -> bool:
-        """Tells whether a client watches a camera."""
+        """Whether a client subscribes to a camera."""
         return any(stream == "camera" for _, stream in self._subscriptions)
 
     def __len__(self) -> int:
@@ -100,12 +101,12 @@ class Streams:
         view = camera_pose or (old.camera_pose if old else DEFAULT_VIEW)
         new = Subscription(client, stream, rate, wide, view)
         if old is not None:
-            # Another view of the same world: the client keeps the scene that it has.
+            # The scene is unchanged: the client need not get it again.
             new.next_s, new.poses, new.size = old.next_s, old.poses, old.size
         self._subscriptions[client, stream] = new
 
     def unsubscribe(self, client: str | None, stream: str) -> None:
-        """Ends a stream; one that is not there is ended already."""
+        """Ends a stream, if there is one."""
         self._subscriptions.pop((client, stream), None)
         if not any(one.client == client for one in self._subscriptions.values()):
             self._adaptations.pop(client, None)
@@ -116,16 +117,16 @@ class Streams:
             self._adaptations.setdefault(client, Adaptation(LEVELS)).note(lost)
 
     def scene_changed(self) -> None:
-        """Everybody who follows poses needs the scene anew."""
+        """Sends the scene again to all clients with poses."""
         for subscription in self._subscriptions.values():
             subscription.poses, subscription.seen = None, None
 
     def next_due_s(self, now_s: float) -> float:
-        """Returns the seconds until something may have to be sent."""
+        """Returns the seconds until a frame may be due."""
         return max(0.0, min((s.next_s - now_s for s in self._subscriptions.values()), default=1.0))
 
     def send_due(self, now_s: float) -> None:
-        """Sends what is due at a real time. Slow pictures leave the world time to go on."""
+        """Sends the frames that are due. After a slow picture the world gets time to step."""
         may_draw, drawing_s = now_s >= self._rests_until_s, 0.0
         for subscription in list(self._subscriptions.values()):
             is_picture = subscription.stream in PICTURES
@@ -134,7 +135,7 @@ class Streams:
             began_s = self._clock()
             if self._send_one(subscription):
                 period = 1.0 / (subscription.max_hz * self._rate_share(subscription))
-                # In step with the rate unless far behind: else a 30 Hz stream of a 60 Hz world beats.
+                # In phase with the rate unless far behind: a 30 Hz stream of a 60 Hz world must not jitter.
                 subscription.next_s = max(subscription.next_s + period, now_s - period)
                 if subscription.stream == "view":
                     subscription.size.sent(now_s, period, self._sensors.version)
@@ -157,7 +158,7 @@ class Streams:
         return True
 
     def _sample(self, subscription: Subscription) -> object:
-        """Says which measurement a frame would show; a sensor gives no more of them than its rate."""
+        """Identifies the measurement of a frame; a sensor makes no more of them than its rate."""
         if subscription.stream == "view":
             return self._sensors.version
         rates = [
@@ -203,7 +204,7 @@ class Streams:
 
     def _view(self, subscription: Subscription) -> View:
         level = self._level(subscription.client)
-        # Sixteen pixels a step: JPEG's blocks, and few sizes to keep framebuffers of.
+        # In steps of 16 pixels: the blocks of JPEG, and few sizes of framebuffers.
         share = min(level.width, subscription.size.share)
         width = max(WIDTHS[0], round((subscription.width or VIEW_WIDTH) * share / 16) * 16)
         height = round(width * 9 / 16)
@@ -213,7 +214,7 @@ class Streams:
         return View(t=self._world.time_s, width=width, height=height, jpeg=jpeg)
 
     def _jpeg_once(self, picture: NDArray[np.uint8], quality: int) -> bytes:
-        """A view in which nothing moved is the picture that it was."""
+        """Encodes a picture, unless it is the last one again."""
         known, of_quality, jpeg = self._encoded
         if picture is not known or quality != of_quality:
             jpeg = _jpeg(picture, quality)
@@ -254,13 +255,7 @@ class Streams:
     def _emit(
         self, subscription: Subscription, frame: Struct, *, stream: str = "", keep: bool = False
     ) -> None:
-        message = {
-            "type": "frame",
-            "client": subscription.client,
-            "stream": stream or subscription.stream,
-            "data": _encode(frame),
-        }
-        self._send(message | {"keep": True} if keep else message)
+        self._send(Frame(subscription.client, stream or subscription.stream, _encode(frame), keep))
 
 
 def _jpeg(picture: NDArray[np.uint8], quality: int) -> bytes:

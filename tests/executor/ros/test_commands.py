@@ -8,14 +8,16 @@ from typing import Any
 import pytest
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
+from msgspec import convert, to_builtins
 from rclpy.context import Context
 from rclpy.node import Node
 
+from executor.child_messages import ListTopics
 from executor.robots import load_robot
 from executor.ros.commands import Commands
 from executor.ros.node import WorldNode
 from executor.ros.shared_topics import share_commands
-from executor.ros.topics import TopicError, Topics
+from executor.ros.topics import TopicError, TopicRequest, Topics
 from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 from tests.executor.ros.conftest import DOMAIN_ID
@@ -153,8 +155,8 @@ def test_in_one_participant_the_robot_takes_what_the_application_publishes(
 def test_the_page_sees_both_types_and_publishes_either(world: BulletWorld, context: Context) -> None:
     node = WorldNode(world, context)
     sent: list[dict[str, Any]] = []
-    topics = Topics(node.node, sent.append, commands=node)
-    topics.obey({"type": "list_topics"})
+    topics = Topics(node.node, lambda message: sent.append(to_builtins(message)), commands=node)
+    topics.obey(ListTopics())
     [row] = [each for each in sent[-1]["topics"] if each["name"] == "/cmd_vel"]
     names = ["geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"]
     assert (row["type"], row["types"]) == (names[0], names)
@@ -162,14 +164,16 @@ def test_the_page_sees_both_types_and_publishes_either(world: BulletWorld, conte
     say = {"type": "publish_topic", "topic": "/cmd_vel", "message_type": names[1], "message": message}
     end_s = time.monotonic() + WAIT_S
     while world.robots[0].distance_m < 0.02 and time.monotonic() < end_s:
-        topics.obey(say)
+        topics.obey(convert(say, TopicRequest))
         topics.poll(time.monotonic())
         node.poll()
         world.step(4)
         time.sleep(0.002)
     assert world.robots[0].distance_m >= 0.02
     with pytest.raises(TopicError, match="is of the type geometry_msgs/msg/Twist, not std_msgs"):
-        topics.obey({**say, "message_type": "std_msgs/msg/String", "message": {"data": "x"}})
+        topics.obey(
+            convert({**say, "message_type": "std_msgs/msg/String", "message": {"data": "x"}}, TopicRequest)
+        )
     node.close()
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from executor.ros.environment import has_tf, ros_environment
@@ -46,7 +47,7 @@ robots:
 """
 
 
-def least_camera_share(channel: Channel) -> float:
+def least_camera_share(channel: Channel[Any, Any]) -> float:
     """The least share of their rates at which cameras drew, by the world's own word: they yield to time."""
     shares = [1.0]
     while message := channel.receive(0):
@@ -66,7 +67,7 @@ def heard() -> Iterator[dict[str, Any]]:
         env=environment,
     )
     theirs.close()
-    channel = Channel(ours.detach())
+    channel = Channel(ours.detach(), msgspec.msgpack.decode)
     script = str(Path(__file__).with_name("graph_listener.py"))
     listener = subprocess.Popen(
         [sys.executable, script, str(HEARD_S), ",".join(TOPICS)],

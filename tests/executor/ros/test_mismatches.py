@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from msgspec import to_builtins
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,7 +21,7 @@ def graph(context: Context) -> Iterator[tuple[Any, Any, list[dict[str, Any]], An
 
     world, application = Node("world", context=context), Node("bt_application", context=context)
     told: list[dict[str, Any]] = []
-    yield world, application, told, Mismatches(world, told.append)
+    yield world, application, told, Mismatches(world, lambda message: told.append(to_builtins(message)))
     application.destroy_node()
     world.destroy_node()
 
@@ -69,7 +70,7 @@ def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
     for topic, types in said:
         for qos in (10, qos_profile_sensor_data):
             theirs.create_subscription(message_type(types[0]), topic, print, qos)
-    Mismatches(theirs, told.append).look()
+    Mismatches(theirs, lambda message: told.append(to_builtins(message))).look()
     assert told == []
     assert {"/clock", "/scan", "/camera/image_raw", "/odom", "/imu", "/bumper"} <= {
         topic for topic, _ in said
@@ -124,7 +125,7 @@ def test_types_that_differ(
 
     told: list[dict[str, Any]] = []
     ends = [[End(*end) for end in side] for side in (publishers, subscribers)]
-    mismatches = Mismatches(Graph(*ends), told.append)
+    mismatches = Mismatches(Graph(*ends), lambda message: told.append(to_builtins(message)))
     mismatches.look()
     # A robot may be about to hear a second type: what it does not hear is reported at the second look.
     assert not any(found["subscriber"] == "/world" for found in told)

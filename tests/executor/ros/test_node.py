@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist
+from msgspec import to_builtins
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
 from rclpy.node import Node
@@ -108,8 +109,8 @@ def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
 
 def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None:
     said: list[dict[str, Any]] = []
-    clockwork = SimulationLoop(rig.world, rig.sensors, rig.node, said.append)
-    clockwork.resume()
+    loop = SimulationLoop(rig.world, rig.sensors, rig.node, lambda message: said.append(to_builtins(message)))
+    loop.resume()
     rig.listen(CameraInfo, "/camera/camera_info")
     rig.listen(Image, "/camera/image_raw")
     now_s = 100.0
@@ -118,7 +119,7 @@ def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None
         nonlocal now_s
         for _ in range(round(seconds / period_s)):
             now_s += period_s
-            clockwork.run_due(now_s)
+            loop.run_due(now_s)
             for ear in rig.ears.values():
                 while take(ear) is not None:
                     pass

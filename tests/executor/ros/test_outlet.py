@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import pytest
 
 from executor.manager.manager import free_domain_id
@@ -122,7 +123,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
     command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
     world = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
     theirs.close()
-    channel = Channel(ours.detach())
+    channel = Channel(ours.detach(), msgspec.msgpack.decode)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER], env=environment, stdout=subprocess.PIPE, text=True
     )
@@ -137,7 +138,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
             listener.send_signal(signal.SIGSTOP)
             asked_s = []
             for _ in range(12):
-                channel.send({"type": "move_body", "id": "?", "pose": [0, 0, 0], "request": "r"})
+                channel.send({"type": "move_body", "id": "?", "pose": [0] * 6, "request": "r"})
                 begun_s = time.monotonic()
                 answered(channel)
                 asked_s.append(time.monotonic() - begun_s)
@@ -155,7 +156,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
     assert world.returncode == 0
 
 
-def answered(channel: Channel) -> None:
+def answered(channel: Channel[Any, Any]) -> None:
     while True:
         message = channel.receive(20)
         assert message is not None

@@ -3,6 +3,7 @@ from typing import Any
 
 import pytest
 from geometry_msgs.msg import PoseStamped, Twist
+from msgspec import convert, to_builtins
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -10,7 +11,7 @@ from sensor_msgs.msg import Image, LaserScan
 from std_msgs.msg import String
 
 from executor.ros.node import take
-from executor.ros.topics import MOST_ECHOED, TopicError, Topics
+from executor.ros.topics import MOST_ECHOED, TopicError, TopicRequest, Topics
 
 
 class Panel:
@@ -19,11 +20,11 @@ class Panel:
     def __init__(self, context: Context) -> None:
         self.node = Node("world", context=context)
         self.sent: list[dict[str, Any]] = []
-        self.topics = Topics(self.node, self.sent.append)
+        self.topics = Topics(self.node, lambda message: self.sent.append(to_builtins(message)))
         self.now_s = time.monotonic()
 
     def asks(self, type_: str, **fields: Any) -> None:
-        self.topics.obey({"type": type_, **fields})
+        self.topics.obey(convert({"type": type_, **fields}, TopicRequest))
 
     def polls(self, after_s: float = 0.0) -> None:
         self.now_s += after_s

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import msgspec
 
+from executor.child_messages import EchoTopic, Pace, Subscribe
 from executor.session.events import (
     ClientJoined,
     ClientLeft,
@@ -122,15 +123,8 @@ def test_streams_flow_between_prepare_and_terminate_visualization():
     play.climb(State.UNIVERSE_READY)
     assert "subscribe" not in play.told("world")
     play.command("prepare_visualization")
-    (subscribe,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "subscribe")
-    assert subscribe.message == {
-        "type": "subscribe",
-        "client": "d",
-        "stream": "camera",
-        "max_hz": 10.0,
-        "width": 320,
-        "camera_pose": None,
-    }
+    (subscribe,) = (e for e in play.effects if isinstance(e, Tell) and isinstance(e.message, Subscribe))
+    assert subscribe.message == Subscribe("d", "camera", 10.0, 320, None)
     play.command("terminate_visualization")
     assert play.told("world")[-1] == "unsubscribe"
 
@@ -142,8 +136,8 @@ def test_the_world_hears_which_client_is_slow():
     assert "pace" not in play.told("world")
     play.climb(State.VISUALIZATION_READY)
     play.happens(StreamPaced("d", 0.5))
-    (told,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "pace")
-    assert told.message == {"type": "pace", "client": "d", "lost": 0.5}
+    (told,) = (e for e in play.effects if isinstance(e, Tell) and isinstance(e.message, Pace))
+    assert told.message == Pace("d", 0.5)
 
 
 def test_a_stream_socket_that_opens_again_is_served_whole():
@@ -169,7 +163,7 @@ def test_topic_messages_go_to_those_who_listen():
     assert play.sent("topic_message", "d") == []
     play.happens(ClientLeft("v"))
     last = [e.message for e in play.effects if isinstance(e, Tell) and e.kind == "world"][-1]
-    assert last == {"type": "echo_topic", "topic": "/scan", "max_hz": 0.0}
+    assert last == EchoTopic("/scan", 0.0)
 
 
 def test_deltas_applied_to_a_snapshot_equal_a_new_snapshot():

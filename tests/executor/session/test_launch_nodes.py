@@ -109,7 +109,7 @@ def test_a_node_is_started_with_the_application_and_ended_with_it():
             assert play.reply(play.command(end)) == "ack"
         assert play.states() == ["ended"]
         assert play.did(Retire).count("node") == 1
-        assert play.session.leaving == set()
+        assert play.session.children.leaving == set()
 
 
 def test_a_second_run_starts_it_once_more_and_a_pause_leaves_it():

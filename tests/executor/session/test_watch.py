@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from executor.child_messages import name_of
 from executor.session.events import ChildLooked, ChildTraced, Inspect, Interrupt, Kill, Spawn, Tell
 from executor.session.ladder import State
 from tests.executor.session.play import Play
@@ -36,7 +37,7 @@ class Watched(Play):
         for _ in range(round(seconds / step_s)):
             self.now += step_s
             self.turns += 1
-            for kind in list(self.session.children):
+            for kind in list(self.session.children.living):
                 self._beats(kind)
                 self._is_looked_at(kind)
 
@@ -74,8 +75,8 @@ CASES = [(s, k) for s in State if s is not State.IDLE for k in ("world", "applic
 @pytest.mark.parametrize(("state", "kind"), CASES)
 def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
     play = play_in(state)
-    number = play.session.children[kind].number
-    is_used = play.session.children[kind].is_in_use
+    number = play.session.children.living[kind].number
+    is_used = play.session.children.living[kind].is_in_use
     play.quiet.add(kind)
     play.state_of[kind] = "T"
     play.goes_on(1.5)
@@ -89,7 +90,7 @@ def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
     play.goes_on(4)
     assert play.did(Kill) == []
     play.goes_on(2)
-    assert play.session.children[kind].number > number, "another one waits"
+    assert play.session.children.living[kind].number > number, "another one waits"
     expected = state
     if is_used:
         expected = State.CONNECTED if kind == "world" else State.VISUALIZATION_READY
@@ -176,7 +177,7 @@ def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
     play.goes_on(2.25)
     assert play.faults == []
     assert play.did(Inspect) == ["application"]
-    play.happens(ChildTraced("application", play.session.children["application"].number, REGEX, uid))
+    play.happens(ChildTraced("application", play.session.children.living["application"].number, REGEX, uid))
     (fault,) = play.faults
     assert (fault.kind, fault.node_id, fault.file, fault.line) == ("timeout", "n1", "actions/A.py", 9)
     assert "main/A" in fault.message
@@ -263,7 +264,7 @@ def test_a_process_that_has_not_come_to_its_first_beat_is_judged_by_whether_it_c
 def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
     play = Watched()
     play.climb(State.CONNECTED)
-    play.session.replenish()
+    play.session.children.replenish()
     play.obedient = False
     request = play.command("run")
     (unpacked,) = (
@@ -273,7 +274,7 @@ def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
     other = "application" if kind == "world" else "world"
     play.child_says(other, "starting")
     play.child_says(other, "ready")
-    lost = play.session.children[kind].number
+    lost = play.session.children.living[kind].number
     if way == "dead":
         play.child_dies(kind)
     else:
@@ -282,11 +283,11 @@ def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
         play.goes_on(2.5)
         play.quiet.clear()
         play.state_of.clear()
-    assert play.session.children[kind].number > lost
+    assert play.session.children.living[kind].number > lost
     play.obedient = True
-    number = play.session.children[kind].number
+    number = play.session.children.living[kind].number
     starts = [e for e in play.effects if isinstance(e, Tell) and e.number == number and e.kind == kind]
-    assert [e.message["type"] for e in starts] == ["start"]
+    assert [name_of(e.message) for e in starts] == ["start"]
     play.child_says(kind, "ready")
     assert play.reply(request) == "ack"
     assert play.state is State.APPLICATION_RUNNING
@@ -299,7 +300,7 @@ def test_a_second_spare_that_dies_fails_the_run():
     play.child_dies("world")
     assert play.reply(run) is None
     for _ in range(3):
-        if "world" in play.session.children:
+        if "world" in play.session.children.living:
             play.child_dies("world")
     assert play.state is State.CONNECTED
 
@@ -355,7 +356,7 @@ def test_the_speed_is_the_one_that_the_world_took():
     play.command("set_speed", speed=3.0)
     assert play.session.mirror.speed == 1.0
     (order,) = (e for e in play.effects if isinstance(e, Tell))
-    play.child_says("world", "answer", request=order.message["request"])
+    play.child_says("world", "answer", request=order.message.request)
     assert play.session.mirror.speed == 3.0
 
 

@@ -1,7 +1,7 @@
 """Streams over a real world with pictures of one colour: what is sent, when, and how little."""
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
@@ -16,6 +16,9 @@ from executor.universes import load_builtin
 from executor.world.physics.bullet import BulletWorld
 from executor.world.sensing.sensors import Sensors
 from executor.world.simulation.streams import Streams
+
+if TYPE_CHECKING:
+    from executor.child_messages import Frame
 
 decode = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View).decode
 
@@ -53,7 +56,7 @@ class Watched:
         self.world = BulletWorld(load_builtin("person_in_green"))
         self.renderer = PlainRenderer()
         self.sensors = Sensors(self.world, lambda: self.renderer)
-        self.sent: list[dict[str, Any]] = []
+        self.sent: list[Frame] = []
         # Drawing takes no time by this clock: on a busy machine a slow picture would put off others.
         self.streams = Streams(self.world, self.sensors, self.sent.append, clock=lambda: 0.0)
         self.now_s = 0.0
@@ -77,7 +80,7 @@ class Watched:
         return self.frames(first)
 
     def frames(self, first: int = 0) -> list[Any]:
-        return [decode(message["data"]) for message in self.sent[first:]]
+        return [decode(message.data) for message in self.sent[first:]]
 
 
 @pytest.fixture
@@ -96,9 +99,8 @@ def test_the_scene_comes_first_then_only_what_moves(watched: Watched) -> None:
     watched.streams.subscribe("a", "poses", max_hz=30)
     frames = watched.run(1.0)
     assert isinstance(frames[0], Scene)
-    assert watched.sent[0] | {"data": b""} == {
-        "type": "frame", "client": "a", "stream": "scene", "data": b"", "keep": True
-    }  # fmt: skip
+    scene = watched.sent[0]
+    assert (scene.client, scene.stream, scene.keep) == ("a", "scene", True)
     everything = np.frombuffer(frames[1].ids, "<u2")
     assert len(everything) == len(frames[0].objects)
     moving = {o.id for o in frames[0].objects if o.kind in ("actor", "robot")}
@@ -175,7 +177,7 @@ def test_a_late_joiner_gets_all(watched: Watched) -> None:
     first = len(watched.sent)
     watched.streams.subscribe("late", "poses")
     watched.stand(0.1)
-    mine = [decode(m["data"]) for m in watched.sent[first:] if m["client"] == "late"]
+    mine = [decode(m.data) for m in watched.sent[first:] if m.client == "late"]
     assert isinstance(mine[0], Scene)
     assert len(mine[1].ids) // 2 == len(mine[0].objects)
 
@@ -215,7 +217,7 @@ def test_a_slow_client_gets_smaller_pictures_and_others_do_not(watched: Watched)
     watched.run(2.0)
     frames: dict[str, list[Camera]] = {"slow": [], "fast": []}
     for message in watched.sent[first:]:
-        frames[message["client"]].append(decode(message["data"]))
+        frames[message.client].append(decode(message.data))
     assert {frame.width for frame in frames["fast"]} == {640}
     assert {frame.width for frame in frames["slow"]} == {160}
     assert len(frames["slow"]) < 0.4 * len(frames["fast"])

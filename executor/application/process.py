@@ -150,7 +150,7 @@ class Application:
                 self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
 
     def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
-        assert self._runner is not None  # noqa: S101 - dito
+        assert self._runner is not None  # noqa: S101 - as above
         from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
 
         tree, scope = self._runner.tree, message.scope

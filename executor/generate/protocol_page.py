@@ -56,7 +56,7 @@ _ERRORS: Final = {
     "bad_data": "the data does not fit the command",
     "wrong_state": "the command is not possible in this state",
     "not_driver": "the client is a viewer",
-    "busy": "another step is going on",
+    "busy": "another step is under way",
     "cancelled": "the step was cancelled",
     "timeout": "the step took too long and was given up",
     "bad_archive": "the zip is damaged, too large or names places outside itself",

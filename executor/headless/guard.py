@@ -56,7 +56,7 @@ class Hung(BaseException):
 
 def sentence(file: str, line: int, what: str, for_s: float) -> str:
     """Returns the error in the format of the command line."""
-    return f"{file}:{line}:1: timeout {what} has not returned for {for_s:.0f} s, and was broken off"
+    return f"{file}:{line}:1: timeout {what} has not returned for {for_s:.0f} s, and was interrupted"
 
 
 class Guard:

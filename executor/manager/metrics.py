@@ -48,8 +48,8 @@ def metrics_text(session: Session, traffic: Traffic) -> str:
         *_metric("ticks", "gauge", "Ticks of this run.", mirror.tick),
         *_metric("tick_seconds", "gauge", "How long a tick takes of late.", mirror.tick_ms / 1000),
         *_metric("simulated_seconds", "gauge", "Simulated time.", session.sim_time_s),
-        *_metric("speed_wanted", "gauge", "Simulated seconds a second that were asked for.", mirror.speed),
-        *_metric("real_time_factor", "gauge", "Those of the last second.", mirror.real_time_factor),
+        *_metric("speed_wanted", "gauge", "Requested real-time factor.", mirror.speed),
+        *_metric("real_time_factor", "gauge", "Of the last second.", mirror.real_time_factor),
         *_metric(
             "children", "gauge", "World, application and those that wait.", len(session.children.living)
         ),

@@ -1,11 +1,11 @@
 """The session's two sockets on loopback: `/control` (JSON) and `/stream` (MessagePack), and `/health`.
 
-The server knows no rules: it decodes commands for the state machine and sends what that has to say.
-A frame that is no command is answered with an error, and the socket stays.
+The server has no rules of its own: it decodes commands for the state machine and sends its events.
+A frame that is no command is answered with an error, and the socket stays open.
 
-No client can keep the others waiting: a little of each is read, handled and sent in turn, and one that
-sends more than its allowance gets an error that says how long to wait. `/watch` is for whoever must know
-whether the manager answers: a socket that takes pings, behind no queue of commands.
+No client can block the others: a little of each is read, handled and sent in turn, and a client that exceeds
+its allowance gets an error that says how long to wait. `/watch` is a health check: a socket that answers
+pings, without a queue of commands.
 """
 
 from __future__ import annotations

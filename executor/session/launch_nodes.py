@@ -117,7 +117,7 @@ class LaunchNodes:
                 messages.Fault(
                     "process",
                     message,
-                    hint="The run goes on without it; start it again from the list of nodes.",
+                    hint="The run continues without it; restart it from the list of nodes.",
                     file=node.spec.file,
                     line=node.spec.line,
                     traceback="\n".join(event.last_lines),

@@ -274,7 +274,7 @@ class Session:
 
     @property
     def is_free(self) -> bool:
-        """Whether no step is going on."""
+        """Whether no step is under way."""
         return self._job is None
 
     def begin_own(self, command: str, generator: Step) -> None:
@@ -285,7 +285,7 @@ class Session:
         if job.command == event.command and event.command.startswith("terminate_"):
             job.askers.append((event.client, event.request))
             return
-        self.refuse(event, "busy", f"{job.command} is going on.", "Wait for it, or send cancel.")
+        self.refuse(event, "busy", f"{job.command} is under way.", "Wait for it, or send cancel.")
 
     def _disconnect(self, event: CommandCame) -> None:
         if self._job is not None and self._job.command == "disconnect":

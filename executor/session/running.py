@@ -128,7 +128,7 @@ def _tick_failure(application: Child) -> StepFailed:
     return StepFailed(
         "tick_hangs",
         f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
-        "An action's update() must return soon; let it return RUNNING while work goes on.",
+        "An action's update() must return soon; let it return RUNNING while work continues.",
     )
 
 

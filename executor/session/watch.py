@@ -28,7 +28,7 @@ CLOCK_PERIOD_S: Final = 1 / 60
 CLOCKS_MISSED: Final = 4
 DEAF_AGAIN_S: Final = 60.0
 TRACE_CHARACTERS: Final = 4000
-_TICK_HINT: Final = "update() must return soon: let it return RUNNING while work goes on."
+_TICK_HINT: Final = "update() must return soon: let it return RUNNING while work continues."
 _LOAD_HINT: Final = (
     "What computes may take its time; what only waits is ended after 8 s. "
     "Wait in update() instead, with RUNNING, for what is not there yet."

@@ -94,7 +94,7 @@ class _Reader:
         parts = sum(len(link.findall("visual")) for link in links)
         moves = not is_static and parts == 1
         if not is_static and parts > 1:
-            self._skip(model, f"the model {model.get('name')!r} has several parts: it stands still here")
+            self._skip(model, f"the model {model.get('name')!r} has several parts: it is static here")
         for link in links:
             at = compose(base, self._pose(link))
             for visual in link.findall("visual"):

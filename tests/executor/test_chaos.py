@@ -74,7 +74,7 @@ class Storm:
             os.kill(victim.pid, signal.SIGKILL)
         await self.has_ended(victim.pid)
         if is_used and self.session.state.reaches(State.UNIVERSE_READY):
-            # Whoever looks on is told what died, and of what.
+            # Viewers receive what died, and why.
             await self.client.event("fault", lambda d: "SIGKILL" in d["message"], after=at)
 
     @staticmethod

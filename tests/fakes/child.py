@@ -23,8 +23,9 @@ ANSWERS = {"pause": "paused", "resume": "resumed", "step": "stepped", "set_black
 
 
 def obey(channel, pulse, *, on_start=lambda: None):
-    """Does what it is told until it is told to stop."""
+    """Obeys messages until it is stopped; a child whose start has an `app_dir` is an application."""
     pulse.rests()
+    answers = {}
     while True:
         pulse.moved()
         pulse.clocks += 1
@@ -34,6 +35,7 @@ def obey(channel, pulse, *, on_start=lambda: None):
         match message["type"]:
             case "start":
                 channel.send({"type": "starting"})
+                answers = ANSWERS if "app_dir" in message else {}
                 with pulse.busy("starting"):
                     on_start()
                 channel.send(READY)
@@ -47,8 +49,8 @@ def obey(channel, pulse, *, on_start=lambda: None):
                 channel.send(message["message"])
             case "stop":
                 return
-            case type_ if type_ in ANSWERS:
-                channel.send({"type": ANSWERS[type_]})
+            case type_ if type_ in answers:
+                channel.send({"type": answers[type_]})
 
 
 def flood():

@@ -80,7 +80,9 @@ def test_parts_drawn_again_are_as_if_all_had_been_drawn(
 @pytest.mark.parametrize(
     "sun", [(0.35, 0.45, -0.85), (0.8, -0.3, -0.4), (0.0, 0.0, -1.0), (0.99, 0.0, -0.05)]
 )
-def test_the_shadow_of_what_moved_moves_along(renderer: GlRenderer, sun: tuple[float, float, float]) -> None:
+def test_the_shadow_of_a_moving_object_moves_too(
+    renderer: GlRenderer, sun: tuple[float, float, float]
+) -> None:
     ball = Shape("sphere", [0.25], IDENTITY, [0.8, 0.2, 0.2, 1])
     block = Shape("box", [1.5, 1.5, 0.8], IDENTITY, [0.8, 0.8, 0.8, 1])
     objects = [SceneObject(i, f"o{i}", "", "static", [s], IDENTITY) for i, s in enumerate((ball, block))]
@@ -133,7 +135,7 @@ def test_another_view_size_or_scene_is_drawn_whole(renderer: GlRenderer) -> None
     np.testing.assert_array_equal(renderer.redraw(poses, VIEW, *SIZE), renderer.draw(poses, VIEW, *SIZE))
 
 
-def test_what_is_beside_the_eye_has_all_drawn(renderer: GlRenderer) -> None:
+def test_an_object_behind_the_eye_causes_a_full_redraw(renderer: GlRenderer) -> None:
     scene, poses = still()
     renderer.load(scene)
     near = Viewpoint((0.5, 0.0, 0.6), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0), math.radians(70))

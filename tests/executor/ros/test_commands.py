@@ -74,7 +74,7 @@ def test_both_kinds_of_command_move_a_built_in_robot(
     other.destroy_node()
 
 
-def test_who_takes_twist_alone_never_makes_a_second_participant(
+def test_a_robot_for_twist_alone_never_creates_a_second_participant(
     world: BulletWorld, context: Context, outside: Context
 ) -> None:
     node, other = Node("world", context=context), Node("driver", context=outside)
@@ -90,7 +90,7 @@ def test_who_takes_twist_alone_never_makes_a_second_participant(
         each.destroy_node()
 
 
-def test_who_takes_twist_stamped_alone_hears_it_by_its_own_participant(context: Context) -> None:
+def test_a_robot_for_twist_stamped_alone_uses_the_first_participant(context: Context) -> None:
     node = Node("world", context=context)
     commands = Commands(node, "/own/cmd_vel", "twist_stamped", 0.6, lambda: pytest.fail("not needed"))
     publisher = node.create_publisher(TwistStamped, "/own/cmd_vel", 10)
@@ -106,7 +106,7 @@ def test_who_takes_twist_stamped_alone_hears_it_by_its_own_participant(context: 
     [(0.0, 5.0, 5.0), (4.7, 5.0, 4.7), (1_700_000_000.0, 5.0, 5.0), (4.3, 5.0, None)],
     ids=["no stamp is now", "a stamp counts", "wall time is now", "too old"],
 )
-def test_a_stamp_says_since_when_a_command_holds(
+def test_a_command_is_valid_from_its_stamp(
     context: Context, stamp_s: float, now_s: float, wanted_at_s: float | None
 ) -> None:
     node = Node("world", context=context)
@@ -132,7 +132,7 @@ def test_a_stamped_command_ends_with_its_timeout_from_the_stamp(world: BulletWor
     assert robot.odometry.linear == pytest.approx(0.0, abs=1e-3)
 
 
-def test_in_one_participant_the_robot_takes_what_the_application_publishes(
+def test_in_one_participant_the_robot_uses_the_type_of_the_application(
     world: BulletWorld, context: Context
 ) -> None:
     """As in lock-step: a participant holds one type for a topic, and the first command counts."""
@@ -177,7 +177,7 @@ def test_the_page_sees_both_types_and_publishes_either(world: BulletWorld, conte
     node.close()
 
 
-def test_a_robot_says_what_it_takes() -> None:
+def test_a_robot_names_its_command_type() -> None:
     config = load_robot("turtle2")
     assert config.command_type == "both"
     assert replace(config, command_type="twist").command_type == "twist"

@@ -100,7 +100,7 @@ def test_a_topic_is_as_declared(heard: dict[str, Any], topic: str) -> None:
         assert heard["frames"][topic] == frame
     stamps = heard["stamps"][topic]
     if topic == "/clock":
-        stamps = [stamp for stamp in stamps if stamp > 0]  # it goes on telling 0 while the world is paused
+        stamps = [stamp for stamp in stamps if stamp > 0]  # it is 0 while the world is paused
     least = rate * heard["camera_share"] if "camera" in topic else rate
     assert len(stamps) >= least * HEARD_S - 1
     assert len(stamps) <= rate * HEARD_S + 2

@@ -1,4 +1,4 @@
-"""Topics whose ends do not match: told once, with both ends, the reason and the remedy."""
+"""Topics whose ends do not match: reported once, with both ends, the reason and a hint."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def graph(context: Context) -> Iterator[tuple[Any, Any, list[dict[str, Any]], An
     world.destroy_node()
 
 
-def test_best_effort_said_and_reliable_wanted(graph: Any) -> None:
+def test_best_effort_published_and_reliable_requested(graph: Any) -> None:
     from rclpy.qos import qos_profile_sensor_data
     from sensor_msgs.msg import LaserScan
 
@@ -54,7 +54,7 @@ def test_best_effort_said_and_reliable_wanted(graph: Any) -> None:
     assert len(told) == 2  # it was gone meanwhile: another run, say
 
 
-def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
+def test_topics_of_the_world_match_both_kinds_of_subscribers(context: Context) -> None:
     from rclpy.node import Node
     from rclpy.qos import qos_profile_sensor_data
 
@@ -113,7 +113,7 @@ class Graph:
         ([("world", "Odom")], [("mine", "Text")], [("/world", "/mine")]),
         ([("world", "Odom")], [("mine", "Text"), ("other", "Odom")], [("/world", "/mine")]),
         ([("world", "Odom")], [("other", "Odom")], []),
-        # The world may take commands in two types; whoever publishes one of them is heard.
+        # The world may accept commands of two types; a publisher of either is connected.
         ([("mine", "Twist")], [("world", "Twist"), ("world_stamped", "Stamped")], []),
         ([("mine", "Text")], [("world", "Twist")], [("/mine", "/world")]),
     ],

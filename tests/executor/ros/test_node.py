@@ -93,7 +93,7 @@ def test_rates_types_and_frames(rig: Rig) -> None:
     assert stamps == pytest.approx([i / 60 for i in range(61)])
 
 
-def test_a_picture_is_what_it_says(rig: Rig) -> None:
+def test_an_image_matches_its_description(rig: Rig) -> None:
     rig.listen(Image, "/camera/image_raw")
     picture = rig.run(0.0)["/camera/image_raw"][0]
     assert (picture.width, picture.height, picture.encoding, picture.step) == (640, 480, "rgb8", 1920)
@@ -101,7 +101,7 @@ def test_a_picture_is_what_it_says(rig: Rig) -> None:
     assert np.frombuffer(picture.data, np.uint8).std() > 10
 
 
-def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
+def test_without_subscribers_nothing_is_drawn(rig: Rig) -> None:
     rig.run(0.5)
     assert rig.drawn == 0
     assert not rig.node.wants_pictures()
@@ -152,7 +152,7 @@ def test_a_scan_starts_ahead_and_turns_left(rig: Rig) -> None:
     assert scan.range_min < min(scan.ranges)
 
 
-def test_commands_drive_and_odometry_tells(rig: Rig) -> None:
+def test_commands_drive_and_odometry_follows(rig: Rig) -> None:
     rig.listen(Odometry, "/odom")
     publisher = rig.listener.create_publisher(Twist, "/cmd_vel", 10)
     twist = Twist()
@@ -202,7 +202,7 @@ def test_tf_is_published_where_its_messages_are_installed(rig: Rig) -> None:
         assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
 
 
-def test_a_joint_goes_where_its_topic_says_and_tf_follows(context: Context) -> None:
+def test_a_joint_moves_to_its_target_and_tf_follows(context: Context) -> None:
     rig = Rig(context, "lookout")
     rig.listen(JointState, "/joint_states")
     if has_tf():

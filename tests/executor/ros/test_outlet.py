@@ -43,7 +43,7 @@ def until(condition: Callable[[], bool], limit_s: float = 20.0) -> None:
         time.sleep(0.005)
 
 
-def test_a_message_is_heard_as_rclpy_would_send_it(context: Context) -> None:
+def test_a_message_arrives_as_rclpy_would_send_it(context: Context) -> None:
     from rclpy.node import Node
     from std_msgs.msg import String
 
@@ -72,7 +72,7 @@ def test_a_message_is_heard_as_rclpy_would_send_it(context: Context) -> None:
     node.destroy_node()
 
 
-def test_who_publishes_does_not_wait_and_the_newest_is_kept() -> None:
+def test_publishing_does_not_block_and_the_newest_message_is_kept() -> None:
     from executor.ros.outlet import DEPTH, Outlet
 
     may_send, sent = threading.Event(), []

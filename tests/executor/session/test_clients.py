@@ -1,4 +1,4 @@
-"""Who drives and who watches, and what each is told: joining, leaving, coming back, the mirror."""
+"""Drivers and viewers, and their events: joining, leaving, reconnecting, the mirror."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_a_viewer_takes_over_and_the_driver_takes_it_back():
     assert play.state is State.APPLICATION_RUNNING
 
 
-def test_a_step_goes_on_while_another_takes_over_and_is_the_others_to_cancel():
+def test_a_step_continues_after_a_take_over_and_the_new_driver_may_cancel_it():
     play = Play(obedient=False)
     play.happens(ClientJoined("v"))
     run = play.command("run")
@@ -81,7 +81,7 @@ def test_a_step_goes_on_while_another_takes_over_and_is_the_others_to_cancel():
     assert play.reply(run) == "cancelled"
 
 
-def test_taking_over_from_nobody_tells_only_who_takes_over():
+def test_taking_over_without_a_driver_notifies_only_the_new_driver():
     play = Play()
     play.command("take_over")
     assert len(play.sent("introspection", "d")) == 1, "the driver drives already"
@@ -94,7 +94,7 @@ def test_taking_over_from_nobody_tells_only_who_takes_over():
     assert play.sent("introspection", "d")[-1].role == "viewer", "the other drives as long as it is there"
 
 
-def test_the_session_ends_when_nobody_comes_back():
+def test_the_session_ends_when_no_client_reconnects():
     play = Play()
     play.command("run")
     play.happens(ClientLeft("d"))
@@ -129,7 +129,7 @@ def test_streams_flow_between_prepare_and_terminate_visualization():
     assert play.told("world")[-1] == "unsubscribe"
 
 
-def test_the_world_hears_which_client_is_slow():
+def test_the_world_is_notified_of_slow_clients():
     play = Play()
     play.happens(StreamOpened("d"))
     play.happens(StreamPaced("d", 0.5))
@@ -140,7 +140,7 @@ def test_the_world_hears_which_client_is_slow():
     assert told.message == Pace("d", 0.5)
 
 
-def test_a_stream_socket_that_opens_again_is_served_whole():
+def test_a_stream_socket_that_reopens_gets_everything_again():
     play = Play()
     play.command("run")
     play.command("subscribe")
@@ -151,7 +151,7 @@ def test_a_stream_socket_that_opens_again_is_served_whole():
     assert [t for t in play.told("world") if "subscribe" in t] == ["subscribe", "unsubscribe", "subscribe"]
 
 
-def test_topic_messages_go_to_those_who_listen():
+def test_topic_messages_are_sent_to_their_subscribers():
     play = Play()
     play.command("run")
     play.happens(ClientJoined("v"))

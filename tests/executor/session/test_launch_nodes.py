@@ -70,7 +70,7 @@ async def test_nodes_live_with_the_application_and_are_listed_with_their_output(
         await client.close()
 
 
-async def test_a_launch_file_that_cannot_be_read_is_told_with_its_line():
+async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
     async with manager() as it:
         client = await SessionClient(it.port).open()
         reply = await client.ask("run", run_with("launch:\n  - nod: {exec: x}\n"))
@@ -112,7 +112,7 @@ def test_a_node_is_started_with_the_application_and_ended_with_it():
         assert play.session.children.leaving == set()
 
 
-def test_a_second_run_starts_it_once_more_and_a_pause_leaves_it():
+def test_a_second_run_starts_it_again_and_a_pause_does_not_affect_it():
     play = NodePlay()
     play.command("run")
     play.command("pause")

@@ -192,7 +192,7 @@ def test_a_world_that_is_never_ready_fails_in_bounded_time():
     assert play.state is State.CONNECTED
 
 
-def test_a_world_that_refuses_its_universe_says_why():
+def test_a_world_that_refuses_its_universe_reports_why():
     play = Play(obedient=False)
     play.command("connect")
     launch = play.command("launch_universe")
@@ -314,7 +314,7 @@ def test_the_world_dies_while_the_application_loads():
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_a_tick_that_takes_long_stops_the_robot_and_goes_on():
+def test_a_slow_tick_stops_the_robot_and_continues():
     play = Play()
     play.command("run")
     play.effects.clear()
@@ -345,7 +345,7 @@ def test_disconnect_ends_everything_and_may_be_repeated(state):
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_disconnect_breaks_off_a_long_step_and_waits_for_the_processes():
+def test_disconnect_interrupts_a_long_step_and_waits_for_the_processes():
     play = Play(obedient=False)
     run = play.command("run")
     first, second = play.command("disconnect"), play.command("disconnect")
@@ -357,7 +357,7 @@ def test_disconnect_breaks_off_a_long_step_and_waits_for_the_processes():
     assert play.state is State.IDLE
 
 
-def test_words_of_a_child_that_was_let_go_are_only_heard_as_log():
+def test_of_a_dropped_child_only_log_lines_are_forwarded():
     play = Play()
     play.command("run")
     old = play.session.children.living["application"].number
@@ -371,7 +371,7 @@ def test_words_of_a_child_that_was_let_go_are_only_heard_as_log():
     assert play.state is State.APPLICATION_RUNNING
 
 
-def test_both_processes_can_be_started_ahead():
+def test_both_spares_can_be_started():
     session = Session(About(version="test"))
     assert [e.kind for e in session.prestart()] == ["world", "application"]
     assert session.prestart() == []

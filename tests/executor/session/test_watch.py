@@ -73,7 +73,7 @@ CASES = [(s, k) for s in State if s is not State.IDLE for k in ("world", "applic
 
 
 @pytest.mark.parametrize(("state", "kind"), CASES)
-def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
+def test_a_stopped_process_is_reported_after_2_s_and_ended_after_8(state, kind):
     play = play_in(state)
     number = play.session.children.living[kind].number
     is_used = play.session.children.living[kind].is_in_use
@@ -102,7 +102,7 @@ def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_who_answers_again_in_time_is_left_alone():
+def test_a_child_that_recovers_in_time_is_kept():
     play = play_in(State.PAUSED)
     play.quiet.add("world")
     play.goes_on(5)
@@ -121,7 +121,7 @@ def test_a_pause_may_last():
     assert (play.faults, play.did(Kill), play.state) == ([], [], State.PAUSED)
 
 
-def test_a_manager_that_was_late_itself_blames_nobody():
+def test_delays_of_the_manager_itself_do_not_count():
     play = play_in(State.APPLICATION_RUNNING)
     for _ in range(20):
         play.goes_on(30, step_s=30)  # it was stopped for half a minute; all was queued meanwhile
@@ -130,7 +130,7 @@ def test_a_manager_that_was_late_itself_blames_nobody():
     assert play.faults == []
 
 
-def test_who_gets_no_processor_does_not_hang():
+def test_waiting_for_a_processor_is_no_hang():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet |= {"world", "application"}
     play.waited |= {"world": 0.2, "application": 0.25}
@@ -140,7 +140,7 @@ def test_who_gets_no_processor_does_not_hang():
     assert len(play.faults) == 2, "but not even that is waited for without end"
 
 
-def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():
+def test_a_world_whose_loop_hangs_is_reported_with_its_line_and_ended():
     play = play_in(State.APPLICATION_RUNNING)
     play.stuck.add("world")
     play.ran["world"] = LOOK_S
@@ -153,7 +153,7 @@ def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():
     assert play.sent("finished")[0].reason == "process_died"
 
 
-def test_a_tick_that_takes_long_is_told_with_its_node_and_goes_on():
+def test_a_slow_tick_is_reported_with_its_node_and_continues():
     play = play_in(State.APPLICATION_RUNNING)
     play.stuck.add("application")
     play.place["application"] = ACTION
@@ -168,7 +168,7 @@ def test_a_tick_that_takes_long_is_told_with_its_node_and_goes_on():
 
 
 @pytest.mark.parametrize("uid", [2, 0])
-def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
+def test_code_that_holds_the_interpreter_lock_is_found_by_a_signal(uid):
     play = play_in(State.APPLICATION_RUNNING)
     nodes = [NODE | {"uid": 1, "type": "B", "tree_id": "t"}, NODE | {"uid": 2, "tree_id": "t"}]
     play.child_says("application", "tree", nodes=nodes)
@@ -186,7 +186,7 @@ def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
     assert len(play.faults) == 1
 
 
-def test_who_does_not_answer_the_signal_either_is_told_all_the_same():
+def test_a_child_that_ignores_the_signal_is_reported_too():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet.add("application")
     play.goes_on(4)
@@ -223,7 +223,7 @@ def test_a_setup_that_sleeps_is_named_after_2_s_and_ended_after_8():
     assert len(play.faults) == 1
 
 
-def test_a_setup_that_computes_is_named_and_has_its_minute():
+def test_a_setup_that_computes_is_reported_and_may_take_a_minute():
     play, request = loading(place=ACTION, ran=0.2)
     play.goes_on(50)
     assert len(play.faults) == 1
@@ -232,14 +232,14 @@ def test_a_setup_that_computes_is_named_and_has_its_minute():
     assert play.reply(request) in {"timeout", "process_died"}
 
 
-def test_what_computes_without_the_users_code_is_no_fault_while_it_loads():
+def test_computing_outside_of_user_code_is_no_fault_while_loading():
     play, request = loading(ran=0.2)
     play.goes_on(30)
     assert play.faults == []
     assert play.reply(request) is None
 
 
-def test_what_waits_for_the_disk_while_it_loads_is_no_fault():
+def test_waiting_for_the_disk_while_loading_is_no_fault():
     play, request = loading(state_of="D")
     play.quiet.add("application")
     play.goes_on(30)
@@ -380,14 +380,14 @@ def test_without_simulated_time_the_application_is_started_again_once():
     assert len(play.faults) == 2
 
 
-def test_a_world_that_tells_no_time_is_named():
+def test_a_world_that_publishes_no_time_is_reported():
     play = play_in(State.APPLICATION_RUNNING)
     play.deaf |= {"application", "world"}
     play.goes_on(3)
     assert "the simulated world publishes none" in play.faults[0].message
 
 
-def test_a_slow_world_tells_the_time_seldom_and_a_paused_one_may_not_at_all():
+def test_a_slow_world_publishes_time_rarely_and_a_paused_one_maybe_never():
     play = play_in(State.APPLICATION_RUNNING)
     play.command("set_speed", speed=0.01)
     play.deaf.add("application")

@@ -85,7 +85,7 @@ def test_several_messages_in_one_piece(ends):
     assert [child.receive(1), child.receive(0)] == [{"type": "a"}, {"type": "b"}]
 
 
-def test_the_latest_frame_of_a_stalled_reader_wins_and_control_is_kept(ends):
+def test_a_stalled_reader_gets_the_latest_frame_and_all_control_messages(ends):
     ours, child = ends
     payload = bytes(200_000)
     for n in range(50):
@@ -129,7 +129,7 @@ def test_poses_that_wait_are_merged(ends):
     assert [unpack(got.poses[at : at + POSE_BYTES])[0] for at in (0, 16, 32)] == [1.0, 3.0, 4.0]
 
 
-def test_closing_the_other_end_is_told(ends):
+def test_closing_the_other_end_is_noticed(ends):
     ours, child = ends
     ours.close()
     with pytest.raises(ChannelClosed):
@@ -138,7 +138,7 @@ def test_closing_the_other_end_is_told(ends):
         send_many(child, {"type": "log"}, 3)
 
 
-def test_a_peer_that_never_reads_is_given_up(ends, monkeypatch):
+def test_a_peer_that_never_reads_is_dropped(ends, monkeypatch):
     _, child = ends
     monkeypatch.setattr(channel_module, "STALL_TIMEOUT_S", 0.05)
     monkeypatch.setattr(channel_module, "MAX_QUEUED_BYTES", 100_000)

@@ -1,4 +1,4 @@
-"""Children that behave and children that do not: nothing is left, and the reason is told."""
+"""Children that behave and children that do not: nothing is left, and the reason is reported."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ async def stage(habit, kind="application", **limits):
         assert fakes_alive() == []
 
 
-async def test_a_good_child_answers_and_ends_when_told():
+async def test_a_good_child_answers_and_stops_on_request():
     async with stage("good", "world") as it:
         it.tell("start")
         await it.said("ready")
@@ -101,7 +101,7 @@ async def test_a_child_whose_message_does_not_decode_is_ended(message):
 @pytest.mark.parametrize(
     ("habit", "reason"), [("dies_at_start", "exit code 3"), ("dies_when_started", "exit code 4")]
 )
-async def test_a_child_that_dies_tells_code_and_last_words(habit, reason):
+async def test_a_child_that_dies_reports_its_code_and_last_lines(habit, reason):
     async with stage(habit) as it:
         it.tell("start")
         event = await it.exit()
@@ -122,7 +122,7 @@ async def test_a_child_that_ignores_stop_is_ended_after_its_grace():
         assert (await it.exit()).reason == "was ended"
 
 
-async def test_a_child_killed_from_outside_is_told_by_its_signal():
+async def test_a_child_killed_from_outside_is_reported_with_its_signal():
     async with stage("good") as it:
         it.tell("start")
         await it.said("ready")
@@ -183,7 +183,7 @@ async def test_a_limit_that_is_hit_is_named(habit, limits, reason):
         assert (await it.exit()).reason == reason
 
 
-async def test_a_program_that_does_not_exist_is_told():
+async def test_a_program_that_does_not_exist_is_reported():
     events = asyncio.Queue()
     supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)
     supervisor.apply(Spawn("world", 1))

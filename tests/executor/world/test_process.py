@@ -103,7 +103,7 @@ def test_a_resumed_world_moves_and_is_seen(remote: Remote) -> None:
     remote.tell("unsubscribe", client="a", stream="poses")
 
 
-def test_a_paused_world_steps_as_told(remote: Remote) -> None:
+def test_a_paused_world_steps_on_request(remote: Remote) -> None:
     remote.tell("teleop", linear=0.5, angular=0.0)
     remote.tell("step", dt_s=0.5)
     remote.tell("subscribe", client="b", stream="poses", max_hz=60.0, width=None, camera_pose=None)
@@ -111,7 +111,7 @@ def test_a_paused_world_steps_as_told(remote: Remote) -> None:
     remote.tell("unsubscribe", client="b", stream="poses")
 
 
-def test_a_paused_world_goes_on_for_who_drives_in_it(remote: Remote) -> None:
+def test_a_paused_world_runs_while_a_client_drives(remote: Remote) -> None:
     remote.tell("subscribe", client="c", stream="poses", max_hz=60.0, width=None, camera_pose=None)
     remote.tell("teleop", linear=0.5, angular=0.0, goes_on=True)
     assert poses_until(remote, "c", 0.02) > 0
@@ -133,7 +133,7 @@ def test_a_bump_is_logged(remote: Remote) -> None:
     assert "bumped into wall_east" in remote.hear("log")["text"]
 
 
-def test_what_makes_no_sense_is_refused_and_the_world_goes_on(remote: Remote) -> None:
+def test_invalid_requests_are_refused_and_the_world_continues(remote: Remote) -> None:
     for kind, fields in [
         ("set_speed", {"speed": -1}),
         ("move_body", {"id": "ghost", "pose": [0, 0, 0, 0, 0, 0]}),

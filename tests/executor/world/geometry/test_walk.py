@@ -7,7 +7,7 @@ from executor.world.geometry.walk import Gait, Path, Walker
 SQUARE = ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))
 
 
-def test_a_loop_comes_back_to_its_start() -> None:
+def test_a_loop_returns_to_its_start() -> None:
     path = Path(SQUARE, loop=True)
     assert path.length_m == 8.0
     assert path.at(3.0) == pytest.approx((2.0, 1.0, math.pi / 2))

@@ -98,7 +98,7 @@ def test_a_door_swings_on_its_hinge_and_is_moved_back(project: Path) -> None:
     world.close()
 
 
-def test_an_sdf_model_stands_as_it_says(project: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_an_sdf_model_has_its_poses(project: Path, caplog: pytest.LogCaptureFixture) -> None:
     world = world_of(
         "  - {id: table, shape: sdf, file: assets/things/table.sdf, pose: [1, 0, 0, 0, 0, 0]}\n", project
     )
@@ -183,7 +183,7 @@ A = "<link name='a'/>"
         ("empty.sdf", "<sdf><world/></sdf>", "no <model>"),
     ],
 )
-def test_what_is_wrong_is_said_with_file_and_line(project: Path, file: str, text: str, message: str) -> None:
+def test_errors_have_file_and_line(project: Path, file: str, text: str, message: str) -> None:
     (project / "assets" / file).write_text(text)
     kind = file.rpartition(".")[2]
     with pytest.raises(DocumentError, match=message):

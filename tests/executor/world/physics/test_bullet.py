@@ -101,7 +101,7 @@ def test_the_same_seed_gives_the_same_world(make_world: "MakeWorld") -> None:
     assert runs[0] != runs[2]
 
 
-def test_reset_begins_anew(make_world: "MakeWorld") -> None:
+def test_reset_restores_the_initial_state(make_world: "MakeWorld") -> None:
     world = make_world("person_in_green")
     start = world.poses().copy()
     drive(world, 0.3, 0.4, 2.0)
@@ -113,7 +113,7 @@ def test_reset_begins_anew(make_world: "MakeWorld") -> None:
     assert world.poses().tobytes() == first
 
 
-def test_a_saved_world_goes_on_exactly(make_world: "MakeWorld") -> None:
+def test_a_saved_world_continues_exactly(make_world: "MakeWorld") -> None:
     world = make_world("person_in_green")
     drive(world, 0.3, 0.4, 2.0)
     world.step(1)  # between two control periods
@@ -179,7 +179,7 @@ def test_the_scene_shows_where_things_are_now(make_world: "MakeWorld") -> None:
     assert base.pose[0] - begun[base.id][0] > 0.1
 
 
-def test_a_saved_robot_with_noisy_odometry_goes_on_exactly(make_world: "MakeWorld") -> None:
+def test_a_saved_robot_with_noisy_odometry_continues_exactly(make_world: "MakeWorld") -> None:
     world = make_world("robots: [{id: robot, model: burger}]\n", seed=3)
     drive(world, 0.2, 0.4, 1.0)
     saved = world.save()
@@ -195,7 +195,7 @@ def test_a_saved_robot_with_noisy_odometry_goes_on_exactly(make_world: "MakeWorl
     world.forget(saved)
 
 
-def test_what_is_not_solid_is_seen_and_not_felt(make_world: "MakeWorld") -> None:
+def test_models_that_are_not_solid_are_visible_only(make_world: "MakeWorld") -> None:
     world = make_world(
         "models:\n  - {id: mist, shape: box, size: [0.2, 4, 1], pose: [1, 0, 0.5, 0, 0, 0], solid: false}\n"
     )

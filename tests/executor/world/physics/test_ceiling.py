@@ -83,7 +83,7 @@ def test_it_covers_the_walls_that_reach_it() -> None:
 
 
 @pytest.mark.parametrize("universe_id", ["house", "office_corridor", "warehouse"])
-def test_rays_meet_what_they_met(universe_id: str) -> None:
+def test_rays_hit_the_same_as_before(universe_id: str) -> None:
     universe = load_builtin(universe_id)
     ranges = []
     for each in (universe, universe.model_copy(update={"ceiling": None})):
@@ -121,7 +121,7 @@ def test_a_wall_that_is_carried_takes_its_upper_part_along() -> None:
         ),
     ],
 )
-def test_what_is_wrong_is_said(text: str, message: str) -> None:
+def test_errors_are_reported(text: str, message: str) -> None:
     with pytest.raises(UniverseError, match=message):
         parse_universe(HEAD + text)
 

@@ -1,4 +1,4 @@
-"""Truth of a joint with a motor: the camera of the lookout pans where it is told, and looks there."""
+"""Truth of a joint with a motor: the camera of the lookout pans to its target, and looks there."""
 
 import math
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Robots move by wheels and contact alone: whoever could put a body somewhere is named here."""
+"""Robots move by wheels and contact alone: every caller that can set the pose of a body is listed here."""
 
 import ast
 from pathlib import Path
@@ -23,7 +23,7 @@ PLACERS = {
     ("world/physics/placement.py", "put_at_rest"),
     ("render/tiny.py", "_shoot"),
 }
-# Dragging by hand, and actors, whose nature it is to be carried.
+# Dragging by hand, and actors, which are moved by design.
 CALLERS = {
     ("world/physics/bullet.py", "move_body"),
     ("world/physics/assembly.py", "move_body"),

@@ -135,7 +135,7 @@ def test_lidar_without_noise_is_exact_to_a_millimetre(model: str) -> None:
     assert np.abs(ranges[seen] - true[seen]).max() < 1e-3
 
 
-def test_known_points_are_seen_where_the_drawing_says(model: str) -> None:
+def test_known_points_are_seen_at_their_designed_places(model: str) -> None:
     """Through the camera as it stands on its robot, against the robot's drawing on level ground."""
     world = quiet(model, ROOM)
     robot = world.robots[0]
@@ -202,7 +202,7 @@ def test_imu_feels_turning_and_speeding_up() -> None:
     world.close()
 
 
-def test_odometry_drifts_as_its_noise_model_says() -> None:
+def test_odometry_drifts_by_its_noise_model() -> None:
     config = load_robot("burger").drive
     way, step = 10.0, 0.04
     headings, across = [], []
@@ -295,7 +295,7 @@ def test_two_robots_and_a_walker_are_seen_by_the_lidar() -> None:
     assert 1.5 < ranges[170:191].min() < 2.1
 
 
-def test_the_bumper_tells_which_side_was_hit() -> None:
+def test_the_bumper_reports_which_side_was_hit() -> None:
     text = HEAD + "models: [{id: post, shape: cylinder, size: [0.05, 0.6], pose: [0.5, 0.1, 0.3, 0, 0, 0]}]\n"
     world = BulletWorld(parse_universe(text))
     world.step(60)

@@ -54,7 +54,7 @@ def by_bullet(bullet, start, rays):
 
 
 def litter(bullet, rays, rng):
-    """Boxes and cylinders that stand still, and some that do not, none where the rays begin."""
+    """Static and moving boxes and cylinders, none at the origin of the rays."""
     for kind in ("box", "cylinder", "loose") * 4:
         away, at = rng.uniform(1.5, 6.0), rng.uniform(-math.pi, math.pi)
         tilt = rng.normal(0, 0.3, 2) if rng.random() < 0.5 else (0.0, 0.0)
@@ -111,7 +111,7 @@ def test_a_ray_may_run_along_a_side_and_begin_within_a_body(bullet):
     assert rays.cast((5, 5, 2), down, -1, ALL) * 4 == pytest.approx([2.0])  # the floor
 
 
-def test_what_moves_is_where_it_is_now_and_the_sensor_s_own_body_is_not_hit(bullet):
+def test_moving_bodies_are_hit_at_their_current_pose_and_the_own_body_never(bullet):
     rays = RayCaster(bullet)
     still = box(bullet, (1, 1, 1), (3, 0, 0.5, 0, 0, 0))
     loose = box(bullet, (0.4, 0.4, 0.4), (0, 2, 0.5, 0, 0, 0), mass=1.0)

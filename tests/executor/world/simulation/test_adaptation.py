@@ -72,7 +72,7 @@ def test_cameras_yield_to_time_and_come_back() -> None:
     assert shares(rates, *[1.0] * FIRST_PATIENCE * len(CAMERA_SHARES)) == 1.0
 
 
-def test_who_runs_faster_than_real_time_gets_every_picture() -> None:
+def test_faster_than_real_time_no_picture_is_dropped() -> None:
     assert shares(CameraRates(), *[3.0] * 20, speed=10.0) == 1.0
     assert shares(CameraRates(), *[3.0] * 20, speed=0.0) == 1.0
 

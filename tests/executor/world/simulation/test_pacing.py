@@ -49,7 +49,7 @@ def test_free_running_always_has_work() -> None:
     assert pacer.next_due_s(0.0, 4) == 0.0
 
 
-def test_it_says_how_long_to_wait() -> None:
+def test_it_returns_how_long_to_wait() -> None:
     pacer = Pacer(STEP)
     pacer.due(0.0)
     assert pacer.next_due_s(0.01, 4) == pytest.approx(4 / 240 - 0.01)

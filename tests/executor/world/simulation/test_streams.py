@@ -90,12 +90,12 @@ def watched() -> Iterator[Watched]:
     made.world.close()
 
 
-def test_nobody_watches_nothing_is_made(watched: Watched) -> None:
+def test_without_subscribers_nothing_is_measured(watched: Watched) -> None:
     assert watched.run(0.5) == []
     assert watched.renderer.drawn == []
 
 
-def test_the_scene_comes_first_then_only_what_moves(watched: Watched) -> None:
+def test_the_scene_comes_first_then_only_changed_poses(watched: Watched) -> None:
     watched.streams.subscribe("a", "poses", max_hz=30)
     frames = watched.run(1.0)
     assert isinstance(frames[0], Scene)
@@ -137,7 +137,7 @@ def test_sensors_give_no_more_than_their_rate(watched: Watched) -> None:
     assert 29 <= sum(isinstance(frame, Camera) for frame in frames) <= 31
 
 
-def test_a_client_gets_no_more_than_it_asked_for(watched: Watched) -> None:
+def test_a_client_gets_at_most_its_requested_rate(watched: Watched) -> None:
     watched.streams.subscribe("slow", "poses", max_hz=5)
     watched.streams.subscribe("slow", "camera", max_hz=4)
     frames = watched.run(2.0)
@@ -153,7 +153,7 @@ def test_two_clients_share_one_picture(watched: Watched) -> None:
     assert len(watched.renderer.drawn) == 1
 
 
-def test_a_camera_is_drawn_as_narrow_as_asked(watched: Watched) -> None:
+def test_a_camera_is_drawn_in_the_requested_width(watched: Watched) -> None:
     watched.streams.subscribe("a", "camera", width=320)
     [frame] = watched.stand(0.1)
     assert (frame.width, frame.height) == (320, 240)
@@ -199,7 +199,7 @@ def test_a_new_scene_is_sent_to_all(watched: Watched) -> None:
     assert [type(frame) for frame in frames] == [Scene, Poses]
 
 
-def test_scans_carry_what_the_lidar_says(watched: Watched) -> None:
+def test_scans_have_the_measurements_of_the_lidar(watched: Watched) -> None:
     watched.streams.subscribe("a", "scan")
     [scan] = watched.stand(0.1)
     robot = watched.world.robots[0]
@@ -224,7 +224,7 @@ def test_a_slow_client_gets_smaller_pictures_and_others_do_not(watched: Watched)
     watched.streams.pace("nobody", 1.0)
 
 
-def test_who_comes_back_starts_with_the_best(watched: Watched) -> None:
+def test_a_returning_client_starts_with_the_best_level(watched: Watched) -> None:
     watched.streams.subscribe("a", "camera")
     for _ in range(10):
         watched.streams.pace("a", 1.0)

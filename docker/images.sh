@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds BT Studio's images: bt-studio-web, bt-studio-executor, bt-studio-keeper.
+# Builds BT Studio's images: bt-studio-web, bt-studio-executor, bt-studio-keeper, bt-studio-caddy.
 #
 # The images that theirs start from are pulled, by the digests of docker/bases/digests where it has them. Where no registry is reachable they are made on this machine,
 # which takes root and Debian's debootstrap, and tagged with the names that the Dockerfiles use.
@@ -76,6 +76,8 @@ make_postgres() { build -f docker/bases/postgres.Dockerfile -t "$1" docker/bases
 
 make_redis() { build -f docker/bases/redis.Dockerfile -t "$1" docker/bases; }
 
+make_caddy() { build -f docker/bases/caddy.Dockerfile -t "$1" docker/bases; }
+
 base() {
   if has_locked "$1" || pull "$1"; then return; fi
   if has "$1"; then say "$1 is the one of this machine, not the one of docker/bases/digests"; return; fi
@@ -93,7 +95,8 @@ together() {
 image() { build -f "docker/$1.Dockerfile" -t "bt-studio-$1:$tag" .; say "bt-studio-$1:$tag is built"; }
 
 base debian:bookworm-slim make_debian
-together "base node:22-bookworm-slim make_node" "base postgres:15-bookworm make_postgres" "base redis:7-bookworm make_redis"
-say "building bt-studio-executor, -web and -keeper …"
-together "image executor" "image web" "image keeper"
+together "base node:22-bookworm-slim make_node" "base postgres:15-bookworm make_postgres" "base redis:7-bookworm make_redis" \
+  "base caddy:2 make_caddy"
+say "building bt-studio-executor, -web, -keeper and -caddy …"
+together "image executor" "image web" "image keeper" "image caddy"
 say "done"

@@ -1,4 +1,4 @@
-"""What a client may ask on the control socket: a part of the protocol in `executor.messages`."""
+"""Commands of the control socket: a part of the protocol in `executor.messages`."""
 
 from __future__ import annotations
 
@@ -96,14 +96,14 @@ class MoveBody(Struct, forbid_unknown_fields=True):
 
 
 class CameraPose(Struct, forbid_unknown_fields=True):
-    """Where the server's own view looks from: eye and target in m, world frame."""
+    """Camera of the server's own view: eye and target in m, world frame."""
 
     eye: tuple[float, float, float]
     target: tuple[float, float, float]
 
 
 class Subscribe(Struct, forbid_unknown_fields=True):
-    """Asks for a stream on this client's stream socket; again with other values changes them."""
+    """Subscribes to a stream on this client's stream socket, or changes a subscription."""
 
     stream: StreamName
     max_hz: StreamRate = 30.0
@@ -120,7 +120,7 @@ class Unsubscribe(Struct, forbid_unknown_fields=True):
 class EchoTopic(Struct, forbid_unknown_fields=True):
     """Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
 
-    Where several clients echo a topic, all get it at the highest rate that one of them asked for.
+    If several clients echo a topic, all receive it at the highest of their rates.
     """
 
     topic: str
@@ -128,10 +128,9 @@ class EchoTopic(Struct, forbid_unknown_fields=True):
 
 
 class PublishTopic(Struct, forbid_unknown_fields=True):
-    """Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`).
+    """Publishes one message; `message` holds the fields of `type` (`std_msgs/msg/String`) as JSON.
 
-    Fields that are left out keep their default. `"inf"`, `"-inf"` and `"nan"` stand
-    for the numbers that JSON has not.
+    Missing fields keep their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
     """
 
     topic: str
@@ -140,13 +139,13 @@ class PublishTopic(Struct, forbid_unknown_fields=True):
 
 
 class DescribeType(Struct, forbid_unknown_fields=True):
-    """Asks for the fields of a message type; the answer is a `type_description` to this client alone."""
+    """Requests the fields of a message type; this client alone receives a `type_description`."""
 
     type: str
 
 
 class RestartNode(Struct, forbid_unknown_fields=True):
-    """Starts an extra node of the project's launch files again; `id` as in `launch_nodes`."""
+    """Restarts a node of the project's launch files; `id` as in `launch_nodes`."""
 
     id: str
 

@@ -7,7 +7,7 @@ Control socket (JSON text frames)
     client to server: ``{"id", "command", "data"}`` with one of `COMMANDS`;
     server to client: ``{"id", "command", "data", "seq", "t", "tick"}`` with one of `EVENTS`. A reply
     (``ack`` or ``error``) repeats the id of its command, other messages carry an id of their own.
-Stream socket (MessagePack binary frames), server to client only: one of `FRAMES`, told by ``type``.
+Stream socket (MessagePack binary frames), server to client only: one of `FRAMES`, with its name in ``type``.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ from executor.stream_messages import (
     View,
 )
 
-# Those defined elsewhere; what is defined here is public too.
+# Messages that other modules define; those defined here are public too.
 __all__ = [
     "COMMANDS",
     "FRAMES",
@@ -102,6 +102,7 @@ LogSource = Literal["action", "world", "manager", "launch"]
 LogLevel = Literal["debug", "info", "warning", "error"]
 Role = Literal["driver", "viewer"]
 LaunchState = Literal["running", "ended", "failed"]
+FaultKind = Literal["exception", "process", "timeout", "load"]
 FinishReason = Literal["root_finished", "action_raised", "terminated", "process_died"]
 
 
@@ -120,12 +121,12 @@ class Error(Struct):
 class Introspection(Struct):
     """First message on a connection, sent again when the client's role or what the world can do changes.
 
-    `renderer` and `tf` are of the world that is up: "" and false before it is ready.
+    `renderer` and `tf` describe the running world: "" and false before it is ready.
 
     `client_id` names this client when it opens the stream socket.
 
-    With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
-    empty where the session is closed off.
+    With the variables of `ros_environment` a ROS program on the session's host joins its graph; empty if the
+    session is isolated.
     """
 
     protocol: str
@@ -141,14 +142,14 @@ class Introspection(Struct):
 
 
 class StateChanged(Struct):
-    """The ladder stands on another rung; `reason` is for people, empty when it was asked for."""
+    """The state of the ladder changed; `reason` is for users, empty if a command asked for it."""
 
     state: State
     reason: str = ""
 
 
 class Progress(Struct):
-    """A long step goes on: fraction 0 to 1 of this rung, and a sentence."""
+    """Progress of a long step: fraction 0 to 1 of this rung, and a sentence."""
 
     rung: Rung
     fraction: float
@@ -184,7 +185,7 @@ class Tick(Struct):
 
 
 class BlackboardEntry(Struct):
-    """One changed entry; large values come as a preview (text), told by `preview`."""
+    """One changed entry; large values are sent as a preview (text), with `preview` set."""
 
     scope: str
     key: str
@@ -210,13 +211,13 @@ class Log(Struct):
     node_path: str = ""
     time: float = 0.0
     launch_node: str = ""
-    """Id of the extra node that said it, where the source is `launch`."""
+    """Id of the launch node that wrote it, if the source is `launch`."""
 
 
 class Fault(Struct):
-    """Something broke: an exception in an action, or a process that died or hangs."""
+    """A failure: an exception in an action, or a process that died or hangs."""
 
-    kind: Literal["exception", "process", "timeout", "load"]
+    kind: FaultKind
     message: str
     hint: str = ""
     node_id: str = ""
@@ -248,15 +249,15 @@ class Sim(Struct):
     pose: tuple[float, float, float]
     """True pose of the first robot: x and y in m, yaw in rad, world frame."""
     camera_share: float = 1.0
-    """Of their rates at which cameras draw: less than 1 on a machine too slow for real time."""
+    """Share of their rates at which cameras draw: below 1 on a machine too slow for real time."""
 
 
 class TopicInfo(Struct):
     """One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
 
-    `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
-    client echoes them, and the first `list_topics` after a while starts the measuring. `types` has more than
-    `type` where a robot takes several on its topic of commands.
+    `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
+    client echoes them, and the first `list_topics` after a while starts the measurement. `types` has more
+    than `type` if a robot accepts several types on its command topic.
     """
 
     name: str
@@ -277,7 +278,7 @@ class Topics(Struct):
 class TopicMessage(Struct):
     """One message of a topic that a client echoes.
 
-    Numbers that JSON has not (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
+    Numbers that JSON lacks (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
     names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
     message on the wire.
     """
@@ -298,10 +299,10 @@ class TypeDescription(Struct):
 
 
 class TopicMismatch(Struct):
-    """Two ends of a topic do not match, so that nothing arrives; told once for as long as both are there.
+    """Two ends of a topic do not match, so no message arrives; reported once while both exist.
 
-    `publisher` and `subscriber` are nodes; `reason` is what differs: the message type, or the quality of
-    service. `hint` is the remedy.
+    `publisher` and `subscriber` are nodes; `reason` is the difference: message type or quality of service.
+    `hint` says how to fix it.
     """
 
     topic: str
@@ -313,9 +314,9 @@ class TopicMismatch(Struct):
 
 
 class LaunchNode(Struct):
-    """An extra process of the project's launch files; `file` and `line` are where it is asked for.
+    """A process of the project's launch files; `file` and `line` are its place there.
 
-    `end` says how it ended: exit code or signal, or why it could not be started.
+    `end` says how it ended (exit code or signal), or why it could not be started.
     """
 
     id: str
@@ -330,13 +331,13 @@ class LaunchNode(Struct):
 
 
 class LaunchNodes(Struct):
-    """All extra nodes of the application, whenever one of them changes."""
+    """All launch nodes of the application, sent when one of them changes."""
 
     nodes: list[LaunchNode]
 
 
 class Snapshot(Struct):
-    """Everything a client that joins late needs; deltas follow."""
+    """Full state for a client that joins late; deltas follow."""
 
     state: State
     tree: Tree | None

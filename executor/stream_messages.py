@@ -1,4 +1,4 @@
-"""What the stream socket sends: MessagePack frames, told by ``type``. A part of `executor.messages`.
+"""MessagePack frames of the stream socket, with their name in ``type``. A part of `executor.messages`.
 
 Units are SI, frames follow REP-103, times are simulated seconds.
 """
@@ -14,13 +14,13 @@ class Shape(Struct, omit_defaults=True):
     """A visual shape in its object's frame.
 
     Args:
-        shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+        shape: its kind. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
             capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
         pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
         color: [r, g, b, a], each 0 to 1, sRGB.
         mesh: key in `Scene.meshes` for a mesh, else "".
         texture: key in `Scene.textures`, or "" for none; the colour tints it.
-        ceiling: it is overhead, or a wall's upper part: for robots' cameras, not for views of the world.
+        ceiling: overhead, or the upper part of a wall: drawn for robots' cameras, not for views of the world.
     """
 
     shape: Literal["box", "cylinder", "sphere", "capsule", "plane", "mesh"]
@@ -46,7 +46,7 @@ class SceneObject(Struct):
 class Mesh(Struct, omit_defaults=True):
     """Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
 
-    Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
+    `uvs` are the texture coordinates of the file, if any: two float32 a vertex; v points up.
     """
 
     positions: bytes
@@ -56,10 +56,9 @@ class Mesh(Struct, omit_defaults=True):
 
 
 class Texture(Struct):
-    """A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
+    """A repeated image: a JPEG file, and the width and height of one repetition in m.
 
-    It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
-    whatever the size.
+    `executor/render/mapping.py` maps it to shapes; on a mesh with `uvs` these do, and the size is unused.
     """
 
     jpeg: bytes
@@ -67,14 +66,14 @@ class Texture(Struct):
 
 
 class Light(Struct):
-    """A directional light; the direction is the one in which it shines."""
+    """A directional light, with the direction of its rays."""
 
     direction: list[float]
     intensity: float
 
 
 class SensorPlacement(Struct):
-    """Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad."""
+    """Pose of a sensor in the frame of object `object_id`; `fov` is horizontal, in rad."""
 
     name: str
     kind: Literal["lidar", "camera"]
@@ -85,7 +84,7 @@ class SensorPlacement(Struct):
 
 
 class Scene(Struct, tag="scene", tag_field="type", omit_defaults=True):
-    """The world, once for each client and again when it changes."""
+    """The world, sent once to each client and again when it changes."""
 
     name: str
     t: float
@@ -101,8 +100,9 @@ class Scene(Struct, tag="scene", tag_field="type", omit_defaults=True):
 class Poses(Struct, tag="poses", tag_field="type"):
     """Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
 
-    Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 says which of qx, qy, qz, qw is left out (the
-    largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)). Little-endian.
+    Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx, qy, qz,
+    qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
+    Little-endian.
     """
 
     t: float

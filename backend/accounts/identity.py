@@ -38,6 +38,12 @@ def identify(cookies: Mapping[str, str]) -> User | None:
     return _known_user(key) or _asked_user(key)
 
 
+def last_seen(cookies: Mapping[str, str]) -> int | None:
+    """Whose account these cookies were when they were last shown here; no right follows from it."""
+    known = _known.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
+    return None if known is None else known.user_id
+
+
 def _asked_user(key: str) -> User | None:
     request = HttpRequest()
     request.session = import_module(settings.SESSION_ENGINE).SessionStore(key)

@@ -53,6 +53,9 @@ def create(  # noqa: PLR0913, PLR0917 - one parameter an option
     if_missing: Annotated[  # noqa: FBT002
         bool, typer.Option("--if-missing", help="Be content if the account exists.")
     ] = False,
+    first: Annotated[  # noqa: FBT002
+        bool, typer.Option("--first", help="Be content if there is an administrator who can sign in.")
+    ] = False,
 ) -> None:
     """Makes an account: an administrator, unless --user or --teacher says otherwise.
 
@@ -63,6 +66,11 @@ def create(  # noqa: PLR0913, PLR0917 - one parameter an option
     with _accounts():
         from backend.accounts import actions, passwords
 
+        if first and (present := actions.an_administrator()) is not None:
+            print(f"{present.username} is an administrator.")
+            if not present.has_usable_password():
+                print(f"Set the password here, within three days: {passwords.link(present)}")
+            return
         if if_missing and actions.user_named(name) is not None:
             print(f"{name} exists.")
             return

@@ -23,6 +23,7 @@ from backend.config.handler import ThreadedHandler  # noqa: E402
 from backend.config.probes import probed  # noqa: E402
 from backend.config.siblings import beat_for_ever, siblings  # noqa: E402
 from backend.config.sockets import Route, serve  # noqa: E402
+from backend.config.websocket import LARGEST_MESSAGE  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
 from backend.projects import consumers as projects  # noqa: E402
 from backend.projects.notices import watch_revisions  # noqa: E402
@@ -59,8 +60,8 @@ IMPORT: Final = "/api/v1/projects/import"
 watch_revisions()
 routes: Final = {
     projects.ADDRESS: Route(projects.serve_notices, projects.may_read),
-    language.ADDRESS: Route(language.serve_language, projects.may_write),
-    sessions.ADDRESS: Route(sessions.relay, sessions.may_use),
+    language.ADDRESS: Route(language.serve_language, projects.may_write, language.MAX_MESSAGE_BYTES),
+    sessions.ADDRESS: Route(sessions.relay, sessions.may_use, LARGEST_MESSAGE),
 }
 
 

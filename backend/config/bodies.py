@@ -118,14 +118,16 @@ class Bodies:
         self._writing = Threads(2, "bodies")
 
     @contextlib.asynccontextmanager
-    async def read(self, scope: HTTPScope, receive: ASGIReceiveCallable) -> AsyncIterator[Body]:
-        """Reads one body; it is there until the block ends.
+    async def read(
+        self, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None = None
+    ) -> AsyncIterator[Body]:
+        """Reads one body; it is there until the block ends. `owner` is for whom threads work.
 
         Raises:
             BodyRefusedError: it is not, or no longer, read.
             ClientLeftError: there is nobody to answer.
         """
-        reading = _Reading(self, scope, receive)
+        reading = _Reading(self, scope, receive, owner)
         try:
             body = await reading.whole()
             with body.file:
@@ -141,9 +143,9 @@ class Bodies:
         finally:
             reading.done()
 
-    async def ask(self, work: Callable[[], Any]) -> Any:
+    async def ask(self, work: Callable[[], Any], owner: str | None) -> Any:
         """Has a thread with a connection to the database do it."""
-        return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work))
+        return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work), owner)
 
     async def write(self, work: Callable[[], Any]) -> Any:
         """Has a thread write to the disk, or read from there."""
@@ -158,8 +160,10 @@ def _asked(work: Callable[[], Any]) -> Any:
 class _Reading:
     """One body."""
 
-    def __init__(self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable) -> None:
-        self._bodies, self._scope, self._receive = bodies, scope, receive
+    def __init__(
+        self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None
+    ) -> None:
+        self._bodies, self._scope, self._receive, self._owner = bodies, scope, receive, owner
         self._headers = headers_of(scope)
         self._place: Place | None = None
         self._is_upload = False
@@ -195,7 +199,7 @@ class _Reading:
             user = await self._sender()
         if upload is not None and user is not None and not user.is_guest:
             self._take_slot(user, is_upload=True)
-            room = await self._bodies.ask(partial(upload.room, user))
+            room = await self._ask(partial(upload.room, user))
             self._most, self._in_memory = min(room, environment().max_temporary_bytes), PART
         elif declared > environment().max_request_bytes:
             raise _too_large(environment().max_request_bytes)
@@ -220,8 +224,11 @@ class _Reading:
     async def _sender(self) -> User | None:
         """Who sends this."""
         cookies = cookies_of(self._headers.get("cookie", ""))
-        user: User | None = await self._bodies.ask(partial(identify, cookies))
+        user: User | None = await self._ask(partial(identify, cookies))
         return user
+
+    async def _ask(self, work: Callable[[], Any]) -> Any:
+        return await self._bodies.ask(work, self._owner)
 
     def _take_slot(self, user: User, *, is_upload: bool) -> None:
         most = UPLOADS_AT_ONCE if is_upload else LARGE_AT_ONCE

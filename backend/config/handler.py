@@ -23,6 +23,7 @@ from backend.config.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefused
 from backend.config.environment import environment
 from backend.config.file_answers import PART, FileAnswer
 from backend.config.middleware import secured
+from backend.config.owners import owner_of
 from backend.config.problems import problem, problem_response
 from backend.config.scratch import scratch
 from backend.config.siblings import siblings
@@ -42,6 +43,8 @@ THREADS: Final = {"local": 8, "team": 8}
 """By mode; each has a connection to the database."""
 THREADS_OF_SEVERAL: Final = 4
 """The same for each of several workers."""
+OWNERS_SHARE: Final = 4
+"""On a server with accounts, one user, or all strangers and guests behind one address, have one in four."""
 HASHING: Final = ("/accounts/", "/admin/")
 """Where passwords come, each of which takes a processor a third of a second."""
 MOST_WAITING: Final = 600
@@ -76,23 +79,26 @@ class ThreadedHandler(ASGIHandler):
         self.load_middleware(is_async=False)
         family = siblings.family
         size = family.size if family else 1
-        self.threads = Threads(THREADS_OF_SEVERAL if family else THREADS[environment().mode], "http")
+        threads = THREADS_OF_SEVERAL if family else THREADS[environment().mode]
+        share = threads // OWNERS_SHARE if environment().is_team else None
+        self.threads = Threads(threads, "http", per_owner=share)
         self._hashing = asyncio.Semaphore(max(1 if family else 2, (os.cpu_count() or 1) // (2 * size)))
         self._waiting, self._most_waiting = 0, MOST_WAITING // size
         self._bodies = Bodies(self.threads, upload, scratch())
 
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
+        owner = owner_of(scope)
         try:
-            async with self._bodies.read(scope, receive) as body:
+            async with self._bodies.read(scope, receive, owner) as body:
                 # What a request sets for itself (language, address) must not stay with the thread.
                 context = contextvars.copy_context()
                 work = partial(context.run, self._answer, scope, body.file)
-                async with self._turn(scope):
-                    answer = await self._answered(work)
+                async with self._turn(scope) as has_turn:
+                    answer = await self._answered(work, None if has_turn else owner)
                 while isinstance(answer, Unfinished):
                     await _ended(answer.response.work)
-                    answer = await self._answered(partial(context.run, self._complete, answer))
+                    answer = await self._answered(partial(context.run, self._complete, answer), owner)
         except ClientLeftError:
             return
         except BodyRefusedError as error:
@@ -113,10 +119,10 @@ class ThreadedHandler(ASGIHandler):
             await send({"type": "http.response.body", "body": b"", "more_body": False})
 
     @asynccontextmanager
-    async def _turn(self, scope: HTTPScope) -> AsyncIterator[None]:
-        """Waits, without a thread, while as many passwords are hashed as may be at a time."""
+    async def _turn(self, scope: HTTPScope) -> AsyncIterator[bool]:
+        """Waits, without a thread, while as many passwords are hashed as may be; yields whether it did."""
         if scope["method"] != "POST" or not scope["path"].startswith(HASHING):
-            yield
+            yield False
             return
         if self._waiting >= self._most_waiting:
             sentence = "Too many people sign in at this moment."
@@ -125,12 +131,14 @@ class ThreadedHandler(ASGIHandler):
         self._waiting += 1
         try:
             async with self._hashing:
-                yield
+                yield True
         finally:
             self._waiting -= 1
 
-    async def _answered(self, work: Callable[[], Answer | Unfinished]) -> Answer | Unfinished:
-        answer: Answer | Unfinished = await self.threads.run(asyncio.get_running_loop(), work)
+    async def _answered(
+        self, work: Callable[[], Answer | Unfinished], owner: str | None
+    ) -> Answer | Unfinished:
+        answer: Answer | Unfinished = await self.threads.run(asyncio.get_running_loop(), work, owner)
         return answer
 
     def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer | Unfinished:

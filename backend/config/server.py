@@ -220,7 +220,7 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
     import uvicorn  # noqa: PLC0415 - slow to load
 
     from backend.config.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
-    from backend.config.websocket import PatientSocket  # noqa: PLC0415 - as above
+    from backend.config.websocket import LARGEST_MESSAGE, PatientSocket  # noqa: PLC0415 - as above
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
@@ -236,7 +236,7 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
         http=PatientProtocol,
         lifespan="on",
         ws=PatientSocket,
-        ws_max_size=64 * 1024 * 1024,
+        ws_max_size=LARGEST_MESSAGE,
         ws_per_message_deflate=False,
         ws_ping_interval=20,
         ws_ping_timeout=40,

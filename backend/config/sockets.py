@@ -10,9 +10,10 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import re  # noqa: TC003
-from collections.abc import Awaitable, Callable, Mapping
+from collections import Counter
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from uuid import UUID
 
 from asgiref.sync import sync_to_async
@@ -21,8 +22,10 @@ from backend.accounts import rights
 from backend.accounts.identity import identify
 from backend.config import guard
 from backend.config.environment import environment
+from backend.config.owners import owner_of
 from backend.config.problems import StudioError
 from backend.config.scopes import cookies_of, facts_of, headers_of
+from backend.config.websocket import MOST_BYTES, SMALL_BYTES
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
@@ -36,6 +39,12 @@ POLICY_VIOLATION: Final = 1008
 SIGNED_OUT: Final = 4401
 FORBIDDEN: Final = 4404
 _REASON_BYTES: Final = 120  # a close frame holds 123
+OF_A_USER: Final = 100
+"""Sockets that one user may have open: each page has up to four."""
+OF_AN_ADDRESS: Final = 500
+"""The same of all guests, and of all whom the server has not seen before, behind one address."""
+AT_THE_DOOR: Final = 2
+"""Of these, how many are asked at a time who they are; the others wait."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +71,38 @@ class Route(NamedTuple):
     """Who serves a socket, and what its user must be allowed to do.
 
     `may` is given the id in the address and the user, and raises a StudioError when they may no longer.
+    Guests say nothing, and users at most `most_bytes` at a time.
     """
 
     handler: Handler
     may: Callable[[UUID, User], object]
+    most_bytes: int = SMALL_BYTES
+
+
+class Crowd:
+    """Counts the sockets of each owner, and lets few of them in at a time."""
+
+    def __init__(self) -> None:
+        self.sockets: Counter[str] = Counter()
+        self._doors: dict[str, asyncio.Semaphore] = {}
+
+    @contextlib.asynccontextmanager
+    async def place(self, owner: str) -> AsyncIterator[asyncio.Semaphore | None]:
+        """The owner's door for as long as a socket is open; None where they have too many."""
+        most = OF_AN_ADDRESS if owner.startswith("address") else OF_A_USER
+        if self.sockets[owner] >= most and environment().is_team:
+            yield None
+            return
+        self.sockets[owner] += 1
+        try:
+            yield self._doors.setdefault(owner, asyncio.Semaphore(AT_THE_DOOR))
+        finally:
+            self.sockets[owner] -= 1
+            if not self.sockets[owner]:
+                del self.sockets[owner], self._doors[owner]
+
+
+_crowd: Final = Crowd()
 
 
 def refusal(scope: WebSocketScope) -> guard.Refusal | None:
@@ -82,21 +119,40 @@ async def serve(
     """Serves a socket whose path is one of these; all others are refused."""
     await receive()  # websocket.connect
     found = _route(routes, scope["path"])
-    # Whether this user may see what the path names is for the handler to ask.
-    user = None if found is None or refusal(scope) is not None else await _user(scope)
-    if found is None or user is None:
-        # A close before the accept makes the server answer the handshake with 403.
-        await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
-        return
-    address, route = found
+    async with _crowd.place(owner_of(scope)) as door:
+        # Whether this user may see what the path names is for the handler to ask.
+        user = None
+        if found is not None and door is not None and refusal(scope) is None:
+            async with door:
+                user = await _user(scope)
+        if found is None or user is None:
+            # A close before the accept makes the server answer the handshake with 403.
+            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
+            return
+        await _serve(*found, user, scope, receive, send)
+
+
+async def _serve(  # noqa: PLR0913, PLR0917 - a socket
+    address: re.Match[str],
+    route: Route,
+    user: User,
+    scope: WebSocketScope,
+    receive: ASGIReceiveCallable,
+    send: ASGISendCallable,
+) -> None:
     offered = list(scope.get("subprotocols") or [])
     subprotocol = PROTOCOL if PROTOCOL in offered else None
-    await send({"type": "websocket.accept", "subprotocol": subprotocol, "headers": []})
+    most = SMALL_BYTES if user.is_guest else route.most_bytes
+    accept: Any = {"subprotocol": subprotocol, "headers": [], MOST_BYTES: most}
+    await send({"type": "websocket.accept"} | accept)
     call = Call(address, user, scope["query_string"].decode("latin-1"))
-    if environment().is_team:
-        closed = await _while_allowed(route, call, scope, receive, send)
-    else:
-        closed = await route.handler(call, receive, send)
+    try:
+        if environment().is_team:
+            closed = await _while_allowed(route, call, scope, receive, send)
+        else:
+            closed = await route.handler(call, receive, send)
+    except StudioError as error:
+        closed = Closed(FORBIDDEN, error.detail)
     if closed is not None:
         with contextlib.suppress(OSError, RuntimeError):
             await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})

@@ -1,18 +1,23 @@
 """A few threads that stay; of those that are idle, the one that worked last works next.
 
-What it needs is then still at hand: its connection to the database, and at the other end a PostgreSQL process
-that knows the statements. Where threads take turns, as in `ThreadPoolExecutor`, each begins cold.
+What that thread needs is still at hand: its connection to the database, and at the other end a PostgreSQL
+process that knows the statements. Where threads take turns, as in `ThreadPoolExecutor`, each begins cold.
+Owners, however, take turns, and none has more than a share of the threads: however much one of them asks
+for, the others find a free one.
 """
 
 from __future__ import annotations
 
 import atexit
+import itertools
+import sys
 import threading
 import time
-from collections import deque
 from contextlib import suppress
 from queue import SimpleQueue
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from backend.workers.fair import FairQueue
 
 if TYPE_CHECKING:
     import asyncio
@@ -20,27 +25,50 @@ if TYPE_CHECKING:
 
     Job = Callable[[], Callable[[], None]]
     """Works, and returns what tells that it is done."""
-    Inbox = SimpleQueue[Job | None]
 
 PATIENCE_S: Final = 5.0
 """How long the end of the program waits for each thread that still works."""
 
 
-class Threads:
-    """Works for coroutines."""
+class _Task(NamedTuple):
+    owner: str
+    job: Job
 
-    def __init__(self, number: int, name: str) -> None:
+
+Inbox = SimpleQueue[_Task | None]
+
+
+class Threads:
+    """Works for coroutines.
+
+    Args:
+        number: how many there are.
+        name: what they are called.
+        per_owner: how many work for one owner at a time; all of them without it.
+    """
+
+    def __init__(self, number: int, name: str, *, per_owner: int | None = None) -> None:
         self._number, self._name = number, name
+        self._per_owner = per_owner or number
         self._lock = threading.Lock()
         self._idle: list[Inbox] = []
-        self._waiting: deque[Job] = deque()
+        self._waiting = self._empty()
+        self._nobody = itertools.count()
         self._threads: dict[threading.Thread, Inbox] = {}
         self._full_since_s: float | None = None
         self._progress_s = 0.0
         atexit.register(self.end)
 
-    def run(self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any]) -> asyncio.Future[Any]:
-        """Begins the work as soon as a thread is free; the future belongs to the loop."""
+    def run(
+        self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any], owner: str | None = None
+    ) -> asyncio.Future[Any]:
+        """Begins the work as soon as a thread is free; the future belongs to the loop.
+
+        Args:
+            loop: whose coroutine waits.
+            work: what is done.
+            owner: for whom, who then has a share of the threads; work of nobody counts for itself.
+        """
         future = loop.create_future()
 
         def job() -> Callable[[], None]:
@@ -50,7 +78,7 @@ class Threads:
                 result, error = None, raised
             return lambda: _tell(loop, future, result, error)
 
-        self._hand_out(job)
+        self._hand_out(f"#{next(self._nobody)}" if owner is None else owner, job)
         return future
 
     def full_for_s(self) -> float:
@@ -69,25 +97,26 @@ class Threads:
         """Lets what is begun come to its end, and waits for it a while."""
         with self._lock:
             threads, self._threads = self._threads, {}
-            self._waiting.clear()
+            self._waiting = self._empty()
         for inbox in threads.values():
             inbox.put(None)
         for thread in threads:
             thread.join(PATIENCE_S)
         atexit.unregister(self.end)
 
-    def _hand_out(self, job: Job) -> None:
+    def _empty(self) -> FairQueue[Job]:
+        return FairQueue(room=sys.maxsize, per_owner=self._per_owner)
+
+    def _hand_out(self, owner: str, job: Job) -> None:
         with self._lock:
-            if self._idle:
-                inbox = self._idle.pop()
-            elif len(self._threads) < self._number:
-                inbox = self._begin_thread()
-            else:
-                self._waiting.append(job)
+            self._waiting.put(owner, job)
+            is_one_free = self._idle or len(self._threads) < self._number
+            if not is_one_free or (taken := self._waiting.take()) is None:
                 return
+            inbox = self._idle.pop() if self._idle else self._begin_thread()
             if not self._idle and len(self._threads) == self._number:
                 self._full_since_s = time.monotonic()
-        inbox.put(job)
+        inbox.put(_Task(*taken))
 
     def _begin_thread(self) -> Inbox:
         inbox: Inbox = SimpleQueue()
@@ -98,19 +127,20 @@ class Threads:
         return inbox
 
     def _work(self, inbox: Inbox) -> None:
-        while (job := inbox.get()) is not None:
-            following: Job | None = job
+        while (task := inbox.get()) is not None:
+            following: _Task | None = task
             while following is not None:
-                tell = following()
-                following = self._next(inbox)  # first, so that whoever is told finds this thread idle
+                done, tell = following.owner, following.job()
+                following = self._next(inbox, done)  # first, so that whoever is told finds this thread idle
                 tell()
 
-    def _next(self, inbox: Inbox) -> Job | None:
-        """What waits for a thread; without it, this one is idle."""
+    def _next(self, inbox: Inbox, done: str) -> _Task | None:
+        """What waits for a thread and may begin; without it, this one is idle."""
         with self._lock:
             self._progress_s = time.monotonic()
-            if self._waiting:
-                return self._waiting.popleft()
+            self._waiting.done(done)
+            if (taken := self._waiting.take()) is not None:
+                return _Task(*taken)
             self._idle.append(inbox)
             self._full_since_s = None
             return None

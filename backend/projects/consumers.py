@@ -11,7 +11,7 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 
 from backend.config.problems import NotFoundError
-from backend.config.sockets import ID, Call, Closed
+from backend.config.sockets import ID, POLICY_VIOLATION, Call, Closed
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.notices import notices_of
@@ -54,13 +54,13 @@ async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISend
         telling = asyncio.create_task(_relay(following, send))
         leaving = asyncio.create_task(_until_left(receive))
         try:
-            await asyncio.wait((telling, leaving), return_when=asyncio.FIRST_COMPLETED)
+            done, _ = await asyncio.wait((telling, leaving), return_when=asyncio.FIRST_COMPLETED)
+            return leaving.result() if leaving in done else None
         finally:
             pages.leave(send)
             telling.cancel()
             leaving.cancel()
             await asyncio.gather(telling, leaving, return_exceptions=True)
-    return None
 
 
 async def _relay(following: Any, send: ASGISendCallable) -> None:
@@ -72,6 +72,8 @@ async def _tell(send: ASGISendCallable, notice: dict[str, Any]) -> None:
     await send({"type": "websocket.send", "text": json.dumps(notice), "bytes": None})
 
 
-async def _until_left(receive: ASGIReceiveCallable) -> None:
-    while (await receive())["type"] != "websocket.disconnect":
-        pass
+async def _until_left(receive: ASGIReceiveCallable) -> Closed | None:
+    """Returns when the page has gone, or says something: pages have nothing to say here."""
+    if (await receive())["type"] == "websocket.disconnect":
+        return None
+    return Closed(POLICY_VIOLATION, "Nothing is said on this socket.")

@@ -16,7 +16,8 @@ class FairQueue(Generic[Item]):
     """A queue for each owner, served in turn. The caller sees to it that one thread at a time uses it.
 
     Args:
-        room: how many items may wait, of all owners together.
+        room: how many items may wait, of all owners together; of one owner half as many, so that an owner who
+            asks for much cannot fill it.
         per_owner: how many items of one owner may be at work at a time.
     """
 
@@ -33,9 +34,10 @@ class FairQueue(Generic[Item]):
         """Lets an item wait.
 
         Raises:
-            QueueFullError: there is no room.
+            QueueFullError: there is no room, or none for this owner.
         """
-        if len(self) >= self._room:
+        own = self._waiting.get(owner, ())
+        if len(self) >= self._room or len(own) >= max(1, self._room // 2):
             raise QueueFullError
         self._waiting.setdefault(owner, deque()).append(item)
 

@@ -116,7 +116,8 @@ class Pool:
                     hint="Try again in a few seconds.",
                 ) from None
             self._going[key] = future
-            if not self._idle and len(self._workers) < self._limits.workers:
+            # One more than is needed, so that the next owner's job meets a process that has begun.
+            if self._idle < 2 and len(self._workers) < self._limits.workers:
                 self._workers.append(_Worker(self, f"worker_{len(self._workers)}"))
             self._changed.notify()
         return future
@@ -202,7 +203,7 @@ class _Worker:
                 process.kill()
 
     def _work(self) -> None:
-        while (taken := self._pool.next()) is not None:
+        while (taken := self._next()) is not None:
             owner, job = taken
             answer: bytearray | Exception
             try:
@@ -211,6 +212,12 @@ class _Worker:
                 answer = error
             self._pool.done(owner, job, answer)
         self._end()
+
+    def _next(self) -> tuple[str, _Job] | None:
+        """The next job; the process begins before it comes, for it needs a second to do so."""
+        with suppress(OSError):  # the job's own attempt tells of it
+            self._connected(self._pool.limits)
+        return self._pool.next()
 
     def _done(self, job: _Job) -> bytearray:
         limits = self._pool.limits

@@ -1,1 +1,1 @@
-"""The process that runs a user's tree: it loads, ticks and reports, and never takes the session down."""
+"""The process that runs a user's tree: its crash does not end the session."""

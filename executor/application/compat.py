@@ -1,4 +1,4 @@
-"""What actions take for granted: message modules that are imported, `cv_bridge`, `tree_tools`."""
+"""Modules that actions expect: imported message modules, `cv_bridge`, `tree_tools`."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ LIBRARIES: Final = ("rclpy.executors", "rclpy.qos", "py_trees", "numpy", "cv2")
 
 
 def warm_up() -> None:
-    """Imports what nearly every application uses.
+    """Imports the modules that nearly every application uses.
 
-    Actions of JdeRobot BT Studio say `import geometry_msgs` and use `geometry_msgs.msg`, which only works
-    once somebody imported the submodule.
+    Actions of JdeRobot BT Studio `import geometry_msgs` and use `geometry_msgs.msg`, which only works after
+    another import of the submodule.
     """
     for name in (*MESSAGES, *LIBRARIES):
         if find_spec(name.partition(".")[0]) is not None and find_spec(name) is not None:
@@ -42,11 +42,11 @@ def warm_up() -> None:
 
 
 def install() -> None:
-    """Makes `tree_tools`, `cv_bridge` and Python parts of ROS importable where they are not installed."""
+    """Makes `tree_tools`, `cv_bridge` and Python parts of ROS importable if they are not installed."""
     from tree_gardener import tree_tools  # noqa: PLC0415 - not before ROS has its environment
 
     tree_tools.install()
     if find_spec("cv_bridge") is None:
         sys.modules["cv_bridge"] = importlib.import_module("executor.application.cv_bridge")
     if str(ROS_PYTHON) not in sys.path:
-        sys.path.append(str(ROS_PYTHON))  # the last: what is installed wins
+        sys.path.append(str(ROS_PYTHON))  # last: installed modules take precedence

@@ -8,6 +8,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Final
 
+from executor.child_messages import Log
 from executor.supervision.channel import ChannelClosed
 from executor.supervision.output import LINE_CHARACTERS, RateLimit
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.application.locate import Locator
+    from executor.messages import LogLevel
 
 __all__ = ["Console"]
 
@@ -22,19 +24,17 @@ _MAX_PENDING: Final = 1 << 16
 
 
 class Console(io.TextIOBase):
-    """Takes the place of `sys.stdout` or `sys.stderr`.
+    """Replaces `sys.stdout` or `sys.stderr`.
 
     Args:
         level: of the lines.
-        send: takes `log` messages.
-        locator: tells the node.
-        original: the stream whose place it takes; it gets the lines when the channel is gone, as it is in
-            a process that an action forked.
+        send: takes the lines.
+        locator: finds the node that wrote.
+        original: the replaced stream; it gets the lines when the channel is closed, as in a process that
+            an action forked.
     """
 
-    def __init__(
-        self, level: str, send: Callable[[dict[str, Any]], None], locator: Locator, original: Any
-    ) -> None:
+    def __init__(self, level: LogLevel, send: Callable[[Log], None], locator: Locator, original: Any) -> None:
         self._level = level
         self._send = send
         self._locator = locator
@@ -50,7 +50,7 @@ class Console(io.TextIOBase):
 
     @property
     def buffer(self) -> Any:
-        """The binary stream below, for those who write bytes."""
+        """The binary stream below."""
         return self._original.buffer
 
     def fileno(self) -> int:
@@ -58,15 +58,15 @@ class Console(io.TextIOBase):
         return int(self._original.fileno())
 
     def writable(self) -> bool:
-        """It is."""
+        """Returns True."""
         return True
 
     def isatty(self) -> bool:
-        """It is not."""
+        """Returns False."""
         return False
 
     def write(self, text: str) -> int:
-        """Takes a piece of text; each whole line is sent."""
+        """Buffers text; each complete line is sent."""
         pending = getattr(self._pending, "text", "") + str(text)
         *lines, rest = pending.split("\n")
         if len(rest) > _MAX_PENDING:
@@ -94,9 +94,9 @@ class Console(io.TextIOBase):
         self._emit(line[:LINE_CHARACTERS], self._locator.node_of(sys._getframe(2)))
 
     def _emit(self, line: str, node: Any) -> None:
-        message = {"type": "log", "level": self._level, "text": line}
+        message = Log(self._level, line)
         if node is not None:
-            message |= {"node_id": node.node_id, "node_path": node.path}
+            message.node_id, message.node_path = node.node_id, node.path
         try:
             self._send(message)
         except ChannelClosed:

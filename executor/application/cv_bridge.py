@@ -1,4 +1,4 @@
-"""The part of ROS's `cv_bridge` that actions use, for where the real one is not installed.
+"""Replaces the part of ROS's `cv_bridge` that actions use, if the real one is not installed.
 
 `CvBridge.imgmsg_to_cv2` and `CvBridge.cv2_to_imgmsg` convert between `sensor_msgs/Image` and arrays.
 """
@@ -57,7 +57,7 @@ class CvBridge:
         """Returns the picture of an `Image` message as an array, rows first.
 
         Raises:
-            CvBridgeError: the encoding is unknown, or there is no way to the desired one.
+            CvBridgeError: the encoding is unknown, or cannot be converted to the desired one.
         """
         kind, channels = _layout(img_msg.encoding)
         kind = kind.newbyteorder(">" if img_msg.is_bigendian else "<")

@@ -1,4 +1,4 @@
-"""Keeps an action that forks in a loop from taking the machine down before it is noticed."""
+"""Limits the forks of actions, so that one that forks in a loop does not exhaust the machine."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _limited: Final[list[bool]] = []
 
 
 def limit_forks() -> None:
-    """Refuses `os.fork` once this process and those forked from it did it too often in a short time.
+    """Makes `os.fork` fail once this process and its forks called it too often in a short time.
 
-    Who asks again while it is refused prolongs the refusal: on a machine so busy that the forked take long to
-    end, each of them would else get another share, and there would be ever more of them.
+    A refused call prolongs the refusal: on a busy machine, where forked processes take long to end, each
+    would otherwise get another share, and their number would grow.
 
-    It is a guard against accidents; the manager counts the processes and ends a tree that has too many. It
-    stays for the life of the process; again is harmless.
+    It guards against accidents; the manager counts the processes and ends a tree with too many. The limit
+    lasts for the life of the process; it may be set twice.
     """
     if _limited:
         return
     _limited.append(True)
-    shared = mmap.mmap(-1, mmap.PAGESIZE)  # anonymous and shared: forked processes count on
+    shared = mmap.mmap(-1, mmap.PAGESIZE)  # anonymous and shared: forked processes count in it too
 
     def audit(event: str, _: tuple[Any, ...]) -> None:
         if event != "os.fork":

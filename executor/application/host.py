@@ -1,4 +1,4 @@
-"""What every process has that runs users' code, in a session and in lock-step alike."""
+"""Set-up of every process that runs users' code, in a session or in lock-step."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ __all__ = ["enter", "prepare"]
 
 
 def prepare() -> None:
-    """Loads and offers what actions take for granted. Call it once ROS has its environment."""
+    """Loads and installs the modules that actions expect. Call it after the ROS environment is set."""
     compat.warm_up()
     compat.install()
 
 
 def enter(folder: Path) -> Callable[[], None]:
-    """Goes where the application is: its files and modules are found by name; gives the way back.
+    """Makes the folder of the application current and importable; returns a function that undoes this.
 
-    Modules of the project come last: ours and Python's go before them.
+    Modules of the project are searched last, after ours and Python's.
     """
     before, paths = Path.cwd(), [str(folder), str(folder / "actions")]
     os.chdir(folder)

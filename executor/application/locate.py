@@ -1,4 +1,4 @@
-"""Which node of the tree, and which line of an action, a stack of frames belongs to."""
+"""Maps stack frames to nodes of the tree and lines of actions."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import traceback
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from executor import child_messages
 from executor.supervision.pulse import place_in_our_code
 
 if TYPE_CHECKING:
@@ -40,19 +41,19 @@ class Place:
         what = f"{self.node_type or 'an action'} '{self.node_path}'" if self.node_path else "an action"
         return f"{what} ({self.file}:{self.line})" if self.file else what
 
-    def to_message(self) -> dict[str, Any]:
-        """Returns what a beat says of it."""
-        return {**asdict(self), "text": str(self)} if self.is_in_action else {}
+    def to_message(self) -> child_messages.Place | None:
+        """Returns the place as a beat reports it; None outside of the user's code."""
+        return child_messages.Place(str(self), **asdict(self)) if self.is_in_action else None
 
 
 class Locator:
-    """Finds nodes by the behaviours that their methods run on."""
+    """Finds the node of a frame by the behaviour that is its `self`."""
 
     def __init__(self) -> None:
         self._nodes: dict[int, Any] = {}
 
     def learn(self, tree: Tree) -> None:
-        """Takes the nodes of a tree."""
+        """Stores the nodes of a tree."""
         for node in tree.nodes:
             behaviour = getattr(node, "instance_behaviour", None)
             if behaviour is not None:
@@ -72,14 +73,14 @@ class Locator:
         return None
 
     def place_of_error(self, error: BaseException) -> Place:
-        """Returns where an exception was raised."""
+        """Returns the place where an exception was raised."""
         trace, frame = error.__traceback__, None
         while trace is not None:
             frame, trace = trace.tb_frame, trace.tb_next
         return self.place_of(frame)
 
-    def beat_place(self, frame: FrameType | None) -> dict[str, Any]:
-        """Returns where the main thread is, for a beat: in the user's code, or in ours."""
+    def beat_place(self, frame: FrameType | None) -> child_messages.Place:
+        """Returns the place of the main thread for a beat, in the user's code or in ours."""
         return self.place_of(frame).to_message() or place_in_our_code(frame)
 
     def place_of(self, frame: FrameType | None) -> Place:
@@ -99,5 +100,5 @@ class Locator:
 
 
 def is_action_file(name: str) -> bool:
-    """Whether a file name is that of an action of the project."""
+    """Whether a file is an action of the project."""
     return name.startswith("actions/")

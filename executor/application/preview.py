@@ -1,4 +1,4 @@
-"""Values of the blackboard as JSON: as they are where small and plain, else as a short text."""
+"""Values of the blackboard as JSON: small plain values unchanged, others as a short text."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _short.maxlevel = 3
 
 
 def preview(value: Any) -> tuple[Any, bool]:
-    """Returns something that JSON can carry, and whether it only stands for the value."""
+    """Returns a value that JSON can hold, and whether it is only a preview."""
     if _is_plain(value, depth=3):
         return value, False
     try:
@@ -33,7 +33,7 @@ def _is_plain(value: Any, depth: int) -> bool:
         case None | bool():
             return True
         case int():
-            return -(2**53) < value < 2**53  # what a browser's numbers hold
+            return -(2**53) < value < 2**53  # the exact integers of a browser
         case float():
             return math.isfinite(value)
         case str():

@@ -1,8 +1,8 @@
 """The application as a process of its own: `python -m executor.application.process --channel-fd N`.
 
-It may be started ahead of its use: it imports what takes long, joins the ROS graph, and waits for
-``start``. The main thread loads, ticks and runs the actions' callbacks; a second one listens to the
-manager; a third one tells it how the first does (`executor.supervision.pulse`).
+It may be started as a spare: it imports slow modules, joins the ROS graph, and waits for ``start``. The main
+thread loads, ticks and runs the actions' callbacks; a second one receives messages of the manager; a third
+one sends beats (`executor.supervision.pulse`).
 """
 
 from __future__ import annotations
@@ -18,8 +18,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from executor import child_messages
+from executor.child_messages import FromApplication, StartApplication, ToApplication, decode_to_application
 from executor.ros.environment import ros_environment
-from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
 
@@ -38,9 +40,9 @@ class _Stop(Exception):  # noqa: N818 - the way out, not an error
 
 
 class Application:
-    """Loads one application, runs it, and says how it ended."""
+    """Loads one application, runs it, and reports how it ended."""
 
-    def __init__(self, channel: Channel, pulse: Pulse) -> None:
+    def __init__(self, channel: Channel[FromApplication, ToApplication], pulse: Pulse) -> None:
         from executor.application.locate import Locator  # noqa: PLC0415 - after the environment is set
         from executor.application.report import Reporter  # noqa: PLC0415 - as above
         from executor.application.ros import Graph  # noqa: PLC0415 - as above
@@ -48,7 +50,7 @@ class Application:
 
         self._channel = channel
         self._pulse = pulse
-        self._commands: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+        self._commands: queue.SimpleQueue[ToApplication] = queue.SimpleQueue()
         self._graph: Graph = Graph(int(os.environ["ROS_DOMAIN_ID"]), self._on_clock)
         self._reporter = Reporter(channel.send, self._now)
         self._locator = Locator()
@@ -59,18 +61,18 @@ class Application:
         self._is_connected = False
 
     def run(self) -> None:
-        """Works until the run is over or the manager is gone."""
+        """Runs until the run is over or the manager is gone."""
         threading.Thread(target=self._listen, name="listener", daemon=True).start()
         start = self._wait_for_start()
         if start is None:
             return
         with self._pulse.busy("loading"):
-            self._channel.send({"type": "starting"})
+            self._channel.send(child_messages.Starting())
             self._redirect_output()
             self._join(start)
             if not self._load(start):
                 return
-        self._channel.send({"type": "ready"})
+        self._channel.send(child_messages.ApplicationReady())
         self._breaker.arm()
         try:
             while True:
@@ -81,14 +83,14 @@ class Application:
         self._say_goodbye()
 
     def close(self) -> None:
-        """Leaves the ROS graph and lets the last messages out."""
+        """Sends the last messages and leaves the ROS graph."""
         self._channel.flush(GOODBYE_S)
         self._graph.close()
 
     # --- commands ---------------------------------------------------------------------------------
 
     def _listen(self) -> None:
-        """Receives on a thread of its own, so that the main one can wait for ROS."""
+        """Receives messages on a thread of its own, since the main one waits for ROS."""
         try:
             while True:
                 message = self._channel.receive()
@@ -96,19 +98,22 @@ class Application:
                     self._commands.put(message)
                     self._graph.wake()
         except ChannelClosed:
-            os._exit(0)  # without a manager there is nobody to run for
+            os._exit(0)  # without a manager the run has no purpose
+        except ChannelError as error:
+            os.write(2, f"The manager sent a message that cannot be read: {error}\n".encode())
+            os._exit(1)
 
-    def _wait_for_start(self) -> dict[str, Any] | None:
+    def _wait_for_start(self) -> StartApplication | None:
         self._pulse.rests()
         while True:
             self._pulse.moved()
-            # Spinning lets the graph's discovery go on.
+            # Spinning continues the discovery of the graph.
             self._graph.spin_once(SPIN_S)
             while not self._commands.empty():
                 message = self._commands.get()
-                if message["type"] == "stop":
+                if isinstance(message, child_messages.Stop):
                     return None
-                if message["type"] == "start":
+                if isinstance(message, StartApplication):
                     return message
 
     def _turn(self) -> None:
@@ -120,39 +125,39 @@ class Application:
         self._reporter.flush()
         self._guarded(lambda: self._graph.spin_once(SPIN_S))
 
-    def _obey(self, message: dict[str, Any]) -> None:
+    def _obey(self, message: ToApplication) -> None:
         runner = self._runner
         assert runner is not None  # noqa: S101 - commands come after `ready`
-        match message["type"]:
-            case "stop":
+        match message:
+            case child_messages.Stop():
                 runner.stop()
                 raise _Stop
-            case "pause":
+            case child_messages.Pause():
                 runner.pause()
-                self._channel.send({"type": "paused"})
-            case "resume":
+                self._channel.send(child_messages.Paused())
+            case child_messages.Resume():
                 runner.resume()
-                self._channel.send({"type": "resumed"})
-            case "step":
+                self._channel.send(child_messages.Resumed())
+            case child_messages.StepTick():
                 runner.step()
                 self._guarded(lambda: runner.tick_due(self._graph.now()))
                 self._reporter.flush(now=True)
-                self._channel.send({"type": "stepped"})
-            case "set_tick_rate":
-                runner.set_tick_rate(float(message["tick_hz"]))
-                self._channel.send({"type": "answer", "request": message.get("request")})
-            case "set_blackboard":
-                self._channel.send({"type": "blackboard_set", "error": self._set_blackboard(message)})
+                self._channel.send(child_messages.Stepped())
+            case child_messages.SetTickRate():
+                runner.set_tick_rate(message.tick_hz)
+                self._channel.send(child_messages.Answer(request=message.request))
+            case child_messages.SetBlackboard():
+                self._channel.send(child_messages.BlackboardSet(self._set_blackboard(message)))
 
-    def _set_blackboard(self, message: dict[str, Any]) -> str:
-        assert self._runner is not None  # noqa: S101 - dito
+    def _set_blackboard(self, message: child_messages.SetBlackboard) -> str:
+        assert self._runner is not None  # noqa: S101 - as above
         from tree_gardener.errors import PortError  # noqa: PLC0415 - as all of the engine, with the tree
 
-        tree, scope = self._runner.tree, str(message["scope"])
+        tree, scope = self._runner.tree, message.scope
         try:
             board = tree.blackboard.scope(scope) if scope else tree.blackboard
-            key, value = str(message["key"]), message["value"]
-            # JSON has one kind of number: 1 written over 0.5 is still a double.
+            key, value = message.key, message.value
+            # JSON has one kind of number: 1 over 0.5 must stay a double.
             is_double = isinstance(board.get(key), float) and type(value) is int
             board[key] = float(value) if is_double else value
         except KeyError:
@@ -161,7 +166,7 @@ class Application:
             return f"The {error}."
         except Exception as error:
             return f"{type(error).__name__}: {error}"
-        self._reporter.written(tree, scope, str(message["key"]))
+        self._reporter.written(tree, scope, message.key)
         return ""
 
     # --- loading ----------------------------------------------------------------------------------
@@ -172,21 +177,21 @@ class Application:
         sys.stdout = Console("info", self._channel.send, self._locator, sys.__stdout__)
         sys.stderr = Console("error", self._channel.send, self._locator, sys.__stderr__)
 
-    def _join(self, start: dict[str, Any]) -> None:
-        """Leaves the graph that was joined ahead, where the application is for another."""
-        domain_id, outside = int(start.get("domain_id", self._graph.domain_id)), bool(start.get("outside"))
-        if not outside and domain_id == self._graph.domain_id:
+    def _join(self, start: StartApplication) -> None:
+        """Replaces the graph that the spare joined, if the application needs another one."""
+        domain_id = self._graph.domain_id if start.domain_id is None else start.domain_id
+        if not start.outside and domain_id == self._graph.domain_id:
             return
         from executor.application.ros import Graph  # noqa: PLC0415 - after the environment is set
 
-        self._graph.close()  # first: both would have rclpy's default context
-        self._graph = Graph(domain_id, self._on_clock, outside=outside)
+        self._graph.close()  # first, since only one can have rclpy's default context
+        self._graph = Graph(domain_id, self._on_clock, outside=start.outside)
 
-    def _load(self, start: dict[str, Any]) -> bool:
+    def _load(self, start: StartApplication) -> bool:
         from executor.application.locate import Place  # noqa: PLC0415
 
         try:
-            tree = self._build(Path(start["app_dir"]), int(start.get("seed", 0)))
+            tree = self._build(Path(start.app_dir), start.seed)
             self._locator.learn(tree)
             tree.on_warning = self._reporter.tolerated
             self._reporter.tree(tree)
@@ -208,15 +213,15 @@ class Application:
         document = folder / "self_contained_tree.xml"
         return Tree.from_xml(document.read_bytes(), clock=self._graph, name=document.name)
 
-    def _make_runner(self, tree: Tree, start: dict[str, Any]) -> None:
+    def _make_runner(self, tree: Tree, start: StartApplication) -> None:
         from tree_gardener.runner import Runner  # noqa: PLC0415
 
         tree.setup(node=self._graph.node)
         self._runner = Runner(
             tree,
-            tick_hz=float(start["tick_hz"]),
-            on_finish=start["on_finish"],
-            on_error=start["on_error"],
+            tick_hz=start.tick_hz,
+            on_finish=start.on_finish,
+            on_error=start.on_error,
             finished=self._on_finished,
             fault=self._reporter.raised,
         )
@@ -227,7 +232,7 @@ class Application:
     # --- running ----------------------------------------------------------------------------------
 
     def _now(self) -> float:
-        return self._graph.now()  # of the graph of the moment: it may be replaced at the start
+        return self._graph.now()  # not bound to one graph: it may be replaced at the start
 
     def _on_clock(self, now_s: float) -> None:
         self._pulse.clocks += 1
@@ -239,13 +244,13 @@ class Application:
             self._runner.tick_due(now_s)
 
     def _has_connected(self) -> bool:
-        """What the first tick publishes should be heard; but a topic that nobody hears is no error."""
+        """Delays the first tick until topics are connected; a topic without subscribers is no error."""
         if self._connect_by_s is None:
             self._connect_by_s = time.monotonic() + DISCOVERY_S
         return self._graph.is_connected() or time.monotonic() > self._connect_by_s
 
     def _guarded(self, work: Any) -> None:
-        """Runs the actions' code; whatever it does, the manager hears of it."""
+        """Runs code of actions and reports whatever it raises."""
         from executor.application.watchdog import Interrupted  # noqa: PLC0415
 
         try:
@@ -253,7 +258,7 @@ class Application:
         except _Stop:
             raise
         except Interrupted as interrupted:
-            self._reporter.hangs(f"{interrupted.place} did not return and was broken off", interrupted.place)
+            self._reporter.hangs(f"{interrupted.place} did not return and was interrupted", interrupted.place)
             self._end_broken("The tick did not return.")
         except BaseException as error:
             self._reporter.broke_out("exception", error, self._locator.place_of_error(error))
@@ -273,7 +278,7 @@ class Application:
         raise _Stop
 
     def _say_goodbye(self) -> None:
-        """Halts the tree, so that what the actions hold is let go."""
+        """Halts the tree, so that actions release their resources."""
         assert self._runner is not None  # noqa: S101 - it ran
         try:
             self._runner.shutdown()
@@ -293,7 +298,7 @@ def main(arguments: list[str] | None = None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
-    channel = Channel(options.channel_fd)
+    channel: Channel[FromApplication, ToApplication] = Channel(options.channel_fd, decode_to_application)
     pulse = Pulse(channel.send)
 
     from executor.application.host import prepare  # noqa: PLC0415 - ROS reads the environment when loaded
@@ -303,7 +308,7 @@ def main(arguments: list[str] | None = None) -> None:
     own_pid = os.getpid()
     try:
         application.run()
-        if os.getpid() == own_pid:  # what an action forked must not take the ROS node down with it
+        if os.getpid() == own_pid:  # a process that an action forked must not close the ROS node
             application.close()
     except ChannelClosed:
         pass

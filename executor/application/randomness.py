@@ -1,11 +1,11 @@
-"""What of a run is random for the actions: Python's and numpy's global generators begin at the run's seed."""
+"""Seeds the random numbers of actions: the global generators of Python and numpy."""
 
 from __future__ import annotations
 
 import random
 from dataclasses import dataclass
 
-NUMPY_SEEDS = 2**32  # numpy's legacy generator takes no others
+NUMPY_SEEDS = 2**32  # numpy's legacy generator accepts no others
 
 
 @dataclass(frozen=True)
@@ -17,14 +17,14 @@ class Randomness:
 
     @property
     def is_untouched(self) -> bool:
-        """Whether nobody has drawn from them since."""
+        """Whether no number was drawn since."""
         return _states() == (self.python, self.numpy)
 
 
 def seed_randomness(seed: int) -> Randomness:
-    """Seeds `random` and `numpy.random` in the process that runs the actions, before these are loaded.
+    """Seeds `random` and `numpy.random`; call it before the actions are loaded.
 
-    `numpy.random.default_rng()` draws its seed from the system and is not reached by this.
+    `numpy.random.default_rng()` takes its seed from the system and is not affected.
     """
     import numpy as np  # noqa: PLC0415 - the process has it loaded already
 

@@ -1,4 +1,4 @@
-"""Tells the manager what the tree does: nodes, ticks, blackboard, faults, the end."""
+"""Reports the tree to the manager: nodes, ticks, blackboard, faults, the end."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ import time
 import traceback
 from typing import TYPE_CHECKING, Any, Final
 
+from executor import child_messages
 from executor.application.preview import preview
-from tree_gardener import BlackboardChange, LoadError, TickError
+from executor.messages import BlackboardEntry, TreeNode
+from tree_gardener import BlackboardChange, LoadError, Status, TickError
 from tree_gardener.stubs import stubs_sentence, unwritten
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from executor.application.locate import Place
-    from tree_gardener import Status, TickChanges, Tree
+    from executor.messages import FaultKind, FinishReason, NodeStatus
+    from tree_gardener import TickChanges, Tree
     from tree_gardener.node import Node
 
 __all__ = ["Reporter", "describe_tree"]
@@ -24,37 +27,55 @@ BLACKBOARD_INTERVAL_S: Final = 0.1
 IDLE_TICK_INTERVAL_S: Final = 0.05
 SAME_FAULT_INTERVAL_S: Final = 1.0
 MAX_LOAD_FAULTS: Final = 20
+_NAMES: Final[dict[Status, NodeStatus]] = {
+    Status.IDLE: "IDLE",
+    Status.RUNNING: "RUNNING",
+    Status.SUCCESS: "SUCCESS",
+    Status.FAILURE: "FAILURE",
+    Status.SKIPPED: "SKIPPED",
+}
 
 
-def describe_tree(tree: Tree) -> list[dict[str, Any]]:
-    """Returns the nodes in pre-order, as in `messages.TreeNode`."""
+Report = (
+    child_messages.Tree
+    | child_messages.Tick
+    | child_messages.Blackboard
+    | child_messages.Log
+    | child_messages.Fault
+    | child_messages.Finished
+)
+"""Messages that a reporter sends."""
+
+
+def describe_tree(tree: Tree) -> list[TreeNode]:
+    """Returns the nodes in pre-order."""
     return [
-        {
-            "uid": node.uid,
-            "parent": node.parent.uid if node.parent is not None else 0,
-            "type": node.type,
-            "kind": node.KIND.value,
-            "name": node.name,
-            "path": node.path,
-            "node_id": node.node_id,
-            "tree_id": node.tree_id,
-        }
+        TreeNode(
+            uid=node.uid,
+            parent=node.parent.uid if node.parent is not None else 0,
+            type=node.type,
+            kind=node.KIND.value,
+            name=node.name,
+            path=node.path,
+            node_id=node.node_id,
+            tree_id=node.tree_id,
+        )
         for node in tree.nodes
     ]
 
 
 class Reporter:
-    """Makes messages of what happens.
+    """Makes messages of the events of a tree.
 
     Args:
-        send: takes them.
-        now_s: is simulated time.
-        clock: of what must not come too often; real time where somebody reads along.
+        send: takes the messages.
+        now_s: simulated time.
+        clock: limits the rate of messages; real time in a session.
     """
 
     def __init__(
         self,
-        send: Callable[[dict[str, Any]], None],
+        send: Callable[[Report], None],
         now_s: Callable[[], float],
         *,
         clock: Callable[[], float] = time.monotonic,
@@ -69,46 +90,44 @@ class Reporter:
         self._stubs = ""
 
     def tree(self, tree: Tree) -> None:
-        """The tree is built."""
-        self._send({"type": "tree", "nodes": describe_tree(tree)})
+        """Reports the nodes of a new tree."""
+        self._send(child_messages.Tree(describe_tree(tree)))
 
     def stubs(self, tree: Tree) -> None:
-        """The tree is built; says which of its actions nobody has written."""
+        """Reports the actions of a new tree that are not written yet."""
         if names := unwritten(tree):
             self._stubs = stubs_sentence(names)
-            self._send({"type": "log", "level": "warning", "text": self._stubs})
+            self._send(child_messages.Log("warning", self._stubs))
 
     def tolerated(self, node: Node, message: str) -> None:
-        """Something is tolerated of an action; the engine says it once."""
-        place = {"node_id": node.node_id, "node_path": node.path}
-        self._send({"type": "log", "level": "warning", "text": message, **place})
+        """Reports a tolerated mistake of an action; the engine reports each once."""
+        self._send(child_messages.Log("warning", message, node.node_id, node.path))
 
     def ended(self, status: Status) -> None:
-        """The root succeeded, failed or was skipped."""
+        """Reports that the root succeeded, failed or was skipped."""
         text = f"The tree ended with {status.name}. {self._stubs}".strip()
         self.finished(status, "root_finished", text)
 
     def ticked(self, changes: TickChanges) -> None:
-        """Observes the tree."""
+        """Reports a tick."""
         now_s = self._clock()
         for entry in changes.blackboard:
             self._entries[entry.scope, entry.key] = entry
         if changes.changed or changes.flashed or now_s >= self._ticks_due_s:
             self._ticks_due_s = now_s + IDLE_TICK_INTERVAL_S
             self._send(
-                {
-                    "type": "tick",
-                    "n": changes.tick,
-                    "t": self._now_s(),
-                    "changed": [(uid, status.name) for uid, status in changes.changed],
-                    "flashed": [(uid, status.name) for uid, status in changes.flashed],
-                    "duration_ms": changes.duration_s * 1000.0,
-                }
+                child_messages.Tick(
+                    n=changes.tick,
+                    t=self._now_s(),
+                    changed=[(uid, _NAMES[status]) for uid, status in changes.changed],
+                    flashed=[(uid, _NAMES[status]) for uid, status in changes.flashed],
+                    duration_ms=changes.duration_s * 1000.0,
+                )
             )
         self.flush()
 
     def written(self, tree: Tree, scope: str, key: str) -> None:
-        """An entry was written from outside, between two ticks."""
+        """Reports an entry that was written from outside, between two ticks."""
         board = tree.blackboard.scope(scope) if scope else tree.blackboard
         entry = board.find(key)
         if entry is not None:
@@ -117,15 +136,15 @@ class Reporter:
         self.flush(now=True)
 
     def flush(self, *, now: bool = False) -> None:
-        """Sends the blackboard's changes, not too often."""
+        """Sends the blackboard's changes, at a limited rate."""
         if not self._entries or (self._clock() < self._entries_due_s and not now):
             return
         self._entries_due_s = self._clock() + BLACKBOARD_INTERVAL_S
         entries, self._entries = self._entries, {}
-        self._send({"type": "blackboard", "entries": [_entry(change) for change in entries.values()]})
+        self._send(child_messages.Blackboard([_entry(change) for change in entries.values()]))
 
     def raised(self, error: TickError) -> None:
-        """An action raised. The same fault again and again is told once a second."""
+        """Reports an exception of an action; the same one at most once a second."""
         key, now_s = (error.path, error.message), self._clock()
         if now_s < self._faults_s.get(key, 0.0):
             return
@@ -143,7 +162,7 @@ class Reporter:
         )
 
     def not_loaded(self, error: BaseException, place: Place) -> None:
-        """The application cannot be loaded."""
+        """Reports why the application cannot be loaded."""
         if isinstance(error, TickError):
             self.raised(error)
         elif isinstance(error, LoadError):
@@ -161,8 +180,8 @@ class Reporter:
         else:
             self.broke_out("load", error, place)
 
-    def broke_out(self, kind: str, error: BaseException, place: Place) -> None:
-        """Something that is no ordinary exception of an action: sys.exit, or a fault of ours."""
+    def broke_out(self, kind: FaultKind, error: BaseException, place: Place) -> None:
+        """Reports an exception outside of a tick's own handling: sys.exit, or an error of ours."""
         message = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
         if isinstance(error, SystemExit):
             message = f"the action called sys.exit({error.code!r})"
@@ -170,30 +189,23 @@ class Reporter:
         self._fault(kind, message, **_place(place) | {"traceback": text})
 
     def hangs(self, message: str, place: Place) -> None:
-        """A tick does not return."""
-        hint = "update() must return soon: let it return RUNNING while work goes on."
+        """Reports a tick that does not return."""
+        hint = "update() must return soon: let it return RUNNING while work continues."
         self._fault("timeout", message, hint=hint, **_place(place))
 
-    def finished(self, status: Status | None, reason: str, message: str) -> None:
-        """The run ended by itself."""
+    def finished(self, status: Status | None, reason: FinishReason, message: str) -> None:
+        """Reports that the run ended by itself."""
         self.flush(now=True)
-        name = status.name if status is not None else "FAILURE"
-        self._send({"type": "finished", "status": name, "reason": reason, "message": message})
+        name = _NAMES[status] if status is not None else "FAILURE"
+        self._send(child_messages.Finished(name, reason, message))
 
-    def _fault(self, kind: str, message: str, **fields: Any) -> None:
-        self._send({"type": "fault", "kind": kind, "message": message, **fields})
+    def _fault(self, kind: FaultKind, message: str, **fields: Any) -> None:
+        self._send(child_messages.Fault(kind, message, **fields))
 
 
-def _entry(change: BlackboardChange) -> dict[str, Any]:
+def _entry(change: BlackboardChange) -> BlackboardEntry:
     value, is_preview = (None, False) if change.removed else preview(change.value)
-    return {
-        "scope": change.scope,
-        "key": change.key,
-        "type": change.type,
-        "value": value,
-        "preview": is_preview,
-        "removed": change.removed,
-    }
+    return BlackboardEntry(change.scope, change.key, change.type, value, is_preview, change.removed)
 
 
 def _place(place: Place) -> dict[str, Any]:
@@ -220,6 +232,6 @@ def _hint(cause: BaseException | None) -> str:
         return "The application reached its limit of the size of a file."
     if isinstance(cause, OSError) and cause.errno == errno.ENOSPC:
         return "There is no room left where the application writes; remove what earlier runs left there."
-    if isinstance(cause, BlockingIOError):  # EAGAIN, as fork answers
+    if isinstance(cause, BlockingIOError):  # EAGAIN of fork
         return "The application reached its limit of processes."
     return ""

@@ -1,4 +1,4 @@
-"""The application's place in the ROS graph: a node under simulated time, spun by the main thread."""
+"""The application's ROS node: it uses simulated time and is spun by the main thread."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _OWN_TOPICS: Final = frozenset({"/clock", "/parameter_events", "/rosout"})
 
 
 class Graph:
-    """Context, node and executor. It is also the clock of the tree: the time of the last `/clock`.
+    """Context, node and executor. It is also the clock of the tree, with the time of the last `/clock`.
 
     The context is rclpy's default one, so that `rclpy.ok()` and `rclpy.create_node()` work in actions; there
     can be one graph at a time.
@@ -50,7 +50,7 @@ class Graph:
         self._start_s = time.monotonic()
         self.has_time = False
         self._on_clock = on_clock
-        # Ticks have a group of their own: an action may spin the node within one.
+        # Ticks have a callback group of their own: an action may spin the node in a tick.
         group = MainThreadGroup()
         if simulated:
             take = self._take_clock
@@ -65,24 +65,24 @@ class Graph:
         return self._time_s
 
     def sleep(self, duration_s: float) -> None:
-        """Lets simulated time pass."""
+        """Waits until simulated time has passed."""
         end_s = self._time_s + duration_s
         while self._time_s < end_s:
             self.spin_once(0.05)
 
     def spin_once(self, timeout_s: float) -> None:
-        """Lets one callback run, or waits."""
+        """Runs one callback, or waits for one."""
         try:
             self._executor.spin_once(timeout_sec=timeout_s)
         except ExternalShutdownException:
             return
 
     def wake(self) -> None:
-        """Ends a wait of `spin_once`; may be called from any thread."""
+        """Interrupts a wait of `spin_once`; thread-safe."""
         self._executor.wake()
 
     def is_connected(self) -> bool:
-        """Whether all that the actions publish is heard, and all that they listen to is said."""
+        """Whether all publishers of actions have subscribers, and all subscriptions have publishers."""
         said: list[Any] = [s for s in self.node.subscriptions if s.topic_name not in _OWN_TOPICS]
         heard: list[Any] = [p for p in self.node.publishers if p.topic_name not in _OWN_TOPICS]
         return all(self.node.count_publishers(s.topic_name) for s in said) and all(
@@ -96,7 +96,7 @@ class Graph:
         self._default.close()
 
     def _has_clock(self) -> bool:
-        """Whether an outside graph has simulated time; only then somebody publishes it."""
+        """Whether an outside graph has simulated time, that is a publisher of `/clock`."""
         probe = Node(f"{NODE_NAME}_probe", context=self._context)
         end_s = time.monotonic() + CLOCK_PROBE_S
         try:

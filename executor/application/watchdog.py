@@ -1,4 +1,4 @@
-"""Breaks the main thread off where it hangs, when the manager asks for it by a signal."""
+"""Interrupts the main thread where it hangs, on a signal of the manager."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Breaker", "Interrupted"]
 
 
 class Interrupted(BaseException):
-    """Raised in the main thread where it hangs; actions do not catch it by accident."""
+    """Raised in the main thread where it hangs; not an `Exception`, which actions may catch."""
 
     def __init__(self, place: Place) -> None:
         super().__init__("interrupted")
@@ -24,7 +24,7 @@ class Interrupted(BaseException):
 
 
 class Breaker:
-    """Takes the manager's signal during a run."""
+    """Handles the manager's signal during a run."""
 
     def __init__(self, locator: Locator) -> None:
         self._locator = locator
@@ -32,12 +32,12 @@ class Breaker:
         self.is_interrupted = False
 
     def arm(self) -> None:
-        """From now on a signal breaks off what the user's code does. Call it on the main thread."""
+        """Lets the signal interrupt the user's code from now on. Call it on the main thread."""
         self._is_armed = True
         signal.signal(INTERRUPT_SIGNAL, self._interrupt)
 
     def disarm(self) -> None:
-        """Lets what still is to be done be done."""
+        """Lets the signal interrupt nothing any more."""
         self._is_armed = False
 
     def _interrupt(self, _number: int, frame: FrameType | None) -> None:

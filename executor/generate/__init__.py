@@ -1,1 +1,1 @@
-"""Writes what follows from the code: TypeScript types, the page of the protocol, pictures."""
+"""Generators: TypeScript types, the page of the protocol, pictures."""

@@ -1,6 +1,6 @@
 """Draws the chooser's pictures of universes and robots: `python -m executor.generate.previews [ID …]`.
 
-They are committed, so that the start page needs no renderer. Draw one again when what it shows has changed.
+They are committed, so that the start page needs no renderer. Draw a picture again when its content changed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from executor.robots import robot_ids
 from executor.robots.config import preview_path as robot_preview
 from executor.universes import BUILTIN_IDS, load_builtin, parse_universe
 from executor.universes.loader import preview_path as universe_preview
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 SIZE: Final = (480, 270)
 MOST_BYTES: Final = 30_000
 FOV: Final = 1.05
-SETTLE_STEPS: Final = 480  # people are on their way, robots stand on their wheels
+SETTLE_STEPS: Final = 480  # people walk, and robots have settled on their wheels
 _DRAWN_AT: Final = 2  # times the size, for smooth edges
 _ROBOT_FOV: Final = 0.7
 _ROBOT_DISTANCE: Final = 4.6  # in radii, for the height of the picture
@@ -53,7 +53,7 @@ def universe_picture(renderer: Renderer, universe_id: str) -> bytes:
 
 
 def robot_picture(renderer: Renderer, robot_id: str) -> bytes:
-    """Returns the picture of a robot as WebP, near or far by its size."""
+    """Returns the picture of a robot as WebP, from a distance that suits its size."""
     universe = parse_universe(_STAGE % robot_id)
     middle, radius = _ball_round(universe)
     away = radius * _ROBOT_DISTANCE
@@ -72,7 +72,7 @@ def _draw(renderer: Renderer, universe: Universe, view: Viewpoint) -> NDArray[np
 
 
 def _ball_round(universe: Universe) -> tuple[tuple[float, float, float], float]:
-    """Returns the middle and the radius of a ball round a universe's robot, in m."""
+    """Returns center and radius of a ball around a universe's robot, in m."""
     world = BulletWorld(universe)
     world.step(SETTLE_STEPS)
     low, high = world.robots[0].bounds
@@ -91,7 +91,7 @@ def _webp(picture: NDArray[np.uint8]) -> bytes:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Draws the pictures that were named, or all."""
+    """Draws the named pictures, or all."""
     parser = argparse.ArgumentParser(prog="python -m executor.generate.previews", description=__doc__)
     parser.add_argument("ids", nargs="*", metavar="ID")
     wanted = parser.parse_args(arguments).ids

@@ -1,6 +1,6 @@
 """The page of the session protocol, generated from `executor.session.ladder` and `executor.messages`.
 
-Run ``python -m executor.generate.protocol_page`` after a change of either; a test says when it was forgotten.
+Run ``python -m executor.generate.protocol_page`` after a change of either; a test fails otherwise.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ _ERRORS: Final = {
     "bad_data": "the data does not fit the command",
     "wrong_state": "the command is not possible in this state",
     "not_driver": "the client is a viewer",
-    "busy": "another step is going on",
+    "busy": "another step is under way",
     "cancelled": "the step was cancelled",
     "timeout": "the step took too long and was given up",
     "bad_archive": "the zip is damaged, too large or names places outside itself",
@@ -168,7 +168,7 @@ def _default(field: Any) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Writes the page, or checks that it is what would be written."""
+    """Writes the page, or checks that it is current."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true")
     options = parser.parse_args(arguments)

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Final
 
 from executor.universes.model import TEXTURES
-from executor.world.paint import shipped
+from executor.world.physics.paint import shipped
 
 FOLDER: Final = Path(__file__).parents[2] / "frontend" / "src" / "generated" / "textures"
 
 
 def main() -> None:
-    """Writes a picture each, and the width and height in m that it covers."""
+    """Writes each picture, with the width and height in m that it covers."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     tiles = {}
     for name in TEXTURES:

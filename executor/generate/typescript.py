@@ -1,7 +1,7 @@
 """TypeScript types of the native protocol, generated from `executor.messages`.
 
-Run ``python -m executor.generate.typescript`` after a change of the messages; a test says when it was
-forgotten.
+Run ``python -m executor.generate.typescript`` after a change of the messages; a test fails
+otherwise.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def generate() -> str:
 
 
 def _structs() -> list[type[msgspec.Struct]]:
-    """The message types in the order of their modules."""
+    """Returns the message types in the order of their modules."""
     return [v for module in _MODULES for v in vars(module).values() if _is_struct_of(module, v)]
 
 
@@ -67,7 +67,7 @@ def _is_literal(value: object) -> bool:
 
 
 def _literals() -> dict[str, object]:
-    """The named literal types; those of commands are named again in `messages`."""
+    """Returns the named literal types; `messages` names those of commands again."""
     return {name: v for module in _MODULES for name, v in vars(module).items() if _is_literal(v)}
 
 
@@ -89,7 +89,7 @@ def _interface(struct: type[msgspec.Struct]) -> str:
 
 
 def _may_be_absent(struct: type[msgspec.Struct], field: types.Field) -> bool:
-    """Clients may leave out what has a default; the server does so only where the struct says it."""
+    """Whether a field may be absent: for clients with a default, for the server only if UNSET."""
     if not field.required and field.default is field.default_factory:  # both NODEFAULT: it is UNSET
         return True
     from_client = struct.__name__ in _client_structs()
@@ -97,7 +97,7 @@ def _may_be_absent(struct: type[msgspec.Struct], field: types.Field) -> bool:
 
 
 def _client_structs() -> set[str]:
-    """Names of the structs that clients send, with those nested in them."""
+    """Returns the names of the structs that clients send, with those nested in them."""
     names: set[str] = {messages.ClientMessage.__name__}
     todo: list[types.Type] = [types.type_info(struct) for struct in messages.COMMANDS.values()]
     while todo:
@@ -163,7 +163,7 @@ def _key(name: str) -> str:
 
 
 def main() -> None:
-    """Writes the module, or only says whether it is current (``--check``)."""
+    """Writes the module, or only checks whether it is current (``--check``)."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--check", action="store_true")
     text = generate()

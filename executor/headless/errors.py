@@ -1,5 +1,5 @@
-"""Why a run without a browser cannot be done."""
+"""Errors of runs without a browser."""
 
 
 class HeadlessError(Exception):
-    """The run cannot be done as asked; the text says why."""
+    """The run cannot be done; the text says why."""

@@ -15,7 +15,7 @@ def write_files(folder: Path, files: Mapping[str, bytes]) -> None:
     """Writes files by their paths in a folder.
 
     Raises:
-        ValueError: a path leads out of the folder.
+        ValueError: a path is outside of the folder.
     """
     for name, data in files.items():
         path = folder / name

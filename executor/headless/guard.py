@@ -1,7 +1,7 @@
-"""Ends a run in this process that hangs, with a sentence that says where: `with Guard() as guard`.
+"""Ends a run in this process if it hangs, and reports where: `with Guard() as guard`.
 
-A thread notices that nothing moves, and breaks the main thread off where it is. What holds Python's
-interpreter lock stops that thread too: for this case a process of its own listens for its beats.
+A thread detects that the run makes no progress, and interrupts the main thread. Code that holds Python's
+interpreter lock stops that thread too: for this case a separate process waits for its beats.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ _ENGINE: Final = "tree_gardener/"
 
 
 class Hung(BaseException):
-    """Raised in the main thread where it hangs; actions do not catch it by accident.
+    """Raised in the main thread where it hangs; not an `Exception`, which actions may catch.
 
     The text begins with file, line and column.
     """
 
 
 def sentence(file: str, line: int, what: str, for_s: float) -> str:
-    """Says what hangs, as all errors of the command line are said."""
-    return f"{file}:{line}:1: timeout {what} has not returned for {for_s:.0f} s, and was broken off"
+    """Returns the error in the format of the command line."""
+    return f"{file}:{line}:1: timeout {what} has not returned for {for_s:.0f} s, and was interrupted"
 
 
 class Guard:
@@ -98,7 +98,7 @@ class Guard:
         signal.signal(INTERRUPT_SIGNAL, self._before)
 
     def moved(self) -> None:
-        """The run has come a step further."""
+        """Notes progress of the run."""
         self._moves += 1
 
     def _break(self, _number: int, frame: FrameType | None) -> None:
@@ -127,15 +127,15 @@ class Guard:
 
     def _beat(self) -> None:
         assert self._process.stdin is not None  # noqa: S101 - it was asked for
-        with suppress(OSError):  # without its process the guard still has its thread
+        with suppress(OSError):  # without the process the guard still has its thread
             self._process.stdin.write(b".")
             self._process.stdin.flush()
 
     def _end(self, for_s: float) -> None:
-        """Breaks the main thread off; ends the process where it catches even that."""
+        """Interrupts the main thread; ends the process if the interrupt is caught."""
         frame = _user_frame(sys._current_frames().get(self._main))
         if frame is None:
-            return  # it is ours, and will come back
+            return  # it is our own code, which will return
         moves, text = self._moves, _describe(frame, for_s)
         self._text = text
         signal.pthread_kill(self._main, INTERRUPT_SIGNAL)
@@ -165,7 +165,7 @@ def _by_file(file: str) -> str:
 
 
 def _node_of(frame: FrameType | None) -> Any:
-    """The node of the tree whose action is on the stack: the engine's own frames name it."""
+    """Returns the tree node whose action is on the stack, from the engine's frames."""
     while frame is not None:
         if _ENGINE in frame.f_code.co_filename:
             node = frame.f_locals.get("leaf") or frame.f_locals.get("self")
@@ -179,7 +179,7 @@ def _node_of(frame: FrameType | None) -> Any:
 
 
 def listen(pid: int, notes: Notes, beats: int) -> None:
-    """Waits for beats until there are no more; ends the process that should send them if it does not."""
+    """Waits for beats until the end of the run; ends the process if it stops sending them."""
     silent_s, before, before_s = 0.0, look_at(pid), time.monotonic()
     while silent_s < END_AFTER_S:
         ready, _, _ = select.select([beats], [], [], BEAT_S)
@@ -206,7 +206,7 @@ def listen(pid: int, notes: Notes, beats: int) -> None:
 
 
 def main() -> None:
-    """Listens for another process: its id and its file of notes are the arguments."""
+    """Guards another process; its id and its notes file are the arguments."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the run
     pid, fd = map(int, sys.argv[1:])
     listen(pid, Notes(fd), sys.stdin.fileno())

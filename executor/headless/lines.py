@@ -1,12 +1,10 @@
-"""What a run without a browser writes for people."""
+"""Lines that a run without a browser prints."""
 
 from __future__ import annotations
-
-from typing import Any
 
 __all__ = ["mismatch_line"]
 
 
-def mismatch_line(mismatch: dict[str, Any]) -> str:
+def mismatch_line(topic: str, message: str, hint: str) -> str:
     """Returns the line of a topic whose ends do not match."""
-    return f"{mismatch['topic']}: {mismatch['message']} {mismatch['hint']}"
+    return f"{topic}: {message} {hint}"

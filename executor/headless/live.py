@@ -1,4 +1,4 @@
-"""Runs a project in real time through a manager, without a browser, and measures what comes of it."""
+"""Runs a project in real time through a manager, without a browser, and measures it."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ VIEW_HZ: Final = 15.0
 FIGURES_EVERY_S: Final = 0.2
 LOOK_EVERY_S: Final = 1.0
 HANGS_AFTER_S: Final = 6.0
-"""After the fault that says so: a tick that is merely slow has come back by then."""
+"""After the fault: a tick that is only slow has returned by then."""
 
 
 @dataclass(frozen=True)
 class HeadlessOptions:
-    """How to run; None leaves it to the project."""
+    """Options of a run; None takes the project's setting."""
 
     universe: str | None = None
     seed: int = 0
@@ -135,10 +135,10 @@ class _Runner:
         self._replies: dict[str, asyncio.Future[dict[str, Any]]] = {}
         self._changed = asyncio.Event()
         self._hangs_s: float | None = None
-        """Since when nothing is ticked any more."""
+        """Since when no tick has been done."""
 
     async def serve_viewer(self) -> None:
-        """Has the run looked at in a browser, too."""
+        """Serves the page that shows the run."""
         self._viewer = RunViewer(secrets.token_urlsafe(), self._look)
         self._say(f"The viewer is at {await self._viewer.start()}")
 
@@ -157,14 +157,14 @@ class _Runner:
             return self._measured.end(time.monotonic() - began_s)
         finally:
             self._show_figures(is_over=True)
-            # The readers go on until both are closed: unread frames would keep the close from being seen.
+            # The readers run until both are closed: unread frames would hide the close.
             await asyncio.gather(self._stream.close(), self._control.close())
             if self._viewer is not None:
                 await self._viewer.close()
             await asyncio.gather(*readers)
 
     def _forget_slow_loading(self) -> None:
-        """What took long to load is there now: that was no error."""
+        """Removes the faults of slow loading: the application has loaded."""
         errors, self._hangs_s = self._measured.report.errors, None
         errors[:] = [error for error in errors if error["kind"] != "timeout"]
 
@@ -206,7 +206,7 @@ class _Runner:
         )
 
     def _look(self, pose: messages.CameraPose | None) -> None:
-        """Has the server draw the world, or stop it; nobody waits for the answer."""
+        """Starts or stops the stream of the view, without waiting for the answer."""
         asked: dict[str, Any] = {"stream": "view"}
         if pose is not None:
             asked |= {"max_hz": VIEW_HZ, "camera_pose": msgspec.to_builtins(pose)}
@@ -238,7 +238,7 @@ class _Runner:
                 self._changed.set()
         except ConnectionClosed:
             pass
-        finally:  # also when nobody reads what is said any more
+        finally:  # also if the output is closed
             self._measured.finished = True
             self._changed.set()
 
@@ -253,7 +253,7 @@ class _Runner:
             is_about = data["level"] == "warning" and data["node_path"]
             self._say(f"{data['node_path']}: {data['text']}" if is_about else data["text"])
         elif name == "topic_mismatch":
-            self._say(mismatch_line(data))
+            self._say(mismatch_line(data["topic"], data["message"], data["hint"]))
         else:
             if name == "fault" and data["kind"] == "timeout":
                 self._hangs_s = time.monotonic()
@@ -274,7 +274,7 @@ class _Runner:
 
 
 def _located(error: dict[str, Any], faults: list[dict[str, Any]]) -> str:
-    """Writes an error as `file:line:column: CODE message (hint)`, with the place of the fault behind it."""
+    """Writes an error as `file:line:column: CODE message (hint)`, followed by the place of the fault."""
     place = next((f"{f['file']}:{f['line']}:1: " for f in faults if f.get("file")), "")
     hint = f" ({error['hint']})" if error.get("hint") else ""
     return f"{place}{error['code']} {error['message']}{hint}"
@@ -288,7 +288,7 @@ def _run_data(project: Project, app_zip: bytes, options: HeadlessOptions) -> dic
     universe: Any = name
     assets = {path: data for path, data in project.files.items() if path.startswith(("assets/", "robots/"))}
     if own is None and assets and name in BUILTIN_IDS:
-        own = builtin_path(name).read_bytes()  # with the project's robots at hand
+        own = builtin_path(name).read_bytes()  # so that the project's robots are found
     if own is not None:
         packed = _zip_base64(assets) if assets else ""
         universe = {"document": own.decode(), "assets_zip_base64": packed, "file": path}

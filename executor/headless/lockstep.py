@@ -1,8 +1,8 @@
 """Runs a project with its world in one process, in lock-step: sensors, then the tick, then the actuators.
 
-Time is simulated, so a run is as fast as the machine and comes out the same every time. The application is
-the real one on a real rclpy node: Fast DDS delivers within a process before `publish` returns, so that
-publishing and then calling what is ready is all the waiting that there is.
+Time is simulated, so a run is as fast as the machine and deterministic. The application is the real one on a
+real rclpy node: Fast DDS delivers within a process before `publish` returns, so there is nothing to wait for
+between publishing and calling the callbacks that are ready.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from executor.headless.recorder import RunRecorder
     from executor.headless.recording import Recording
-    from executor.headless.scribe import Scribe
     from executor.ros.spin import DrainingExecutor
-    from executor.world.bullet import BulletWorld
+    from executor.world.physics.bullet import BulletWorld
     from translator import Project
     from tree_gardener import Status, TickError, Tree
     from tree_gardener.node import Node as TreeNode
 
     Progress = Callable[[float], None]
 
-PERIOD_STEPS: Final = 4  # steps between looks at the world's topics, as in real time
+PERIOD_STEPS: Final = 4  # steps between polls of the world's topics, as in real time
 TRAJECTORY_HZ: Final = 10.0
 TREE_FILE: Final = "self_contained_tree.xml"
 MISMATCHES_S: Final = 5.0
@@ -46,7 +46,7 @@ TOO_LONG: Final = "an action waited in rclpy until the end of the run; let updat
 
 @dataclass(frozen=True)
 class LockstepOptions:
-    """How to run; None leaves it to the project."""
+    """Options of a run; None takes the project's setting."""
 
     universe: str | None = None
     robot: str | None = None
@@ -70,12 +70,12 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
     """Runs a project until its tree ends or the time is over.
 
     Args:
-        project: opened already, or its files by path, or where it is.
-        options: what differs from the project's own settings.
+        project: an opened project, its files by path, or its path.
+        options: that replace the project's own settings.
         progress: called about once a simulated second with the simulated time.
         watch: called before each tick with the world, for measurements.
         say: called with each warning; on standard error if None.
-        moved: called each time that the world has come a step further.
+        moved: called after each step of the world.
 
     Raises:
         TranslatorError: the project has errors.
@@ -95,7 +95,7 @@ def run_lockstep(  # noqa: PLR0913 - a run, and who listens to it
 
 
 class _Run:
-    """One run: world, application and what connects them."""
+    """One run: world, application and their connection."""
 
     def __init__(self, project: Project, options: LockstepOptions, say: Callable[[str], None]) -> None:
         settings = project.settings
@@ -109,10 +109,10 @@ class _Run:
         self._durations: list[float] = []
         self.moved: Callable[[], None] = lambda: None
         self._stack: list[Callable[[], object]] = []
-        self._scribe: Scribe | None = None  # until the tree is there
+        self._recorder: RunRecorder | None = None  # until the tree is there
 
     def set_up(self) -> None:
-        """Makes world and application; what was made is taken down by `close` in any case."""
+        """Makes world and application; `close` frees them also after an error."""
         project = self._project
         recording = self._open_recording(project)
         self._world = self._make_world(project)
@@ -120,7 +120,7 @@ class _Run:
         self._join_ros()
         self._tree = self._make_tree(project)
         self._counts = [NodeCount(node.path) for node in self._tree.nodes]
-        self._scribe = self._make_scribe(recording)
+        self._recorder = self._make_recorder(recording)
 
     def play(self, progress: Progress | None, watch: Callable[[BulletWorld], None] | None) -> Report:
         """Ticks until the end."""
@@ -153,8 +153,8 @@ class _Run:
                 progress(self._world.time_s)
             if runner.is_finished:
                 self._report.root_status = (status or runner.status).name
-                if self._scribe is not None:
-                    self._scribe.finished(status)
+                if self._recorder is not None:
+                    self._recorder.finished(status)
                 break
         else:
             self._advance(round(ticks / self._tick_hz / self._world.step_s))
@@ -162,14 +162,14 @@ class _Run:
         return self._finish(began_s, runner.statistics.overruns)
 
     def close(self) -> None:
-        """Takes all down, in reverse."""
+        """Frees everything, in reverse order."""
         while self._stack:
             self._stack.pop()()
 
     # --- setting up ---
 
     def _make_world(self, project: Project) -> BulletWorld:
-        from executor.world.launch import make_world  # noqa: PLC0415 - slow to load
+        from executor.world.simulation.launch import make_world  # noqa: PLC0415 - slow to load
 
         universe = self._options.universe or project.settings.universe
         file = f"universes/{universe}.yaml"
@@ -191,7 +191,7 @@ class _Run:
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.shared_topics import share_commands  # noqa: PLC0415
         from executor.ros.spin import DrainingExecutor  # noqa: PLC0415
-        from executor.world.sensors import Sensors  # noqa: PLC0415
+        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
         from tree_gardener.ros_node import ActionNode  # noqa: PLC0415
 
         default = DefaultContext(simulated=True)
@@ -215,7 +215,10 @@ class _Run:
         self._executor: DrainingExecutor = DrainingExecutor(context=context)
         self._executor.add_node(self._application)
         self._stack.append(self._executor.shutdown)
-        self._mismatches = Mismatches(self._application, lambda found: self._say(mismatch_line(found)))
+        self._mismatches = Mismatches(
+            self._application,
+            lambda found: self._say(mismatch_line(found.topic, found.message, found.hint)),
+        )
         self._stack.append(wait_in_simulation(lambda: self._world.time_s, self._let_time_pass))
 
     def _make_tree(self, project: Project) -> Tree:
@@ -254,17 +257,17 @@ class _Run:
         self._stack.append(recording.close)
         return recording
 
-    def _make_scribe(self, recording: Recording | None) -> Scribe | None:
+    def _make_recorder(self, recording: Recording | None) -> RunRecorder | None:
         if recording is None:
             return None
-        from executor.headless.scribe import Scribe  # noqa: PLC0415 - few runs are recorded
+        from executor.headless.recorder import RunRecorder  # noqa: PLC0415 - few runs are recorded
 
-        return Scribe(recording, self._world, self._sensors, self._tree)
+        return RunRecorder(recording, self._world, self._sensors, self._tree)
 
     # --- running ---
 
     def _advance(self, until_step: int) -> None:
-        """Steps the world up to a step, and has its sensors measure on the way as in real time."""
+        """Steps the world up to a step; its sensors measure meanwhile as in real time."""
         done = round(self._world.time_s / self._world.step_s)
         if done == 0:
             self._node.publish(self._sensors)
@@ -276,18 +279,18 @@ class _Run:
             self._sensors.changed()
             if done % PERIOD_STEPS == 0 or done == until_step:
                 self._node.publish(self._sensors)
-                if self._scribe is not None:
-                    self._scribe.look()
+                if self._recorder is not None:
+                    self._recorder.look()
 
     def _let_time_pass(self) -> None:
-        """An action waits: its world goes on, as it would in real time."""
+        """Simulates while an action waits in rclpy, as real time would pass."""
         if self._world.time_s >= self._options.duration_s:
             raise TimeoutError(TOO_LONG)
         self._advance(round(self._world.time_s / self._world.step_s) + PERIOD_STEPS)
         self._node.poll()
 
     def _call_back(self) -> bool:
-        """Runs the callbacks of the actions; tells whether none of them broke."""
+        """Runs the callbacks of the actions; returns whether all succeeded."""
         try:
             self._executor.drain()
         except (Exception, SystemExit) as error:
@@ -309,7 +312,7 @@ class _Run:
             setattr(count, name, getattr(count, name) + 1)
 
     def _note_broken(self, error: BaseException) -> None:
-        """Notes what a callback raised."""
+        """Stores the exception of a callback."""
         place = self._locator.place_of_error(error)
         self._report.errors.append(
             {
@@ -324,8 +327,8 @@ class _Run:
         )
 
     def _note_fault(self, error: TickError) -> None:
-        if self._scribe is not None:
-            self._scribe.raised(error)
+        if self._recorder is not None:
+            self._recorder.raised(error)
         self._report.errors.append(
             {
                 "node_path": error.path,
@@ -377,7 +380,7 @@ class _WorldClock:
         return self._world.time_s
 
     def sleep(self, duration_s: float) -> None:
-        """Within a tick simulated time stands still, so there is nothing to wait for."""
+        """Does nothing: simulated time does not pass within a tick."""
 
 
 def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
@@ -391,7 +394,7 @@ def _open(project: Project | Mapping[str, bytes] | Path) -> Project:
 
 
 def _write_assets(project: Project, folder: Path) -> None:
-    """Writes the project's robots and assets where the world finds them."""
+    """Writes the project's robots and assets into the folder that the world reads."""
     write_files(folder, {k: v for k, v in project.files.items() if k.startswith(("assets/", "robots/"))})
 
 
@@ -400,6 +403,6 @@ def _say(line: str) -> None:
 
 
 def _use_environment() -> None:
-    """Shuts other processes out, unless ROS was loaded already with an environment of its own."""
+    """Isolates ROS from other processes, unless it was loaded already."""
     if "rclpy" not in sys.modules:
         os.environ.update(lockstep_environment())

@@ -1,4 +1,4 @@
-"""What the events and frames of a run add up to: the report, as it grows."""
+"""Collects the report of a run from its events and frames."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Measured"]
 
 @dataclass
 class Measured:
-    """What the events and frames of a run add up to."""
+    """The report of a run, as it grows."""
 
     report: Report = field(default_factory=Report)
     period_ms: float = 50.0
@@ -30,7 +30,7 @@ class Measured:
     _start_s: float | None = None
 
     def take_event(self, name: str, data: dict[str, Any], time_s: float) -> None:
-        """Counts an event that came at a simulated time."""
+        """Adds an event of a simulated time."""
         report = self.report
         match name:
             case "tree":
@@ -65,7 +65,7 @@ class Measured:
             node.ticks += status in {"SUCCESS", "FAILURE"}
 
     def take_frame(self, frame: object) -> None:
-        """Notes where the robot is, and how near something came."""
+        """Adds a pose of the robot, or the nearest range of a scan."""
         match frame:
             case messages.Scene():
                 robots = (o.id for o in frame.objects if o.kind == "robot")
@@ -85,14 +85,14 @@ class Measured:
 
     @property
     def status(self) -> str:
-        """The root's status."""
+        """Returns the root's status."""
         if self.report.root_status not in {"", "IDLE"}:
             return self.report.root_status
         return "RUNNING" if min(self._paths, default=0) in self._running else "IDLE"
 
     @property
     def running_path(self) -> list[str]:
-        """The names from the root to the deepest node that is RUNNING."""
+        """Returns the names from the root to the deepest node that is RUNNING."""
         paths = (self._paths[uid].path.split("/") for uid in self._running)
         return max(paths, key=len, default=[])
 

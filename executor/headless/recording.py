@@ -1,8 +1,8 @@
-"""Writes what a run said to a file, line by line: the events of the session and the frames of its streams.
+"""Writes the events and frames of a run to a file, line by line.
 
 The first line is `{"format": "bt-studio/recording", "version": 1, …}`. An event is `{"type": "event", "t",
 "tick", "command", "data"}`, a frame as in the stream protocol with its `type` and `t`; bytes are base64. A
-name that ends with `.gz` is compressed. What was written stays readable when the run is cut off.
+name that ends with `.gz` is compressed. A recording that was cut off stays readable.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _encode = msgspec.json.Encoder().encode
 decode_frame: Final = msgspec.msgpack.Decoder(
     messages.Scene | messages.Poses | messages.Scan | messages.Camera | messages.View
 ).decode
-"""Returns the frame of a message of the stream socket."""
+"""Decodes a message of the stream socket."""
 
 
 class Recording:
@@ -52,11 +52,11 @@ class Recording:
         self.close()
 
     def close(self) -> None:
-        """Writes nothing more."""
+        """Closes the file."""
         self._file.close()
 
     def event(self, message: dict[str, Any]) -> None:
-        """Writes an event of the control socket; replies are none."""
+        """Writes an event of the control socket; replies are left out."""
         if message["command"] not in _LEFT_OUT:
             kept = {name: message[name] for name in _KEPT if name in message}
             self._write({"type": "event"} | kept)
@@ -74,7 +74,7 @@ class Recording:
 
 
 def open_recording(path: Path, project: Project, *, universe: str | None, seed: int) -> Recording:
-    """Begins the recording of a run.
+    """Opens the recording of a run.
 
     Raises:
         HeadlessError: the file cannot be written.

@@ -1,4 +1,4 @@
-"""What a run comes to: the numbers that `bt-studio run --report` writes."""
+"""The report of a run that `bt-studio run --report` writes."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
 WALL_FIELDS: Final = ("wall_time_s", "real_time_factor", "tick_ms", "overruns")
-"""Fields that tell about the machine; all others are the same for the same project and seed."""
+"""Fields that depend on the machine; all others are the same for the same project and seed."""
 
 
 @dataclass
 class NodeCount:
-    """How often a node was ticked, and what came of it."""
+    """How often a node was ticked, with which results."""
 
     path: str
     ticks: int = 0
@@ -25,7 +25,7 @@ class NodeCount:
 class Report:
     """A whole run. Distances and collisions are those of the first robot; lengths in m, angles in rad.
 
-    `random` is false if neither world nor actions drew a random number: then every seed gives the same.
+    `random` is false if neither world nor actions drew a random number: then every seed gives the same run.
     """
 
     root_status: str = "IDLE"
@@ -48,7 +48,7 @@ class Report:
         return asdict(self)
 
     def without_wall_times(self) -> dict[str, Any]:
-        """Returns what must be the same whenever the same thing is run with the same seed."""
+        """Returns the fields that are the same for every run with the same seed."""
         return {name: value for name, value in self.to_json().items() if name not in WALL_FIELDS}
 
 

@@ -1,6 +1,6 @@
-"""A page on loopback that shows a run while it goes: pictures that the server draws, and its figures.
+"""A page on loopback that shows a run: pictures that the server draws, and figures.
 
-Unlike the IDE's it needs no build and no back end, so that it is there wherever a run is.
+It needs no build and no web server, so it is available wherever a run is.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ _pose_of = msgspec.json.Decoder(CameraPose).decode
 
 
 class RunViewer:
-    """Serves the page until it is closed; a browser that is slow misses pictures and delays nobody.
+    """Serves the page until it is closed; a slow browser misses pictures without delaying others.
 
     Args:
-        token: who has the link has it; nobody else may look.
-        look: called with where a viewer wants to look from; with None when nobody looks any more.
+        token: a part of the link; required of viewers.
+        look: called with the camera of a viewer; with None when the last viewer leaves.
     """
 
     def __init__(self, token: str, look: Callable[[CameraPose | None], None]) -> None:
@@ -76,12 +76,12 @@ class RunViewer:
         self._send(jpeg)
 
     def tell(self, figures: dict[str, Any]) -> None:
-        """Tells how the run is."""
+        """Shows the figures of the run."""
         self._figures = msgspec.json.encode(figures).decode()
         self._send(self._figures)
 
     async def close(self) -> None:
-        """Ends it; viewers keep the last picture."""
+        """Stops serving; viewers keep the last picture."""
         if self._server is not None:
             self._server.close()
             await self._server.wait_closed()

@@ -1,4 +1,4 @@
-"""Waiting in lock-step: an action that waits in rclpy lets simulated time pass, as it would in real time."""
+"""Waits of actions in lock-step: while an action waits in rclpy, simulated time passes."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ __all__ = ["wait_in_simulation"]
 
 
 def wait_in_simulation(now_s: Callable[[], float], advance: Callable[[], None]) -> Callable[[], None]:
-    """Has the waits of rclpy's executors simulate on in the main thread; gives the function that ends that.
+    """Makes waits of rclpy's executors on the main thread advance the simulation; returns the undo function.
 
     Args:
         now_s: simulated time.
-        advance: simulates a little; raises once the run is over.
+        advance: simulates a short time; raises once the run is over.
     """
     waits = _Waits(now_s, advance)
     Executor._wait_for_ready_callbacks = partialmethod(_call, waits.wait)
@@ -41,7 +41,7 @@ def _call(executor: Any, method: Callable[..., Any], *arguments: Any, **options:
 
 
 class _Waits:
-    """What takes the place of two methods of rclpy's executors."""
+    """Replaces two methods of rclpy's executors."""
 
     def __init__(self, now_s: Callable[[], float], advance: Callable[[], None]) -> None:
         self._now_s = now_s
@@ -52,7 +52,7 @@ class _Waits:
     def wait(
         self, executor: Any, timeout_sec: Any = None, nodes: Any = None, condition: Condition = lambda: False
     ) -> Iterator[Any]:
-        """Yields what is ready; simulates until something is, or the timeout is over."""
+        """Yields ready callbacks; simulates until there is one, or until the timeout."""
         if _is_foreign(executor):
             yield from self.real_wait(executor, timeout_sec, nodes, condition)
             return
@@ -71,7 +71,7 @@ class _Waits:
             self._advance()
 
     def spin_until(self, executor: Any, future: Any, timeout_sec: float | None = None) -> None:
-        """Spins until a future is done, or so many simulated seconds are over."""
+        """Spins until a future is done, or until the timeout in simulated seconds."""
         if _is_foreign(executor):
             self.real_spin(executor, future, timeout_sec)
             return
@@ -87,7 +87,7 @@ class _Waits:
 
 
 def _is_foreign(executor: Any) -> bool:
-    """Whether a wait is none of an action within a tick."""
+    """Whether a wait is not one of an action within a tick."""
     return isinstance(executor, DrainingExecutor) or threading.current_thread() is not threading.main_thread()
 
 

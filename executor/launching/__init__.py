@@ -1,1 +1,1 @@
-"""Extra nodes of a project: its launch files, and the programs that they ask for."""
+"""Launch nodes of a project: its launch files, and the programs in them."""

@@ -17,7 +17,7 @@ LAUNCH_PY_REFUSAL = (
 
 
 class NotFound(Exception):  # noqa: N818 - an answer, not a failure of ours
-    """There is no such program; the text says where it was looked for."""
+    """There is no such program; the text says where it was searched."""
 
 
 def has_launch() -> bool:
@@ -26,16 +26,16 @@ def has_launch() -> bool:
 
 
 def find_command(package: str, executable: str, root: Path, folder: Path) -> tuple[str, ...]:
-    """Returns what to start for a node's `pkg` and `exec`.
+    """Returns the command of a node's `pkg` and `exec`.
 
     Args:
         package: a ROS package, or "" for a file of the project.
         executable: its name in the package, or the path of a file.
-        root: the project's folder, the first place where a file is looked for.
-        folder: the launch file's own, the second place.
+        root: the project's folder, searched first for a file.
+        folder: the launch file's own, searched second.
 
     Raises:
-        NotFound: it is not there.
+        NotFound: there is no such program.
     """
     own = _own_file(executable, root, folder)
     if own is not None:
@@ -60,10 +60,10 @@ def find_command(package: str, executable: str, root: Path, folder: Path) -> tup
 
 
 def find_executable(name: str, root: Path, folder: Path) -> tuple[str, ...]:
-    """Returns what to start for the first word of a command.
+    """Returns the program for the first word of a command.
 
     Raises:
-        NotFound: it is not there.
+        NotFound: there is no such program.
     """
     own = _own_file(name, root, folder)
     if own is not None and own.suffix == ".py":
@@ -77,7 +77,7 @@ def find_executable(name: str, root: Path, folder: Path) -> tuple[str, ...]:
 
 
 def _own_file(name: str, root: Path, folder: Path) -> Path | None:
-    """A file of the project; what is outside of it is not."""
+    """Returns a file of the project; None for a path that leaves it."""
     for base in (root, folder):
         path = (base / name).resolve()
         if path.is_file() and path.is_relative_to(root.resolve()):

@@ -1,4 +1,4 @@
-"""Runs one `.launch.py` of a project with ROS 2's own `launch`, where that is installed."""
+"""Runs one `.launch.py` of a project with ROS 2's own `launch`, if that is installed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from importlib import import_module
 
 
 def main() -> int:
-    """Runs it to its end; returns the exit status of `launch`."""
+    """Runs the file; returns the exit status of `launch`."""
     launch = import_module("launch")
     sources = import_module("launch.launch_description_sources")
     actions = import_module("launch.actions")

@@ -1,4 +1,4 @@
-"""What a launch file asks for, ready to be started."""
+"""Launch nodes, ready to be started."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ __all__ = ["LaunchPlan", "NodeSpec"]
 
 @dataclass(frozen=True)
 class NodeSpec:
-    """One extra process.
+    """One launch node.
 
     Attributes:
         id: unique in the application.
-        command: the program and its arguments; empty where it cannot be started, `refusal` says why.
+        command: the program and its arguments; empty if it cannot be started; `refusal` says why.
         environment: variables set for it alone.
         file: the launch file in the project, with the line in `line`.
     """
@@ -31,7 +31,7 @@ class NodeSpec:
 
 @dataclass(frozen=True)
 class LaunchPlan:
-    """All that the launch files of an application ask for; `notes` name what was left out."""
+    """All nodes of the launch files of an application; `notes` name what was left out."""
 
     nodes: tuple[NodeSpec, ...] = ()
     notes: tuple[str, ...] = field(default_factory=tuple)

@@ -1,7 +1,7 @@
-"""Becomes a program of a launch file, which then cannot outlive the manager.
+"""Replaces itself by a program of a launch file, which cannot outlive the manager.
 
-`python -m executor.launching.program FOLDER PROGRAM ARGUMENTS…` goes into the folder, asks for a signal at
-the death of the manager, and replaces itself by the program.
+`python -m executor.launching.program FOLDER PROGRAM ARGUMENTS…` changes to the folder, asks the kernel
+for a signal at the death of the manager, and executes the program.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from executor.supervision.confine import die_with_parent
 
 
 def main() -> None:
-    """Does so; what cannot be started is said on stderr, and the exit code is 127 as a shell's."""
+    """Executes the program; reports a failure on stderr with the exit code 127, as a shell does."""
     folder, *command = sys.argv[1:]
     die_with_parent()
     try:

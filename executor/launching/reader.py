@@ -1,8 +1,8 @@
 """Reads the `launch/*.launch.yaml` files of an application: arguments, nodes, parameters and remappings.
 
-It is the part of ROS 2's format that needs no `launch`: `arg`, `let`, `node`, `executable` and `group`, with
-`$(var …)`, `$(dirname)`, `if` and `unless`. What is known but not read is left out with a note; what is wrong
-is refused with its line.
+It supports the part of ROS 2's format that needs no `launch` package: `arg`, `let`, `node`, `executable` and
+`group`, with `$(var …)`, `$(dirname)`, `if` and `unless`. Known elements without support are left out with a
+note; errors are reported with their line.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def read_launch_files(root: Path) -> LaunchPlan:
     """Reads the launch files of an unpacked application, in the order of their names.
 
     Raises:
-        DocumentError: a file cannot be read; it names the place.
+        DocumentError: a file cannot be read; with its place.
     """
     nodes: list[NodeSpec] = []
     notes: list[str] = []
@@ -228,7 +228,7 @@ class _Reader:
         if isinstance(value, bool):
             return str(value).lower()
         if isinstance(value, str):
-            # A text that holds a number after its substitutions is one, as in ROS.
+            # A text that is a number after its substitutions becomes one, as in ROS.
             return self._substituted(value, here)
         if isinstance(value, int | float):
             return repr(value)

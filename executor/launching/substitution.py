@@ -1,4 +1,4 @@
-"""Texts of launch files: `$(var name)` and `$(dirname)` are replaced, as ROS does."""
+"""Substitutions in launch files: `$(var name)` and `$(dirname)`, as in ROS."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class SubstitutionError(ValueError):
 
 
 def substitute(text: str, variables: Mapping[str, str], folder: str) -> str:
-    """Returns a text with its substitutions made; `folder` is where the launch file is.
+    """Returns a text with its substitutions replaced; `folder` is that of the launch file.
 
     Raises:
-        SubstitutionError: there is no such variable, or the substitution is none that is read here.
+        SubstitutionError: there is no such variable, or the substitution is not supported.
     """
 
     def replaced(match: re.Match[str]) -> str:

@@ -1,1 +1,1 @@
-"""The manager of one session: the rim around the state machine."""
+"""The manager of one session: the I/O around the state machine."""

@@ -1,8 +1,8 @@
-"""Who may talk to a manager, decided without any I/O; for both of its protocols.
+"""Access rules of a manager, for both of its protocols. Pure.
 
-A web page can reach every port of the machine that its browser runs on. With a token, what counts is the
-token: a page does not know it. Without one, a request must name this machine as its `Host`, so that a page
-whose name was made to point to 127.0.0.1 gets nothing, and a page must be of this machine or be listed.
+A web page can reach every port of the machine that its browser runs on. With a token, only
+the token counts: a page does not know it. Without one, a request must name this machine as its `Host`, which
+refuses a page whose name resolves to 127.0.0.1 (DNS rebinding), and a page must be local or listed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ __all__ = ["Admission", "Refusal", "is_loopback"]
 
 
 class Refusal(NamedTuple):
-    """Why a request goes no further."""
+    """Why a request is refused."""
 
     status: HTTPStatus
     text: str
@@ -33,8 +33,8 @@ class Admission:
     """The rules of one manager.
 
     Attributes:
-        token: what clients must show; "" asks for none, and then only this machine is answered.
-        origins: pages that may drive it, such as `https://example.org`.
+        token: required of clients; "" requires none, and only local clients are accepted.
+        origins: pages that may connect, such as `https://example.org`.
     """
 
     token: str = field(default="", repr=False)
@@ -44,8 +44,8 @@ class Admission:
         """Returns why a request is refused, or None when it may pass.
 
         Args:
-            request: what came.
-            reads_health: whether all that it asks is how the manager is, which probes ask without a token.
+            request: the websocket request.
+            reads_health: whether it is for `/health`, which probes read without a token.
         """
         host = _name_of("//" + _header(request, "Host"))
         has_token = bool(self.token) and self._shows_token(request)
@@ -60,7 +60,7 @@ class Admission:
         return Refusal(HTTPStatus.FORBIDDEN, text)
 
     def _shows_token(self, request: Request) -> bool:
-        """As a bearer token, or in the address: a page can send no headers with a websocket."""
+        """Accepts a bearer token or one in the address: a page cannot send headers with a websocket."""
         expected = self.token.encode()
         scheme, _, bearer = _header(request, "Authorization").partition(" ")
         asked = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
@@ -69,14 +69,14 @@ class Admission:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only programs of this machine can reach an address."""
+    """Whether an address is reachable from this machine only."""
     with contextlib.suppress(ValueError):
         return ipaddress.ip_address(host).is_loopback
     return host == "localhost"
 
 
 def _is_address(host: str) -> bool:
-    """Whether a host is no name that anybody could make to point here."""
+    """Whether a host is an address, or localhost; others could resolve any other name to this machine."""
     with contextlib.suppress(ValueError):
         ipaddress.ip_address(host)
         return True
@@ -84,12 +84,12 @@ def _is_address(host: str) -> bool:
 
 
 def _header(request: Request, name: str) -> str:
-    """A header; one that came twice is none of those that are allowed."""
+    """Returns a header; one that is repeated matches nothing."""
     return ", ".join(request.headers.get_all(name))
 
 
 def _name_of(url: str) -> str:
-    """The host in an address; "" where it cannot be read."""
+    """Returns the host of an address; "" if it cannot be read."""
     with contextlib.suppress(ValueError):
         return urlsplit(url).hostname or ""
     return ""

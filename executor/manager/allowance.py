@@ -1,4 +1,4 @@
-"""How much one client may ask of a session: tokens that come back with time, which is an argument."""
+"""Limits the rate of commands of one client: a token bucket. Time is an argument."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Final
 
 __all__ = ["BURST", "COSTS", "RATE_HZ", "Allowance"]
 
-# Driving and dragging by hand take 60 commands a second each, a page that comes back some dozens at once.
+# Driving and dragging by hand take 60 commands a second each, a page that reconnects some dozens at once.
 RATE_HZ: Final = 250.0
 BURST: Final = 500.0
 COSTS: Final = {"list_topics": 10.0, "echo_topic": 4.0, "describe_type": 4.0, "take_over": 4.0}
@@ -14,7 +14,7 @@ COSTS: Final = {"list_topics": 10.0, "echo_topic": 4.0, "describe_type": 4.0, "t
 
 
 class Allowance:
-    """What one connection may still send.
+    """The token bucket of one connection.
 
     Args:
         now_s: the time; the bucket is full then.
@@ -27,7 +27,7 @@ class Allowance:
         self._at_s = now_s
 
     def take(self, command: str, now_s: float) -> float:
-        """Returns 0 and takes what the command costs, or takes nothing and returns how long to wait, in s."""
+        """Takes the cost of a command and returns 0, or returns how long to wait in s."""
         self._tokens = min(self._burst, self._tokens + (now_s - self._at_s) * self.rate_hz)
         self._at_s = now_s
         cost = COSTS.get(command, 1.0)

@@ -1,4 +1,4 @@
-"""Unpacks archives from outside: nothing lands outside the folder, and nothing grows without bounds."""
+"""Unpacks untrusted archives: never outside of the folder, and within limits."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def unpack(archive_base64: str, folder: Path) -> None:
     """Unpacks a zip, given as base64, into an existing folder.
 
     Raises:
-        ArchiveError: it is no zip, is damaged, too large, or names a place outside the folder.
+        ArchiveError: it is no zip, damaged, too large, or names a path outside of the folder.
     """
     try:
         data = base64.b64decode(archive_base64, validate=True)
@@ -43,7 +43,7 @@ def unpack(archive_base64: str, folder: Path) -> None:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             _unpack_all(archive, folder)
-    # zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
+    # zipfile raises NotImplementedError for unknown compression, RuntimeError for encryption.
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as error:
         raise ArchiveError(f"it is not a readable zip: {error}") from error
     except (OSError, ValueError) as error:
@@ -51,10 +51,10 @@ def unpack(archive_base64: str, folder: Path) -> None:
 
 
 def _check_directory(data: bytes) -> None:
-    """Refuses a directory of millions of entries, before each becomes an object of its own."""
+    """Refuses a directory of millions of entries, before zipfile makes an object of each."""
     at = data.rfind(_END_OF_DIRECTORY, max(0, len(data) - _LONGEST_TAIL))
     if at < 0 or at + _END.size > len(data):
-        return  # it is no zip, which is said where it is read
+        return  # it is no zip, which zipfile reports
     *_, size, _, _ = _END.unpack_from(data, at)
     if size > MAX_DIRECTORY_BYTES:
         raise ArchiveError(f"its directory is larger than {MAX_DIRECTORY_BYTES >> 20} MB")
@@ -94,7 +94,7 @@ def _safe_path(entry: zipfile.ZipInfo) -> PurePosixPath:
 
 
 def _extract(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, target: Path, limit: int) -> int:
-    """Writes one file; counts what really comes out, whatever the directory of the zip says."""
+    """Writes one file; counts the bytes written, since the directory of the zip may lie."""
     written = 0
     with archive.open(entry) as source, target.open("xb") as sink:
         while chunk := source.read(_CHUNK):

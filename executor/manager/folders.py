@@ -1,4 +1,4 @@
-"""Where a session unpacks the apps that it is sent."""
+"""Folders for the applications that a session unpacks."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ if TYPE_CHECKING:
 __all__ = ["Folders"]
 
 KEPT_FOLDERS: Final = 3
-# What world and application need of the disk to start.
+# Disk space that world and application need to start.
 SPARE_BYTES: Final = 16 << 20
 
 
 class Folders:
-    """A folder for each app, of which the oldest are removed.
+    """A folder for each application; the oldest are removed.
 
     Args:
-        is_alone: whether nobody but this session uses the place of temporary files, as in a container. When
-            it is full, what earlier runs left there is removed then, or no run could follow on one of those.
+        is_alone: whether only this session uses the folder of temporary files, as in a container. When the
+            disk is full, files of earlier runs are removed then, or no further run could start.
     """
 
     def __init__(self, *, is_alone: bool) -> None:
@@ -39,7 +39,7 @@ class Folders:
         self._kept: deque[Path] = deque()
 
     def unpack(self, effect: Unpack) -> Unpacked:
-        """Unpacks one app; what is wrong with it is told."""
+        """Unpacks one application; errors are in the result."""
         folder = self._scratch.path / str(effect.token)
         self._kept.append(folder)
         if len(self._kept) > KEPT_FOLDERS:
@@ -74,7 +74,7 @@ class Folders:
                 path.unlink(missing_ok=True)
 
     def remove(self) -> None:
-        """Removes them all."""
+        """Removes all folders."""
         self._scratch.remove()
 
 

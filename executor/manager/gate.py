@@ -1,9 +1,8 @@
-"""How a manager without a network comes to be reached: it is handed a socket that listens already.
+"""Fetches a listening socket for a manager without a network.
 
-In a container without a network, and with nothing to write to that others see, a manager can make no socket
-that anyone could find. The keeper beside the web server makes one and has it passed through the gate: at the
-door of this session, a unix socket that the container sees through a read-only mount
-(`backend/sessions/gate`).
+A manager in a container without a network and without a shared writable folder cannot create a reachable
+socket. The keeper beside the web server creates one and passes it through the gate: at the door of this
+session, a unix socket that the container sees through a read-only mount (`backend/sessions/gate`).
 """
 
 from __future__ import annotations
@@ -23,10 +22,10 @@ RETRY_S: Final = 0.1
 
 
 def fetch_listener(door: Path, session_id: str, token: str, *, timeout_s: float = TIMEOUT_S) -> socket.socket:
-    """Returns the session's listening socket; a gate that is being started again is waited for.
+    """Returns the session's listening socket; waits for a gate that restarts.
 
     Raises:
-        OSError: there is no such door, nobody answers there, or it refuses this session.
+        OSError: there is no such door, it does not answer, or it refuses this session.
     """
     deadline_s = time.monotonic() + timeout_s
     while True:

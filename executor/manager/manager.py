@@ -1,7 +1,7 @@
 """The manager of one session: the state machine between its sockets and its processes.
 
-`python -m executor.manager` serves a session until its parent ends, it is told to stop, or nobody comes
-back within the grace period. Nothing that it started is left then.
+`python -m executor.manager` serves a session until its parent ends, it is stopped, or no client reconnects
+within the grace period. It leaves no process behind.
 """
 
 from __future__ import annotations
@@ -40,13 +40,15 @@ from executor.session.events import (
     TimePassed,
     Unpack,
 )
-from executor.session.protocol import About, Session
+from executor.session.protocol import Session
+from executor.session.stage import About
 from executor.supervision.confine import die_with_parent
 from executor.supervision.processes import Limits, Program
 from executor.supervision.shared_memory import remove_abandoned_segments
 from executor.supervision.supervisor import Supervisor
 
 if TYPE_CHECKING:
+    from executor.child_messages import Frame
     from executor.manager.folders import Folders
     from executor.manager.server import SessionServer
     from executor.ram.server import RamServer
@@ -57,23 +59,23 @@ _log = logging.getLogger(__name__)
 
 LAST_DOMAIN_ID: Final = 100
 LARGEST_DOMAIN_ID: Final = 232
-# Who shares out the work on a small picture spends more on sharing, and sessions have but one machine.
+# Sharing a small picture between threads costs more than it gains, and sessions share one machine.
 FEW_THREADS: Final = {"OPENCV_FOR_THREADS_NUM": "1", "LP_NUM_THREADS": "2"}
 
 
 @dataclass(frozen=True)
 class ManagerSettings:
-    """How a manager is run.
+    """Settings of a manager.
 
     Attributes:
         port: 0 takes a free one.
-        token: what clients must show; "" asks for none, and then it answers this machine alone.
-        domain_id: of the session's ROS graph; None takes one that nobody uses.
+        token: required of clients; "" requires none, and only local clients are accepted.
+        domain_id: of the session's ROS graph; None selects an unused one.
         grace_s: how long a session without clients lives; 0 for ever.
-        listener: a unix socket to listen at besides.
-        is_closed_off: whether no other program can reach its ROS graph, since it runs in a container.
-        is_ram: whether it speaks the RAM dialect, to one client of this machine and without a token.
-        origins: pages that may drive it; without a token those of this machine may, too.
+        listener: a unix socket to listen at too.
+        is_closed_off: whether its ROS graph is isolated, since it runs in a container.
+        is_ram: whether it speaks the RAM dialect, to one local client and without a token.
+        origins: pages that may connect; without a token local pages may, too.
     """
 
     host: str = "127.0.0.1"
@@ -102,7 +104,7 @@ def free_domain_id() -> int:
 
 
 def outside_domain_id() -> int:
-    """Returns the ROS domain that the user's own programs are in, by the environment."""
+    """Returns the ROS domain of the user's own programs, from the environment."""
     text = os.environ.get("ROS_DOMAIN_ID", "")
     return int(text) if text.isdecimal() and int(text) <= LARGEST_DOMAIN_ID else 0
 
@@ -112,9 +114,9 @@ def _environment_bytes(name: str, default_mb: int) -> int:
 
 
 def session_programs(domain_id: int) -> dict[Kind, Program]:
-    """Returns the real world and application, with their limits."""
+    """Returns the programs of world and application, with their limits."""
     threads = {name: os.environ.get(name, count) for name, count in FEW_THREADS.items()}
-    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # it looks through all wheels
+    own = {"PYDANTIC_DISABLE_PLUGINS": "__all__"}  # it would search all installed packages
     environment = {**ros_environment(domain_id), **threads, **own}
     limits = Limits(
         memory_bytes=_environment_bytes("BT_STUDIO_APPLICATION_MEMORY_MB", 4096),
@@ -155,13 +157,13 @@ class Manager:
         self._ended = loop.create_future()
 
     async def start(self) -> int:
-        """Starts both processes ahead and listens; returns the port.
+        """Starts both spare processes and listens; returns the port.
 
         Raises:
             OSError: the port is in use.
         """
         self._do_all(self.session.prestart())
-        await asyncio.sleep(0)  # both start now, and take longest: the rest is loaded meanwhile
+        await asyncio.sleep(0)  # both processes start now; the rest is loaded meanwhile
         self._folders = self._make_folders()
         port = await self._listen()
         self._set_timer()
@@ -189,11 +191,11 @@ class Manager:
         return Folders(is_alone=self._settings.is_closed_off)
 
     async def wait(self) -> str:
-        """Returns why the session is to end."""
+        """Waits for the end of the session; returns the reason."""
         return str(await self._ended)
 
     def end(self, reason: str) -> None:
-        """Has `wait` return."""
+        """Ends the session: `wait` returns."""
         if not self._ended.done():
             self._ended.set_result(reason)
 
@@ -211,7 +213,7 @@ class Manager:
         await asyncio.to_thread(remove_abandoned_segments)
 
     def take(self, event: Event) -> None:
-        """Lets the state machine handle an event. Those that effects cause wait for their turn."""
+        """Lets the state machine handle an event. Events that effects cause are queued."""
         self._events.append(event)
         if self._is_handling:
             return
@@ -250,7 +252,7 @@ class Manager:
         assert self._folders is not None  # noqa: S101 - apps come from clients, and these after `start`
         self.take(await asyncio.to_thread(self._folders.unpack, effect))
 
-    def _on_frame(self, message: dict[str, Any]) -> None:
+    def _on_frame(self, message: Frame) -> None:
         if self._server is not None:
             self._server.send_frame(message)
 
@@ -259,12 +261,12 @@ async def serve(settings: ManagerSettings, ready_fd: int | None = None, *, shows
     """Serves one session; returns why it ended.
 
     Args:
-        settings: how.
-        ready_fd: is told the port; without it the terminal is.
-        shows_token: whether the token was made here, so that it is told, too.
+        settings: of the manager.
+        ready_fd: receives the port; without it, stderr does.
+        shows_token: whether the token was generated, and is reported too.
 
     Raises:
-        OSError: the port is in use, or not to be had without a token.
+        OSError: the port is in use, or not allowed without a token.
     """
     manager = Manager(settings)
     loop = asyncio.get_running_loop()
@@ -300,7 +302,7 @@ class _UsageError(Exception):
 
 
 def _token(options: argparse.Namespace) -> str:
-    """What clients must show: what the environment says, or what chance makes."""
+    """Returns the token of the environment, or a random one."""
     if options.ram or options.no_token:
         if options.no_token and options.token_env:
             raise _UsageError("--no-token and --token-env exclude each other")

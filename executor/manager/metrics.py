@@ -1,4 +1,4 @@
-"""What the manager tells a monitoring system, in Prometheus' text format."""
+"""Metrics of the manager, in Prometheus' text format."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CONTENT_TYPE: Final = "text/plain; version=0.0.4; charset=utf-8"
 
 @dataclass
 class Traffic:
-    """What a server has sent and received so far."""
+    """Counters of a server."""
 
     clients: int = 0
     streams: int = 0
@@ -48,9 +48,11 @@ def metrics_text(session: Session, traffic: Traffic) -> str:
         *_metric("ticks", "gauge", "Ticks of this run.", mirror.tick),
         *_metric("tick_seconds", "gauge", "How long a tick takes of late.", mirror.tick_ms / 1000),
         *_metric("simulated_seconds", "gauge", "Simulated time.", session.sim_time_s),
-        *_metric("speed_wanted", "gauge", "Simulated seconds a second that were asked for.", mirror.speed),
-        *_metric("real_time_factor", "gauge", "Those of the last second.", mirror.real_time_factor),
-        *_metric("children", "gauge", "World, application and those that wait.", len(session.children)),
+        *_metric("speed_wanted", "gauge", "Requested real-time factor.", mirror.speed),
+        *_metric("real_time_factor", "gauge", "Of the last second.", mirror.real_time_factor),
+        *_metric(
+            "children", "gauge", "World, application and those that wait.", len(session.children.living)
+        ),
         *_metric("open_descriptors", "gauge", "Of the manager.", len(list(Path("/proc/self/fd").iterdir()))),
         *_metric("memory_bytes", "gauge", "Resident, of the manager.", _resident_bytes()),
     ]

@@ -1,11 +1,11 @@
 """The session's two sockets on loopback: `/control` (JSON) and `/stream` (MessagePack), and `/health`.
 
-The server knows no rules: it decodes commands for the state machine and sends what that has to say.
-A frame that is no command is answered with an error, and the socket stays.
+The server has no rules of its own: it decodes commands for the state machine and sends its events.
+A frame that is no command is answered with an error, and the socket stays open.
 
-No client can keep the others waiting: a little of each is read, handled and sent in turn, and one that
-sends more than its allowance gets an error that says how long to wait. `/watch` is for whoever must know
-whether the manager answers: a socket that takes pings, behind no queue of commands.
+No client can block the others: a little of each is read, handled and sent in turn, and a client that exceeds
+its allowance gets an error that says how long to wait. `/watch` is a health check: a socket that answers
+pings, without a queue of commands.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
 
     from websockets.http11 import Request, Response
 
+    from executor.child_messages import Frame
     from executor.session.protocol import Session
 
 __all__ = ["SessionServer"]
@@ -56,7 +57,7 @@ MAX_CLIENTS: Final = 32
 HEARTBEAT_S: Final = 15.0
 REPLACED: Final = 4409
 UNEXPECTED: Final = 1003
-# Of one client at a time: what is read is parsed at once, however many frames it holds.
+# Of one client at a time: all frames in it are parsed at once.
 READ_BYTES: Final = 4 << 10
 COMMANDS_IN_TURN: Final = 8
 MESSAGES_IN_TURN: Final = 16
@@ -67,9 +68,9 @@ class SessionServer:
     """Serves one session.
 
     Args:
-        session: asked for ids and snapshots.
+        session: for ids and snapshots.
         report: takes events.
-        admission: who may talk to it.
+        admission: the access rules.
     """
 
     def __init__(self, session: Session, report: Callable[[Event], None], admission: Admission) -> None:
@@ -89,7 +90,7 @@ class SessionServer:
         """Listens; returns the port.
 
         Raises:
-            OSError: the port is in use, or the address is not of loopback and no token is asked for.
+            OSError: the port is in use, or the address is not loopback and no token is required.
         """
         if not self._admission.token and not is_loopback(host):
             raise OSError(f"without a token a manager listens on loopback alone, not on {host}")
@@ -98,7 +99,7 @@ class SessionServer:
         return int(next(iter(server.sockets)).getsockname()[1])
 
     async def start_at(self, listener: socket.socket) -> None:
-        """Listens at a unix socket that was made elsewhere, too."""
+        """Listens at a given unix socket, too."""
         self._servers.append(await unix_serve(self._serve, sock=listener, **self._options))
 
     @property
@@ -130,15 +131,13 @@ class SessionServer:
         for outbox in self._controls.values():
             outbox.put(data, is_reply=False)
 
-    def send_frame(self, message: dict[str, Any]) -> None:
-        """Queues a frame of the world for its client; None stands for all."""
-        client, stream, data = message.get("client"), message.get("stream"), message.get("data")
-        if not isinstance(data, bytes) or not isinstance(stream, str):
-            return
+    def send_frame(self, frame: Frame) -> None:
+        """Queues a frame of the world for its client."""
+        client = frame.client
         self.traffic.frames += 1
         now_s = time.monotonic()
         for name, outbox in list(self._streams.items()) if client is None else self._stream_of(client):
-            outbox.put(stream, data)
+            outbox.put(frame.stream, frame.data)
             lost = outbox.lost_share(now_s)
             if lost is not None:
                 self._report(StreamPaced(name, lost))
@@ -221,7 +220,7 @@ class SessionServer:
         self._report(ClientLeft(client))
 
     def _dismiss(self, client: str) -> None:
-        """Ends a connection that its client has lost before this end heard of it."""
+        """Ends a connection whose loss the client noticed first."""
         self._close_soon(self._connections[client])
         self._forget(client)
 
@@ -235,7 +234,7 @@ class SessionServer:
             await connection.close(4404, "open /control first and name its client_id")
             return
         if (lost := self._stream_connections.get(client)) is not None:
-            self._close_soon(lost)  # who opens a second one has lost the first
+            self._close_soon(lost)  # a client that opens a second socket has lost the first
         self._stream_connections[client] = connection
         outbox = self._streams[client] = StreamOutbox()
         self._report(StreamOpened(client))
@@ -251,7 +250,7 @@ class SessionServer:
     # --- messages ---------------------------------------------------------------------------------
 
     async def _take_all(self, client: str, connection: ServerConnection, outbox: ControlOutbox) -> None:
-        """Takes commands, some at a time, and none while their answers are not read."""
+        """Takes commands in small groups, and none while too many answers are unread."""
         allowance = Allowance(time.monotonic())
         taken = 0
         async for frame in connection:
@@ -315,7 +314,7 @@ def _decode_data(data: msgspec.Raw, kind: type[Struct]) -> Struct:
     if bytes(data).strip() == b"null":
         data = msgspec.Raw(b"{}")
     if kind is Empty:
-        # What older clients send along with these commands has no meaning.
+        # Older clients send data with these commands; it is ignored.
         return Empty()
     return msgspec.json.decode(data, type=kind)
 
@@ -326,13 +325,13 @@ def _slow_down(allowance: Allowance, wait_s: float) -> tuple[str, str]:
 
 
 def _read_little(connection: ServerConnection) -> None:
-    """Has asyncio hand on less of what came at a time than the 256 KiB that it is used to."""
+    """Lets asyncio deliver less at a time than its default of 256 KiB."""
     transport: Any = connection.transport
     transport.max_size = READ_BYTES
 
 
 async def _take_nothing(connection: ServerConnection) -> None:
-    """Waits until a client leaves; what it sends here has no meaning, and it is told so."""
+    """Waits until a client leaves; anything that it sends is answered with an error."""
     async for _ in connection:
         await connection.close(UNEXPECTED, "commands are sent on /control")
 

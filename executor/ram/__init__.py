@@ -1,1 +1,1 @@
-"""The protocol of JdeRobot's Robotics Application Manager, for clients that speak it."""
+"""The protocol of JdeRobot's Robotics Application Manager, for clients of it."""

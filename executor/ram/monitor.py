@@ -1,4 +1,4 @@
-"""The running tree as BT Studio's monitor of JdeRobot sends it: one JSON text in `update` messages."""
+"""The running tree in the format of JdeRobot BT Studio's monitor: a JSON text in `update` messages."""
 
 from __future__ import annotations
 

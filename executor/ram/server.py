@@ -1,9 +1,9 @@
 """Serves one client that speaks the RAM dialect, on loopback.
 
-What is a defect in the original is not copied: a frame that is no command gets an error and the socket stays,
-there are no hidden `to_<state>` commands, a second client is told why it is refused, and a dead application
-is told with its new state. It has no token: hosts and origins are judged (`executor.manager.admission`), so
-that a page of another site that opens a socket to this machine is refused.
+Defects of the original are not copied: a frame that is no command gets an error and the socket stays open,
+there are no hidden `to_<state>` commands, a second client receives the reason of its refusal, and the death
+of an application is reported with the new state. There is no token: hosts and origins are checked
+(`executor.manager.admission`), which refuses pages of other sites.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from websockets.http11 import Request, Response
 
+    from executor.child_messages import Frame
     from executor.session.protocol import Session
 
 __all__ = ["RamServer"]
@@ -49,9 +50,9 @@ class RamServer:
     """Serves one session to one client.
 
     Args:
-        session: asked for its state.
+        session: for its state.
         report: takes events.
-        origins: pages that may connect besides those of this machine, such as `https://example.org`.
+        origins: pages that may connect, apart from local ones, such as `https://example.org`.
     """
 
     def __init__(
@@ -97,7 +98,7 @@ class RamServer:
             await self._server.wait_closed()
 
     def send(self, effect: Send) -> None:
-        """Sends what the dialect has a message for."""
+        """Sends an event if the dialect has a message for it."""
         match effect.payload:
             case messages.Ack() if effect.request is not None:
                 self._answer(effect.request, "ack", None)
@@ -110,8 +111,8 @@ class RamServer:
             case _:
                 pass
 
-    def send_frame(self, message: dict[str, Any]) -> None:
-        """The dialect has no stream."""
+    def send_frame(self, frame: Frame) -> None:
+        """Ignores a frame: the dialect has no streams."""
 
     # --- connections ------------------------------------------------------------------------------
 
@@ -136,21 +137,21 @@ class RamServer:
                 self._report(ClientJoined(client))
                 async for frame in connection:
                     self._take(client, frame)
-                    await asyncio.sleep(0)  # what the world says has its turn
+                    await asyncio.sleep(0)  # lets messages of the world be handled
                     await outbox.has_room()
         finally:
             sender.cancel()
             if self._session.state is not State.IDLE:
-                # The dialect has no way to come back to a session.
+                # The dialect has no way to reconnect to a session.
                 self._report(CommandCame(client, "", "disconnect", messages.Empty()))
             self._report(ClientLeft(client))
             self._client, self._outbox, self._is_2024 = None, None, False
             self._commands.clear()
 
     async def _settle(self) -> None:
-        """Waits until the session of the client before has ended."""
+        """Waits until the session of the last client has ended."""
         async with asyncio.timeout(END_S):
-            while self._session.state is not State.IDLE or self._session.leaving:  # noqa: ASYNC110
+            while self._session.state is not State.IDLE or self._session.children.leaving:  # noqa: ASYNC110
                 await asyncio.sleep(0.05)
 
     # --- commands ---------------------------------------------------------------------------------
@@ -163,7 +164,7 @@ class RamServer:
             message = msgspec.json.decode(frame, type=messages.ClientMessage)
             request = message.id
             if message.command == "gui":
-                return  # for a web page of the exercise, of which there is none; it is never answered
+                return  # meant for a web page of the exercise, which does not exist; it is never answered
             native = to_native(message.command, msgspec.json.decode(message.data))
         except (msgspec.DecodeError, RecursionError, UnicodeError, RamError) as error:
             self._answer(request, "error", {"message": str(error)})
@@ -206,7 +207,7 @@ class RamServer:
 
     def _introspection(self) -> dict[str, str]:
         about = self._session.about
-        # The misspelt key is what clients read.
+        # Clients read the misspelt key.
         return {
             "robotics_backend_version": about.version,
             "radi_version": about.version,

@@ -1,4 +1,4 @@
-"""Commands, states and errors of the RAM dialect as those of our own protocol, and back. No I/O."""
+"""Translates commands, states and errors between the RAM dialect and our own protocol. No I/O."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class RamError(Exception):
 
 @dataclass(frozen=True)
 class Native:
-    """A command of our own protocol; `is_2024` tells of which era the client is, where the command does."""
+    """A command of our own protocol; `is_2024` is the era of the client, if the command shows it."""
 
     command: str
     data: Struct
@@ -71,10 +71,10 @@ class Native:
 
 
 def to_native(command: str, data: Any) -> Native:
-    """Returns what a command of the dialect means.
+    """Returns the native command of a command of the dialect.
 
     Raises:
-        RamError: there is no such command, or its data make no sense.
+        RamError: there is no such command, or its data are invalid.
     """
     if command in _NOT_OFFERED:
         raise RamError(f"{command} is not offered here: BT Studio's own editor does that")
@@ -100,7 +100,7 @@ def to_native(command: str, data: Any) -> Native:
 
 
 def state_name(state: str, *, is_2024: bool) -> str:
-    """Names a rung of our ladder as clients of the dialect do."""
+    """Returns the dialect's name of a state."""
     if state == State.UNIVERSE_READY:
         return "world_ready"
     if state == State.VISUALIZATION_READY:
@@ -109,7 +109,7 @@ def state_name(state: str, *, is_2024: bool) -> str:
 
 
 def error_text(error: messages.Error, trigger: str, state: str) -> str:
-    """Returns an error as the dialect writes it; a command out of its turn has a text that clients know."""
+    """Returns an error in the dialect's form; an illegal command has a text that clients know."""
     if error.code == "wrong_state":
         return f'"Can\'t trigger event {trigger} from state {state}!"'
     return f"{error.message} {error.hint}".strip()
@@ -146,7 +146,7 @@ def _application_of(data: Any) -> messages.RunApplication:
     settings = _settings_of(archive)
     tick_hz = settings.get("tick_hz")
     is_rate = isinstance(tick_hz, int | float) and not isinstance(tick_hz, bool) and 0 < tick_hz <= 1000
-    # The program of those zips, `execute_docker.py`, ticks for ever.
+    # The program of those zips, `execute_docker.py`, ticks forever.
     finish: messages.OnFinish = "stop" if settings.get("on_finish") == "stop" else "repeat"
     return messages.RunApplication(
         archive, tick_hz=float(tick_hz) if is_rate and tick_hz is not None else 20.0, on_finish=finish
@@ -154,14 +154,14 @@ def _application_of(data: Any) -> messages.RunApplication:
 
 
 def _settings_of(archive: str) -> dict[str, Any]:
-    """Reads the `project.json` that our own zips have; a bad archive is refused later, with its reason."""
+    """Reads the `project.json` of our own zips; a bad archive is refused later, with its reason."""
     try:
         with zipfile.ZipFile(io.BytesIO(base64.b64decode(archive))) as files:
             if "project.json" not in files.namelist():
                 return {}
             with files.open("project.json") as file:
                 found = json.loads(file.read(SMALL_FILE_BYTES))
-    # zipfile raises NotImplementedError of a compression that it does not know, RuntimeError of encryption.
+    # zipfile raises NotImplementedError for unknown compression, RuntimeError for encryption.
     except (binascii.Error, ValueError, zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError):
         return {}
     return found if isinstance(found, dict) else {}

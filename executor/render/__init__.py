@@ -1,4 +1,4 @@
-"""Draws the world: robot cameras, and the server's own view for browsers without WebGL."""
+"""Renders the world: robots' cameras, and the server's own view for browsers without WebGL."""
 
 from executor.render.choose import make_renderer
 from executor.render.interface import GROUND, NOTHING, Renderer, RenderError, Viewpoint, look_at

@@ -1,4 +1,4 @@
-"""Chooses the renderer that works here."""
+"""Selects a renderer that works on this machine."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _log = logging.getLogger(__name__)
 def make_renderer(kind: str | None = None) -> Renderer:
     """Returns the renderer `gl` or `tiny`; without a name the first that works.
 
-    The variable `BT_STUDIO_RENDERER` decides where no name is given.
+    The variable `BT_STUDIO_RENDERER` selects one if no name is given.
     """
     kind = kind or os.environ.get("BT_STUDIO_RENDERER") or None
     if kind == "tiny":

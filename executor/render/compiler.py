@@ -1,4 +1,4 @@
-"""Hands back the pages of the compiler of shaders, which a renderer in software needs only now and then."""
+"""Releases the memory of the shader compiler, which a software renderer needs rarely."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ _MADV_DONTNEED: Final = 4
 def release_compiler() -> int:
     """Drops the compiler's code from this process's memory; returns how many bytes of address space.
 
-    It is code alone, which nothing has written into: where it is called again the kernel maps it again from
-    the file. The pages of tables that the loader wrote into stay.
+    Only unmodified pages of code are dropped: the kernel loads them again from the file when they are needed.
+    Pages that the loader wrote to are kept.
     """
     try:
         maps = Path("/proc/self/maps").read_text(encoding="utf-8")

@@ -17,10 +17,10 @@ SEGMENTS: Final = 24
 
 
 def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
-    """Returns each vertex once, and the order in which they make the triangles that have an area."""
+    """Returns unique vertices, and the indices of triangles that have an area."""
     unique, inverse = np.unique(np.round(vertices, 6), axis=0, return_inverse=True)
     order = inverse.reshape(-1, 3)
-    # Round things end in poles, where vertices have the same place and different normals.
+    # At the poles of round shapes, vertices have one position and different normals.
     corners = unique[order, :3]
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).min(axis=1, initial=np.inf)
     return unique.astype(np.float32), order[sides > 0].ravel().astype(np.uint32)
@@ -39,7 +39,7 @@ def grid(count: int) -> Vertices:
 
 
 def box() -> Vertices:
-    """A cube with edges of 1 m round the origin."""
+    """A cube with edges of 1 m around the origin."""
     triangles = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
@@ -60,7 +60,7 @@ def square() -> Vertices:
 
 
 def cylinder(segments: int = SEGMENTS) -> Vertices:
-    """A cylinder of radius 1 m and length 1 m along z, round the origin."""
+    """A cylinder of radius 1 m and length 1 m along z, around the origin."""
     triangles: list[tuple[Any, Any]] = []
     circle = _circle(segments)
     up = np.array([0.0, 0.0, 1.0])
@@ -80,7 +80,7 @@ def cylinder(segments: int = SEGMENTS) -> Vertices:
 
 
 def capsule(radius: float, length: float, segments: int = SEGMENTS) -> Vertices:
-    """A cylinder of a length along z, closed by two half spheres; a sphere if the length is 0."""
+    """A cylinder along z, closed by two half spheres; a sphere if the length is 0."""
     rings = max(2, (segments + 2) // 4 - (length > 0))
     latitudes = [-math.pi / 2 + math.pi / 2 * i / rings for i in range(rings + 1)]
     rows = [(lat, -length / 2) for lat in latitudes] + [(-lat, length / 2) for lat in reversed(latitudes)]

@@ -1,8 +1,7 @@
-"""The renderer in OpenGL, without a window: on the GPU where there is one, else in software.
+"""The renderer in OpenGL, without a window: on the GPU if there is one, otherwise in software.
 
-A scene is one stock of triangles on the GPU; a picture is one draw call of those that may be seen, from near
-to far, so that what is hidden costs nothing. Poses go into a texture. Shadows are drawn again only where
-something moved.
+A scene is one buffer of triangles on the GPU; a picture is one draw call of the visible ones, from near to
+far, so that hidden ones cost nothing. Poses are in a texture. Shadows are redrawn only where something moved.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ import numpy as np
 from executor.render import geometry, programs, shadow
 from executor.render.compiler import release_compiler
 from executor.render.interface import GROUND, NOTHING, RenderError, Viewpoint
-from executor.render.kept import Kept, KeptPictures
 from executor.render.layers import SIDE, pixels
+from executor.render.picture_cache import CachedPicture, PictureCache
 from executor.render.pieces import VERTEX, Pieces, matrices
 from executor.render.shadow import ShadowPlan
 from executor.render.smoothing import smoothed
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
 SAMPLES: Final = 4
 SETTLED: Final = 20
-"""After so many pictures of a scene all shaders are compiled that it needs."""
+"""Number of pictures of a scene after which all its shaders are compiled."""
 SKY_PIECES: Final = 8
 GAMMA: Final = 2.0  # as in the shaders
 SUN_COLOR: Final = (0.78, 0.74, 0.68)
@@ -71,14 +70,14 @@ class GlRenderer:
         self._pictures: Any = None
         self._textured_ground: Any = None
         self._plan: ShadowPlan | None = None
-        self._kept = KeptPictures()
+        self._cached = PictureCache()
         self._unsettled = 0
         self._sun = np.array([0.0, 0.0, -1.0])
         self._drawn_poses: NDArray[np.float32] | None = None
         self._placed = np.empty((0, 3, 4), np.float32)
 
     def load(self, scene: Scene) -> None:
-        """Takes a scene in place of the last one."""
+        """Replaces the scene."""
         if self._stock is not None:
             self._stock.release()
         if scene.textures:
@@ -86,7 +85,7 @@ class GlRenderer:
         self._stock = _Stock(self._context, self._programs, scene)
         self._hang_pictures(scene, self._stock.pieces.layers)
         self._plan, self._drawn_poses = None, None
-        self._kept.clear()
+        self._cached.clear()
         self._unsettled = SETTLED
         self._set_light(scene)
 
@@ -102,7 +101,7 @@ class GlRenderer:
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`. Of a view that it drew before, it draws only what has changed since.
+        """Returns the same as `draw`. Of a known view it draws only the changes.
 
         If nothing has, it is the same array as before. Do not write into it.
         """
@@ -110,12 +109,12 @@ class GlRenderer:
             return self.draw(poses, view, width, height)
         stock, key = self._place(poses), (view, width, height)
         plan = self._cast_shadow(stock, view)
-        kept = self._kept.find(key)
+        kept = self._cached.find(key)
         parts = None if kept is None else kept.outdated(stock.pieces, self._placed, plan, key)
         if kept is None or parts is None:
             raw = self._whole(stock, view, width, height, smooth=True)
-            kept = Kept(raw, _finished(raw.copy()), self._placed.copy(), plan.matrix.copy())
-            self._kept.keep(key, kept)
+            kept = CachedPicture(raw, _finished(raw.copy()), self._placed.copy(), plan.matrix.copy())
+            self._cached.keep(key, kept)
         elif parts:
             self._draw_parts(stock, key, parts, kept.raw)
             kept.finished = _finished(kept.raw.copy())
@@ -124,7 +123,7 @@ class GlRenderer:
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:
-        """Returns how far ahead everything is, in m along the optical axis; +inf for nothing."""
+        """Returns the depth in m along the optical axis; +inf for the background."""
         return np.ascontiguousarray(self._measure(poses, view, width, height)[:, :, 0])
 
     def segmentation(
@@ -134,7 +133,7 @@ class GlRenderer:
         return self._measure(poses, view, width, height)[:, :, 1].astype(np.int32)
 
     def close(self) -> None:
-        """Frees the context and all that was made in it."""
+        """Frees the context and everything in it."""
         if self._context is not None:
             self._context.release()
             self._context = None
@@ -147,7 +146,7 @@ class GlRenderer:
         return self._context.vertex_array(self._programs[program], [(buffer, "3f", "in_position")], indices)
 
     def _prepare_textures(self) -> None:
-        """Compiles what only scenes with pictures need, once."""
+        """Compiles the programs of scenes with textures, once."""
         if "object_textured" in self._programs:
             return
         self._programs |= programs.compile_all(
@@ -161,7 +160,7 @@ class GlRenderer:
         self._textured_ground = self._quad("ground_textured", geometry.square())
 
     def _hang_pictures(self, scene: Scene, layers: dict[str, int]) -> None:
-        """Puts the scene's pictures onto the GPU, as layers of one texture."""
+        """Uploads the scene's textures, as layers of one texture."""
         if self._pictures is not None:
             self._pictures.release()
             self._pictures = None
@@ -172,7 +171,7 @@ class GlRenderer:
         data = b"".join(pixels(scene.textures[name]).tobytes() for name in layers)
         self._pictures = context.texture_array((SIDE, SIDE, len(layers)), 3, data)
         self._pictures.build_mipmaps()
-        # Between two mipmaps a CPU would look up twice as much.
+        # Interpolation between mipmaps would double the look-ups of a CPU.
         between = context.LINEAR_MIPMAP_NEAREST if self._is_software else context.LINEAR_MIPMAP_LINEAR
         self._pictures.filter = (between, context.LINEAR)
         if not self._is_software:
@@ -184,7 +183,7 @@ class GlRenderer:
             ground["layer"].value = float(layers[scene.ground_texture])
 
     def _lit(self, kind: str) -> list[Any]:
-        """Returns the programs that draw objects or the ground, with and without pictures."""
+        """Returns the programs that draw objects or the ground, with and without textures."""
         return [self._programs[name] for name in (kind, f"{kind}_textured") if name in self._programs]
 
     def _set_light(self, scene: Scene) -> None:
@@ -201,7 +200,7 @@ class GlRenderer:
             program["bright"].value = tuple(dark + base * color * max(-self._sun[2], 0.0))
 
     def _settle(self) -> None:
-        """Lets go of the compiler once it has done its work: it is as large as all else of a renderer."""
+        """Releases the compiler once it is done: it is as large as the rest of the renderer."""
         if self._unsettled and self._is_software:
             self._unsettled -= 1
             if not self._unsettled:
@@ -232,7 +231,7 @@ class GlRenderer:
     def _draw_parts(
         self, stock: _Stock, key: tuple[Viewpoint, int, int], parts: list[Rectangle], into: NDArray[np.uint8]
     ) -> None:
-        """Draws parts of a picture, and puts them into it."""
+        """Redraws parts of a picture."""
         view, width, height = key
         target, matrix = self._targets.picture(width, height, smooth=False), _upside_down(view, width, height)
         for part in parts:
@@ -294,7 +293,7 @@ class GlRenderer:
     def _measure(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:
-        """Returns metres ahead and row of the object for each pixel."""
+        """Returns depth and row of the object for each pixel."""
         stock, context = self._place(poses), self._context
         target = self._targets.measured(width, height)
         target.use()
@@ -344,12 +343,12 @@ class _Stock:
         self._made += [self.shadow, self.measured]
 
     def place(self, placed: NDArray[np.float32]) -> None:
-        """Takes the objects' 3×4 matrices."""
+        """Uploads the objects' 3×4 matrices."""
         if len(placed):
             self.matrices.write(np.ascontiguousarray(placed).tobytes())
 
     def choose(self, order: NDArray[np.uint32]) -> int:
-        """Takes the triangles to draw next; returns how many indices they have."""
+        """Uploads the triangles to draw next; returns the number of their indices."""
         if len(order):
             self._order.orphan()
             self._order.write(order)
@@ -381,7 +380,7 @@ def _rgb(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _upside_down(view: Viewpoint, width: int, height: int) -> NDArray[np.float64]:
-    """Returns the transform from the world to clip space, so that rows come out from top to bottom."""
+    """Returns the transform from the world to clip space, with the top row first."""
     matrix: NDArray[np.float64] = np.diag([1.0, -1.0, 1.0, 1.0]) @ view.projection_matrix(width, height)
     return matrix @ view.view_matrix()
 

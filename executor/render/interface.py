@@ -1,4 +1,4 @@
-"""What every renderer offers, and where one looks from."""
+"""Interface of renderers, and their cameras."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class Viewpoint:
 
     @classmethod
     def of_pose(cls, pose: Sequence[float], fov: float, near: float, far: float) -> Viewpoint:
-        """Looks along x of a pose [x, y, z, qx, qy, qz, qw], with z up in the picture."""
+        """Returns the camera that looks along x of a pose [x, y, z, qx, qy, qz, qw], with z up."""
         x, y, z, w = (float(value) for value in pose[3:7])
         ahead = (1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w))
         up = (2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y))
@@ -90,12 +90,12 @@ def look_at(eye: Sequence[float], target: Sequence[float], fov: float = 1.0) -> 
 
 
 class Renderer(Protocol):
-    """Draws a scene. One thread only."""
+    """Draws a scene. Not thread-safe."""
 
     name: str
 
     def load(self, scene: Scene) -> None:
-        """Takes a scene in place of the last one."""
+        """Replaces the scene."""
 
     def draw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int, *, smooth: bool = True
@@ -104,16 +104,16 @@ class Renderer(Protocol):
 
         Args:
             poses: one row [x, y, z, qx, qy, qz, qw] for each object of the scene.
-            view: where one looks from.
+            view: the camera.
             width: of the picture in pixels.
             height: of the picture in pixels.
-            smooth: with antialiasing, where the renderer has it; it costs as much again.
+            smooth: with antialiasing, if supported; it doubles the cost.
         """
 
     def redraw(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.uint8]:
-        """Returns the same as `draw`, for a view that stays: it may draw only what has changed since.
+        """Returns the same as `draw`, for a view that is drawn repeatedly: it may draw only the changes.
 
         If nothing has, it may be the same array as before. Do not write into it.
         """
@@ -121,10 +121,9 @@ class Renderer(Protocol):
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:
-        """Returns how far ahead everything is, in m along the optical axis (not the ray), the top row first.
+        """Returns the depth in m along the optical axis (not the ray), the top row first.
 
-        Where there is nothing nearer than `view.far` it is +inf, as in REP-117. What is nearer than
-        `view.near` is cut away.
+        It is +inf beyond `view.far`, as in REP-117. Surfaces nearer than `view.near` are clipped.
         """
 
     def segmentation(
@@ -133,4 +132,4 @@ class Renderer(Protocol):
         """Returns each pixel's object (its row in the scene), `GROUND` or `NOTHING`, the top row first."""
 
     def close(self) -> None:
-        """Frees what was taken. May be called twice."""
+        """Frees all resources. May be called twice."""

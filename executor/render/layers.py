@@ -1,4 +1,4 @@
-"""The pictures of a scene as renderers need them."""
+"""Textures of a scene as renderers need them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def pixels(texture: Texture) -> NDArray[np.uint8]:
 
 
 def mean_color(texture: Texture) -> tuple[float, float, float]:
-    """Returns the colour that a picture has from afar, as shares of 1 in sRGB."""
-    # Light adds up squared, nearly as sRGB has it.
+    """Returns the mean colour of a texture, 0 to 1 in sRGB."""
+    # Light adds up in linear space; squares approximate sRGB.
     red, green, blue = np.sqrt(((pixels(texture) / 255.0) ** 2).mean(axis=(0, 1))).tolist()
     return red, green, blue

@@ -1,8 +1,8 @@
-"""How a picture lies on a shape: a repetition is as large in the world as its texture says.
+"""Texture coordinates of shapes: a repetition has the size of its texture in the world.
 
-The browser's 3D view does the same (`frontend/src/features/viewer/mapping.ts`). Flat faces are seen along
-the axis of the shape that they face most; a picture begins at the shape's lowest corner. Cylinders and balls
-are wrapped as often as fits best.
+The browser's 3D view does the same (`frontend/src/features/viewer/mapping.ts`). Flat faces are projected
+along their dominant axis, from the shape's lowest corner. Cylinders and spheres are wrapped, with the nearest
+whole number of repetitions.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float32]
 
 FLAT: Final = 0.99
-"""From this share of z on, a normal of a cylinder is that of a lid."""
+"""Normals of a cylinder with at least this share of z are those of a cap."""
 
 
 def coordinates(kind: str, points: Floats, normals: Floats, tile: tuple[float, float]) -> Floats:
-    """Returns where in the picture each vertex is; 1 is a repetition, v points up.
+    """Returns the texture coordinates of each vertex; 1 is a repetition, v points up.
 
     Args:
         kind: `box`, `plane`, `cylinder`, `sphere`, `capsule` or `mesh`.
@@ -38,7 +38,7 @@ def coordinates(kind: str, points: Floats, normals: Floats, tile: tuple[float, f
 
 
 def _along_axes(points: Floats, normals: Floats, tile: tuple[float, float]) -> Floats:
-    """Looks along the axis that each triangle faces most."""
+    """Projects each triangle along its dominant axis."""
     corners = points.reshape(-1, 3, 3)
     across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     flat = np.where(np.abs(across).max(axis=1, keepdims=True) > 0, across, normals.reshape(-1, 3, 3)[:, 0])
@@ -47,7 +47,7 @@ def _along_axes(points: Floats, normals: Floats, tile: tuple[float, float]) -> F
     low, high = points.min(axis=0), points.max(axis=0)
     x, y, z = (points - low).T
     width, depth = high[0] - low[0], high[1] - low[1]
-    # Seen from outside, a picture is never mirrored.
+    # From outside, a texture is never mirrored.
     u = np.select(
         [axis == 0, axis == 1],
         [np.where(sign > 0, y, depth - y), np.where(sign > 0, width - x, x)],
@@ -58,7 +58,7 @@ def _along_axes(points: Floats, normals: Floats, tile: tuple[float, float]) -> F
 
 
 def _wrapped(points: Floats, tile: tuple[float, float], *, is_ball: bool) -> Floats:
-    """Wraps round z, from -x on; the triangles over the seam go on beyond 1."""
+    """Wraps around z from -x; triangles across the seam continue beyond 1."""
     radius = float(np.linalg.norm(points[:, :2], axis=1).max(initial=0.0))
     times = max(1, round(2 * math.pi * radius / tile[0]))
     around = np.hypot(points[:, 0], points[:, 1])

@@ -1,4 +1,4 @@
-"""A scene as one stock of triangles, in numpy alone, and the choice of those that a picture needs."""
+"""A scene as one buffer of triangles, and the selection of visible ones. Numpy only."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ VERTEX: Final = np.dtype(
 
 SEGMENTS: Final = (24, 16, 10, 6)
 LEVELS_PX: Final = (4.0, 9.0, 22.0)
-"""Below these radii, in pixels, a round thing gets fewer triangles: it loses half a pixel at most."""
+"""Radii in pixels below which round shapes get fewer triangles; the error is at most half a pixel."""
 SMALLEST_PX: Final = 0.5
 
 
@@ -36,8 +36,8 @@ class Pieces:
 
     Attributes:
         vertices: all vertices of all levels, as `VERTEX`.
-        uvs: where in which texture each vertex is, as u, v and layer; empty if there are no textures.
-        rows: of each piece, the row of its object.
+        uvs: texture coordinates of each vertex as u, v and layer; empty without textures.
+        rows: the object's row of each piece.
         lows, highs: of each piece, the corners of its box in the object's frame.
     """
 
@@ -71,7 +71,7 @@ class Pieces:
         self.lows = np.array([low for low, _ in boxes], np.float32).reshape(-1, 3)
         self.highs = np.array([high for _, high in boxes], np.float32).reshape(-1, 3)
         self._middles = (self.lows + self.highs) / 2
-        # How round a thing looks: of a pole its own radius, of a disc that of its rim.
+        # Radius that matters for the level of detail.
         self.rounds: Floats = (np.sort(self.highs - self.lows, axis=1)[:, 1] / 2).astype(np.float32)
         self.radii: Floats = (np.linalg.norm(self.highs - self.lows, axis=1) / 2).astype(np.float32)
 
@@ -79,11 +79,11 @@ class Pieces:
         return len(self.rows)
 
     def largest_order(self) -> int:
-        """Returns how many indices all pieces have at most."""
+        """Returns the largest number of indices of all pieces."""
         return sum(max(len(order) for order in orders) for orders in self._orders)
 
     def centers(self, placed: Floats) -> Floats:
-        """Returns the middle of each piece in the world, where `placed` has the objects' matrices."""
+        """Returns the center of each piece in the world, where `placed` has the objects' matrices."""
         turned = placed[self.rows]
         centers: Floats = np.einsum("nij,nj->ni", turned[:, :, :3], self._middles) + turned[:, :, 3]
         return centers
@@ -98,7 +98,7 @@ class Pieces:
         )
 
     def corners_of(self, numbers: NDArray[np.intp], placed: Floats, margin: float) -> NDArray[np.float64]:
-        """Returns the eight corners in the world of the boxes of some pieces, made wider: (pieces, 8, 3)."""
+        """Returns the eight corners in the world of some pieces' enlarged boxes: (pieces, 8, 3)."""
         turned = placed[self.rows[numbers]].astype(np.float64)
         ends = np.stack([self.lows[numbers] - margin, self.highs[numbers] + margin], axis=1)
         corners = np.stack(
@@ -109,20 +109,20 @@ class Pieces:
         return placed_corners
 
     def seen(self, placed: Floats, view: Viewpoint, width: int, height: int) -> Order:
-        """Returns the triangles of all that may be in a picture, the nearest pieces first."""
+        """Returns the triangles that may be visible, the nearest pieces first."""
         return self.order_of(*self._nearest(placed, view, width, height))
 
     def seen_apart(
         self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
     ) -> tuple[Order, Order]:
-        """Returns the same in two parts: what has a colour only, and what has a texture.
+        """Returns them in two parts: without and with textures.
 
         Args:
             placed: the objects' matrices.
-            view: where one looks from.
+            view: the camera.
             width: of the picture in pixels.
             height: of the picture in pixels.
-            part: only what may be in this part of the picture, of which the first row is the top one.
+            part: restricts them to a part of the picture, whose first row is the top one.
         """
         nearest, levels = self._nearest(placed, view, width, height, part)
         textured = self.is_textured[nearest]
@@ -134,7 +134,7 @@ class Pieces:
     def _nearest(
         self, placed: Floats, view: Viewpoint, width: int, height: int, part: Rectangle | None = None
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Returns the pieces that may be in a picture, the nearest first, and the level of each."""
+        """Returns the pieces that may be visible, the nearest first, with their levels."""
         if not len(self):
             return np.zeros(0, np.intp), np.zeros(0, np.intp)
         matrix = view.view_matrix().astype(np.float32)
@@ -171,7 +171,7 @@ class Pieces:
     def _distances(
         self, placed: Floats, numbers: NDArray[np.intp], eye: tuple[float, float, float]
     ) -> Floats:
-        """Returns how far each piece's box is from the eye."""
+        """Returns the distance of each piece's box from the eye."""
         turned = placed[self.rows[numbers]]
         local = np.einsum("nji,nj->ni", turned[:, :, :3], np.array(eye, np.float32) - turned[:, :, 3])
         apart = local - np.clip(local, self.lows[numbers], self.highs[numbers])
@@ -222,7 +222,7 @@ def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-9)
     result = np.zeros(len(points), VERTEX)
     result["position"] = points[:, :3] * scale @ turn[:, :3].T + turn[:, 3]
-    # Light comes from above: a ceiling is as bright as if it were a floor.
+    # Light comes from above: a ceiling is lit like a floor.
     result["normal"] = (0, 0, -1) if shape.ceiling and shape.shape == "plane" else normals @ turn[:, :3].T
     result["color"] = np.round(np.clip(shape.color, 0.0, 1.0) * np.float32(255)).astype(np.uint8)
     result["row"] = row
@@ -230,12 +230,12 @@ def _placed(points: Floats, shape: Shape, row: int) -> NDArray[np.void]:
 
 
 def _key(shape: Shape) -> tuple[object, ...]:
-    """Names the triangles of a shape: with a texture each size has its own: pictures are not stretched."""
+    """Returns the key of a shape's triangles; with a texture each size has its own, to avoid stretching."""
     return (*_mesh_key(shape), shape.texture, *shape.size) if shape.texture else _mesh_key(shape)
 
 
 def _painted(shape: Shape, scene: Scene) -> list[Floats]:
-    """Returns a shape's triangles in each level; two more columns say where in a texture they are."""
+    """Returns a shape's triangles in each level; with two more columns for texture coordinates."""
     levels = _levels(_mesh_key(shape), scene)
     if not shape.texture:
         return levels
@@ -261,7 +261,7 @@ def _uvs(points: Floats, layer: int) -> Floats:
 
 
 def _mesh_key(shape: Shape) -> tuple[object, ...]:
-    # A capsule cannot be stretched without spoiling its ends, so each size is a mesh of its own.
+    # Stretching would distort the ends of a capsule, so each size is a separate mesh.
     if shape.shape == "capsule":
         return ("capsule", *shape.size)
     return (shape.shape, shape.mesh) if shape.shape == "mesh" else (shape.shape,)

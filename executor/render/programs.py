@@ -1,4 +1,4 @@
-"""Compiles the shader programs for the OpenGL that there is."""
+"""Compiles the shader programs for the available OpenGL."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TEXTURED: Final = {
     "object_textured": (shaders.TEXTURED_VERTEX, shaders.TEXTURED_FRAGMENT),
     "ground_textured": (shaders.GROUND_VERTEX, shaders.TEXTURED_GROUND_FRAGMENT),
 }
-"""What only a scene with textures needs."""
+"""Programs of scenes with textures."""
 
 
 def compile_all(
@@ -32,7 +32,7 @@ def compile_all(
 
     Args:
         context: of moderngl.
-        gather: filter shadows by hand, which a CPU does faster than by the sampler.
+        gather: filter shadows in the shader, which is faster than the sampler on a CPU.
         sources: vertex and fragment shaders by name.
     """
     gather = gather and context.version_code >= GATHER_VERSION

@@ -1,4 +1,4 @@
-"""Rectangles of pixels [x, y, width, height]: boxes that overlap become one."""
+"""Rectangles of pixels [x, y, width, height]: overlapping boxes are merged."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The GL renderer's shader programs. Colours are linear inside and (nearly) sRGB in the picture.
 
-They are written for a CPU that plays GPU: there every varying and every texel costs, `if` saves nothing, and
-triangles cost more than pixels. So light is reckoned at the vertices, and the fragments only mix.
+They are optimised for software rendering: there every varying and every texel costs time, `if` saves nothing,
+and triangles cost more than pixels. So lighting is computed at vertices, and fragments only mix.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ out vec4 picture;
 void main() {{ picture = finish(mix(dark, bright, lit(uvd))); }}
 """
 
-# The same with a picture: it is looked up for each fragment, and squared as colours are.
+# The same with a texture, sampled for each fragment, and squared as colours are.
 TEXTURED_VERTEX: Final = OBJECT_VERTEX.replace(
     "out vec3 dark;", "in vec3 in_uv;\nout vec3 uv;\nout vec3 dark;"
 ).replace("gl_Position =", "uv = in_uv;\n    gl_Position =")
@@ -192,7 +192,7 @@ out vec4 picture;
 void main() { picture = vec4(color, 1.0); }
 """
 
-# What a depth camera and a labelled picture see: metres ahead, and the row of the object.
+# For depth and segmentation: depth in m, and the row of the object.
 MEASURE_VERTEX: Final = f"""
 {_PLACE}
 uniform mat4 view_projection;

@@ -1,4 +1,4 @@
-"""The shadow map of the GL renderer: drawn once, and again only where something moved."""
+"""The shadow map of the GL renderer: redrawn only where something moved."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ SMALLEST_TEXELS: Final = 0.7
 
 
 class ShadowPlan:
-    """Says where the light looks, and what of its map has to be drawn anew. It draws nothing itself.
+    """Computes the camera of the light, and the parts of its map to redraw. It draws nothing itself.
 
-    A scene up to twice `LARGEST_REACH_M` wide is covered whole; in a wider one the map follows the viewer in
-    steps of `CELL_M`.
+    A scene up to twice `LARGEST_REACH_M` wide is covered completely; in a wider one the map follows the
+    viewer in steps of `CELL_M`.
     """
 
     def __init__(self, pieces: Pieces, placed: Floats, sun: NDArray[np.float64]) -> None:
@@ -45,11 +45,11 @@ class ShadowPlan:
 
     @property
     def texel_m(self) -> float:
-        """Returns how wide a texel is."""
+        """Returns the width of a texel."""
         return 2 * self.reach_m / SIZE
 
     def dirty(self, placed: Floats, view: Viewpoint) -> list[tuple[Rectangle, Order]]:
-        """Returns what to draw where, in texels [x, y, width, height], and counts it as drawn."""
+        """Returns the parts to redraw in texels [x, y, width, height], and counts them as drawn."""
         center = self._look_at(view)
         if not np.array_equal(center, self._center):
             self._center, self._texels = center, None
@@ -73,7 +73,7 @@ class ShadowPlan:
     # --- inside ---
 
     def _fit(self, placed: Floats) -> None:
-        """Has the map cover all that there is, with room for some motion."""
+        """Fits the map to the scene, with a margin for motion."""
         low, high = self._bounds(placed)
         half = (high - low) / 2 + ROOM_M
         self._middle = self._center = (low + high) / 2
@@ -141,7 +141,7 @@ def _are_outside(texels: Floats) -> bool:
 
 
 def _boxes(texels: Floats) -> NDArray[np.int64]:
-    """Returns [left, bottom, right, top] of each, a texel wider all round."""
+    """Returns [left, bottom, right, top] of each, enlarged by a texel."""
     low = np.floor(texels[:, :2] - texels[:, 2:] - 1)
     high = np.ceil(texels[:, :2] + texels[:, 2:] + 1)
     boxes: NDArray[np.int64] = np.clip(np.column_stack([low, high]), 0, SIZE).astype(np.int64)

@@ -1,8 +1,8 @@
-"""Smooths the edges of a finished picture, where the renderer is a CPU.
+"""Smooths the edges of a finished picture, for software rendering.
 
-Morphological antialiasing (Reshetov, 2009): a staircase in the picture is a straight edge that was sampled
-once a pixel. Runs of edge pixels and the steps at their ends tell where that edge was, and so how much of
-each pixel it covers. The work is proportional to the edges, not to the pixels.
+Morphological antialiasing (Reshetov, 2009): a staircase in the picture is a straight edge, sampled once
+a pixel. Runs of edge pixels and the steps at their ends determine that edge, and so its coverage of each
+pixel. The work is proportional to the edges, not to the pixels.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 CONTRAST: Final = 12
 LEAST_WEIGHT: Final = 11
-"""In 256ths: less of its neighbour in a pixel is not seen."""
+"""In 256ths: a smaller share of a neighbour in a pixel is invisible."""
 _EVEN: Final = np.uint32(0x00FF00FF)
 _ODD: Final = np.uint32(0xFF00FF00)
 _HALF: Final = np.uint32(0x00800080)
@@ -31,7 +31,7 @@ def smoothed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Smooths an RGBA picture in place, and returns it."""
     height, width = picture.shape[:2]
     gray = cv2.cvtColor(picture, cv2.COLOR_RGBA2GRAY)
-    # Edges below a pixel, and to its right. None at the rim, so that looking beyond it finds nothing.
+    # Edges below a pixel, and to its right. None at the border, so that no access leaves the picture.
     below, beside = np.zeros((height, width), bool), np.zeros((height, width), bool)
     np.greater(cv2.absdiff(gray[:-1], gray[1:]), CONTRAST, out=below[:-1])
     np.greater(cv2.absdiff(gray[:, :-1], gray[:, 1:]), CONTRAST, out=beside[:, :-1])
@@ -48,7 +48,7 @@ def smoothed(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 
 def _new_lines(edges: Indices, length: int) -> NDArray[np.bool_]:
-    """Tells where an edge does not go on the one before, in lines of a length."""
+    """Returns where an edge does not continue the one before."""
     new = np.ones(len(edges), bool)
     np.not_equal(edges[1:] - edges[:-1], 1, out=new[1:])
     new |= edges % length == 0
@@ -57,7 +57,7 @@ def _new_lines(edges: Indices, length: int) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class _Pixels:
-    """A picture, row by row: colours of four bytes, and how bright they were before anything was smoothed."""
+    """A picture, row by row: colours of four bytes, and their brightness before smoothing."""
 
     colors: NDArray[np.uint32]
     brightness: NDArray[np.uint8]
@@ -75,7 +75,7 @@ class _Pixels:
 
         Args:
             edges: pixels with an edge between them and the pixel `across` further, run by run.
-            new_line: where an edge does not go on the one before.
+            new_line: where an edge does not continue the one before.
             steps: edges between a pixel and the pixel `along` further.
             along: from a pixel to the next one in a run.
             across: from a pixel to the one at the other side of its edge.
@@ -100,7 +100,7 @@ class _Pixels:
         run = np.repeat(np.arange(len(starts)), lengths)
         place = np.arange(len(run)) - (np.cumsum(lengths) - lengths).take(run)
         length = lengths.take(run)
-        # From the middle of the run to its ends a pixel has ever more of its neighbour, half of it at most.
+        # From the middle of a run to its ends, the share of the neighbour grows to one half.
         off = length - 2 * place - 1
         side = np.where(off > 0, at_start.take(run), at_end.take(run))
         weight = np.abs(off) * 128 // length
@@ -112,7 +112,7 @@ class _Pixels:
         self._mix(np.where(is_here, here, there), np.where(is_here, there, here), weight.astype(np.uint32))
 
     def _mix(self, pixels: Indices, others: Indices, weight: NDArray[np.uint32]) -> None:
-        """Puts 256ths of other pixels into pixels, two bytes of a colour at a time."""
+        """Mixes 256ths of other pixels into pixels, two bytes of a colour at a time."""
         own, other, rest = self.colors.take(pixels), self.colors.take(others), np.uint32(256) - weight
         even = ((own & _EVEN) * rest + (other & _EVEN) * weight + _HALF) >> _EIGHT
         odd = ((own >> _EIGHT) & _EVEN) * rest + ((other >> _EIGHT) & _EVEN) * weight + _HALF

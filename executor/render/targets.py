@@ -1,4 +1,4 @@
-"""What the GL renderer draws into and reads from, one of each size."""
+"""Framebuffers of the GL renderer, one of each size."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_SIZES: Final = 6
 
 
 class Targets:
-    """Framebuffers of the sizes asked for last. With `samples` > 1 the hardware smooths the edges."""
+    """Framebuffers of the last sizes. With `samples` > 1 the hardware smooths the edges."""
 
     def __init__(self, context: Any, samples: int) -> None:
         self._context = context
@@ -42,7 +42,7 @@ class Targets:
     def read(
         self, width: int, height: int, *, of: Size | None = None, at: Size = (0, 0)
     ) -> NDArray[np.uint8]:
-        """Returns what was drawn into `picture` last, as rows of RGBA; or a part of one of the size `of`."""
+        """Returns the last picture, as rows of RGBA; or a part of one of the size `of`."""
         plain = self._plain[of or (width, height)]
         if self._drawn is not plain:
             self._context.copy_framebuffer(plain, self._drawn)
@@ -68,7 +68,7 @@ class Targets:
 
 
 def _forget_oldest(kept: dict[Size, Any]) -> None:
-    """Clients choose how wide their pictures are: memory must not grow with their fancy."""
+    """Bounds the memory: clients choose the sizes of their pictures."""
     while len(kept) > MOST_SIZES:
         target = kept.pop(next(iter(kept)))
         for attachment in (*target.color_attachments, target.depth_attachment):

@@ -1,4 +1,4 @@
-"""The renderer of last resort: PyBullet's TinyRenderer. It needs no OpenGL, is slow, and draws the same."""
+"""The renderer of last resort: PyBullet's TinyRenderer. It needs no OpenGL, and is slow."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ AWAY: Final = (0.0, 0.0, -1000.0)
 
 
 class TinyRenderer:
-    """Draws through a physics server of its own that holds pictures of bodies and simulates nothing."""
+    """Draws with a separate physics server that holds visual shapes and simulates nothing."""
 
     name = "TinyRenderer"
 
@@ -35,7 +35,7 @@ class TinyRenderer:
         self._sun = [-0.3, -0.4, 0.8]
 
     def load(self, scene: Scene) -> None:
-        """Takes a scene in place of the last one."""
+        """Replaces the scene."""
         self._bullet.resetSimulation()
         self._ceilings = set()
         self._meshes = scene.meshes
@@ -67,7 +67,7 @@ class TinyRenderer:
     def depth(
         self, poses: NDArray[np.float32], view: Viewpoint, width: int, height: int
     ) -> NDArray[np.float32]:
-        """Returns how far ahead everything is, in m along the optical axis; +inf for nothing."""
+        """Returns the depth in m along the optical axis; +inf for the background."""
         shot = self._shoot(poses, view, width, height)
         buffer = np.reshape(shot[3], (height, width)).astype(np.float64)
         near, far = view.near, view.far
@@ -80,7 +80,7 @@ class TinyRenderer:
     ) -> NDArray[np.int32]:
         """Returns for each pixel the row of the object in the scene, `GROUND` or `NOTHING`."""
         seen = np.reshape(self._shoot(poses, view, width, height)[4], (height, width))
-        # One more than the last body, so that the -1 of the sky finds the last entry.
+        # One more than the last body, so that -1 (the sky) indexes the last entry.
         rows = np.full(self._ground + 2, NOTHING, np.int32)
         for row, uids in enumerate(self._bodies):
             rows[uids] = row
@@ -108,7 +108,7 @@ class TinyRenderer:
         )
 
     def _body(self, scene_object: SceneObject) -> list[int]:
-        """Makes one body for each shape: TinyRenderer colours the shapes of one body alike."""
+        """Makes one body for each shape: TinyRenderer gives all shapes of a body one colour."""
         uids = [
             self._bullet.createMultiBody(0, -1, self._visual(shape), basePosition=scene_object.pose[:3])
             for shape in scene_object.shapes
@@ -117,7 +117,7 @@ class TinyRenderer:
         return uids
 
     def _tinted(self, color: list[float], texture: str) -> list[float]:
-        """Returns the colour that a texture has from afar: this renderer draws no pictures on things."""
+        """Returns the mean colour of a texture, since this renderer has none."""
         paint = self._paints.get(texture, (1.0, 1.0, 1.0))
         return [*(part * tint for part, tint in zip(color, paint, strict=False)), color[3]]
 
@@ -150,7 +150,7 @@ class TinyRenderer:
         return visual
 
     def _triangles(self, vertices: NDArray[np.float32], scale: list[float], common: dict[str, Any]) -> int:
-        """Makes a shape of our own triangles: TinyRenderer's round shapes are coarse."""
+        """Makes a shape of our own triangles, since TinyRenderer's round shapes are coarse."""
         points, order = geometry.indexed(vertices)
         visual: int = self._bullet.createVisualShape(
             self._bullet.GEOM_MESH,

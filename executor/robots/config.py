@@ -1,4 +1,4 @@
-"""What a robot's `robot.yaml` says: its URDF, how it drives, where its sensors sit."""
+"""The model of a robot's `robot.yaml`: its URDF, its drive, its sensors."""
 
 from __future__ import annotations
 
@@ -61,9 +61,9 @@ class RobotError(DocumentError):
 class Drive(Strict):
     """A differential drive. Speeds in m/s and rad/s, accelerations in m/s² and rad/s².
 
-    `turn_factor` is how many times as wide as `track` the drive behaves when it turns: 1 with one wheel a
-    side, more where wheels must skid. `slip_noise` is the standard deviation in m of what odometry takes a
-    wheel's way for after 1 m; it grows with the root of the way.
+    `turn_factor` is the ratio of the effective track width in turns to `track`: 1 with one wheel a side, more
+    if wheels must skid. `slip_noise` is the standard deviation in m of the distance that odometry measures
+    for a wheel after 1 m; it grows with the square root of the distance.
     """
 
     kind: Literal["differential"] = "differential"
@@ -98,9 +98,9 @@ class JointDrive(Strict):
 class RobotDocument(Strict):
     """A `robot.yaml`, before its names are looked up in the URDF.
 
-    `command_type` is what the robot takes on `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped`
-    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it says on `/ground_truth/odom` where it truly
-    is.
+    `command_type` is the message type of `/cmd_vel`: `geometry_msgs/Twist`, `geometry_msgs/TwistStamped`
+    as robots of ROS 2 Jazzy do, or both. With `ground_truth` it publishes its true pose on
+    `/ground_truth/odom`.
     """
 
     format: Literal["bt-studio/robot"]
@@ -126,9 +126,9 @@ class RobotConfig:
         wheels: links whose contact is no collision: wheels and casters.
         friction: friction by link, where it is not 0.8.
         joints: other joints that have a motor.
-        command_type: the messages that it takes on `/cmd_vel`.
-        ground_truth: whether it says where it truly is.
-        skid: what is left of it along y by link, from 0 to 1: wheels that turn by skidding slide sideways.
+        command_type: the message type of `/cmd_vel`.
+        ground_truth: whether it publishes its true pose.
+        skid: factor of the friction along y by link, 0 to 1: wheels that turn by skidding slide sideways.
     """
 
     id: str
@@ -156,7 +156,7 @@ def robot_ids() -> tuple[str, ...]:
 
 
 def preview_path(robot_id: str) -> Path:
-    """Returns where the picture of a robot that we ship is; `executor.generate.previews` draws it."""
+    """Returns the path of the picture of a robot that we ship; `executor.generate.previews` draws it."""
     return _FOLDER / robot_id / "preview.webp"
 
 
@@ -179,7 +179,7 @@ def load_robot(robot_id: str, assets: Path | None = None) -> RobotConfig:
 
 
 def _read(robot_id: str, folder: Path, shown: str) -> RobotConfig:
-    """Reads a robot; errors name the folder as it is `shown` to people: as a path of the project."""
+    """Reads a robot; errors name the folder as `shown`, a path of the project."""
     file = folder / "robot.yaml"
     try:
         located = read_yaml(file.read_text(encoding="utf-8"), file.name)

@@ -1,4 +1,4 @@
-"""Turns xacro and SDF into URDF. It runs only where a robot is loaded: never in the web server."""
+"""Turns xacro and SDF into URDF. It runs only where a robot is loaded, never in the web server."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def urdf_of(path: Path) -> bytes:
         return path.read_bytes()
     import xacro  # noqa: PLC0415 - few robots need it
 
-    path.stat()  # a file that is missing is said in our words
+    path.stat()  # a missing file gets our own error text
     said = io.StringIO()
     try:
         with contextlib.redirect_stderr(said), contextlib.redirect_stdout(said):
             document = xacro.process_file(str(path))
         return bytes(document.toprettyxml(indent="  ", encoding="utf-8"))
-    except Exception as error:  # xacro evaluates what users wrote; anything may come of it
+    except Exception as error:  # xacro evaluates expressions of users, which may raise anything
         text = _in_words(error)
         line = getattr(error, "lineno", None) or _line_of(text, path)
         raise UrdfError(text, path.name, line) from error
@@ -47,7 +47,7 @@ def _urdf_of_sdf(path: Path) -> bytes:
 
 
 def _line_of(message: str, path: Path) -> int:
-    """Finds the line that a message speaks of: xacro names what it stumbled over, not where that stands."""
+    """Finds the line of a message: xacro names the element, not its place."""
     words = [word for pair in re.findall(r"'([^']+)'|(xacro:\w+)", message) for word in pair if word]
     names = [*words, *(Path(word).name for word in words if "/" in word)]
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()

@@ -1,4 +1,4 @@
-"""Masses, and how they are spread round their centre. Pure."""
+"""Masses and inertia tensors. Pure."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from executor.world.transforms import compose, rotation
+from executor.world.geometry.transforms import compose, rotation
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,11 @@ class Inertial:
     tensor: NDArray[np.float64]
 
     def seen_from(self, pose: Pose) -> Inertial:
-        """Returns the same of a link that stands at a pose in the frame that is wanted."""
+        """Returns the inertia of a link at this pose, in the frame of the pose."""
         return Inertial(self.mass, compose(pose, self.pose), self.tensor)
 
     def joined(self, other: Inertial) -> Inertial:
-        """Returns the inertia of both as one body, its axes those of the link's frame.
+        """Returns the inertia of both as one body, with the axes of the link's frame.
 
         The parallel axis theorem: about the common centre each adds m (|d|² E - d dᵀ).
         """

@@ -1,4 +1,4 @@
-"""Reads a URDF, xacro or SDF model with all its meshes; what is wrong is said with its line."""
+"""Reads a URDF, xacro or SDF model with all its meshes; errors have their line."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from executor.robots.expand import urdf_of
 from executor.robots.prepare import mesh_path
 from executor.robots.urdf import Urdf, UrdfError, parse_urdf
 from executor.universes.document import DocumentError, Problem
-from executor.world.mesh import MeshError, load_mesh
+from executor.world.geometry.mesh import MeshError, load_mesh
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 
 def read_links(path: Path, where: str) -> tuple[Urdf, dict[str, Mesh]]:
-    """Returns the links of a file, and their meshes by the names that they have in it.
+    """Returns the links of a file, and their meshes by their names in it.
 
     Args:
-        path: of the file; meshes are looked for beside it.
-        where: how the file is named to people.
+        path: of the file; meshes are searched in its folder.
+        where: the name of the file in errors.
 
     Raises:
         DocumentError: it cannot be read, or is wrong.
@@ -46,7 +46,7 @@ def read_links(path: Path, where: str) -> tuple[Urdf, dict[str, Mesh]]:
 
 
 def _line_of(mesh: str, path: Path) -> int:
-    """Finds the line of a file that names a mesh; that of the URDF made of it says nothing to people."""
+    """Finds the line of a file that names a mesh; a line of the URDF made of it would not help users."""
     stem = mesh.rsplit("/", 1)[-1]
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     return next((i for i, line in enumerate(lines, 1) if stem in line), 1)

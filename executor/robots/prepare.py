@@ -1,4 +1,4 @@
-"""Makes of a URDF the one that the physics loads: meshes converted, fixed links one, all with a mass."""
+"""Makes the URDF that the physics engine loads: converted meshes, merged fixed links, all with a mass."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from lxml import etree
 
 from executor.robots.rigid import merge_fixed_links
-from executor.world.mesh import MeshError, write_obj
+from executor.world.geometry.mesh import MeshError, write_obj
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -27,7 +27,7 @@ def mesh_path(name: str, folder: Path) -> Path:
     """Returns the file that a URDF names: relative to it, or `package://any/…` within the robot's folder.
 
     Raises:
-        MeshError: it lies elsewhere.
+        MeshError: it is outside of the folder.
     """
     if name.startswith("package://"):
         package, _, rest = name.removeprefix("package://").partition("/")
@@ -44,12 +44,12 @@ def mesh_path(name: str, folder: Path) -> Path:
 
 @contextmanager
 def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = ()) -> Iterator[Path]:
-    """Gives a file that the physics loads, as long as it is needed.
+    """Yields a temporary file that the physics engine loads.
 
     Args:
         text: the URDF, valid.
-        meshes: by the names that it gives them.
-        apart: links that must not be merged with what they are fixed to.
+        meshes: by their names in the URDF.
+        apart: links that must not be merged with the links that they are fixed to.
     """
     root = etree.fromstring(text.encode(), etree.XMLParser(resolve_entities=False, no_network=True))
     with tempfile.TemporaryDirectory(prefix="bt-studio-urdf-") as name:
@@ -60,7 +60,7 @@ def physical_urdf(text: str, meshes: dict[str, Mesh], apart: Collection[str] = (
             write_obj(mesh, files[mesh_name])
         merge_fixed_links(root, apart)
         for link in root.findall("link"):
-            for visual in link.findall("visual"):  # we draw these ourselves
+            for visual in link.findall("visual"):  # our renderer draws these
                 link.remove(visual)
             if link.find("inertial") is None:
                 link.insert(0, etree.fromstring(_FEATHER))

@@ -10,7 +10,7 @@ from executor.robots.config import RobotDocument
 
 _ROOT: Final = Path(__file__).parents[2]
 PAGE: Final = _ROOT / "docs" / "reference" / "schemas" / "robot.schema.json"
-# What the editor checks robots with; beside its other generated sources, so that it builds alone.
+# The editor validates robots with it; kept with its other generated sources, so that it builds alone.
 FOR_THE_EDITOR: Final = _ROOT / "frontend" / "src" / "generated" / "robot.schema.json"
 
 
@@ -24,7 +24,7 @@ def schema() -> str:
 
 
 def main() -> None:
-    """Writes the schema, for people and for the editor."""
+    """Writes the schema, for the docs and for the editor."""
     for path in (PAGE, FOR_THE_EDITOR):
         path.write_text(schema(), encoding="utf-8")
 

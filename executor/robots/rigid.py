@@ -1,7 +1,7 @@
-"""Makes one link of those that are fixed to each other: the physics pays for each link in each step.
+"""Merges links that are fixed to each other, since each link costs time in each physics step.
 
-What is seen and measured goes by the whole URDF; only the physics server gets the shorter one. The bodies are
-the same: collision shapes move to the link that carries them, masses are joined exactly.
+Renderer and sensors use the whole URDF; only the physics server gets the merged one. The dynamics are the
+same: collision shapes move to the link that carries them, masses are joined exactly.
 """
 
 from __future__ import annotations
@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from executor.robots.urdf import read_inertial, read_origin
-from executor.world.transforms import compose, to_xyz_rpy
+from executor.world.geometry.transforms import compose, to_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Collection
 
     from executor.robots.inertia import Inertial
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
 
 _TENSOR = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
 
 
 def merge_fixed_links(root: etree._Element, apart: Collection[str]) -> None:
-    """Merges in place each link with what it is fixed to.
+    """Merges each link in place with the link that it is fixed to.
 
     Args:
         root: the URDF, valid.
@@ -47,7 +47,7 @@ def merge_fixed_links(root: etree._Element, apart: Collection[str]) -> None:
 
 
 def _stands_apart(link: etree._Element, apart: Collection[str]) -> bool:
-    # <contact> is Bullet's own addition to URDF: how this one link feels.
+    # <contact> is Bullet's extension of URDF: the contact properties of this link.
     return link.get("name") in apart or link.find("contact") is not None
 
 

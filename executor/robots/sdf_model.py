@@ -1,7 +1,7 @@
-"""Makes a URDF of an SDF model: its links, what is seen and touched of them, and its joints.
+"""Makes a URDF of an SDF model: links with visual and collision shapes, and joints.
 
-A link of a URDF stands where its joint is, one of SDF where it likes; so every pose is reckoned in the frame
-of the model first. The model's own pose is left to the universe that places it.
+The frame of a URDF link is at its joint, that of an SDF link anywhere; so every pose is first computed in the
+frame of the model. The model's own pose is left to the universe that places it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,15 @@ from lxml import etree
 
 from executor.robots.urdf import UrdfError
 from executor.universes.document import Problem
-from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy, inverse, rotate, to_xyz_rpy
+from executor.world.geometry.transforms import (
+    IDENTITY,
+    Pose,
+    compose,
+    from_xyz_rpy,
+    inverse,
+    rotate,
+    to_xyz_rpy,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,7 +30,7 @@ if TYPE_CHECKING:
 MAX_BYTES: Final = 20_000_000
 PLANE_THICKNESS_M: Final = 0.002
 ENDLESS: Final = 1e6
-"""A limit beyond this is none."""
+"""A larger limit means no limit."""
 _QUIET: Final = frozenset(
     {"pose", "static", "link", "joint", "frame", "self_collide", "allow_auto_disable", "enable_wind"}
 )
@@ -36,7 +44,7 @@ _KINDS: Final = {
 
 @dataclass
 class Made:
-    """A URDF, and what of the SDF it does not have."""
+    """A URDF, and the parts of the SDF that were left out."""
 
     urdf: bytes
     left_out: list[Problem] = field(default_factory=list)
@@ -46,7 +54,7 @@ def urdf_of_sdf(data: bytes, file: str = "model.sdf") -> Made:
     """Returns the URDF of the first model of an SDF document.
 
     Raises:
-        UrdfError: it is no SDF with a model, or something in it is wrong.
+        UrdfError: it is no SDF with a model, or invalid.
     """
     if len(data) > MAX_BYTES or b"<!DOCTYPE" in data:
         raise UrdfError("an SDF model has no DOCTYPE and is smaller than 20 MB", file)
@@ -105,11 +113,11 @@ class _Model:
         return found
 
     def _tree(self) -> dict[str, etree._Element]:
-        """Returns the joint above each link that has one; what would close a loop is left out."""
+        """Returns the joint above each link that has one; joints that would close a loop are left out."""
         above: dict[str, etree._Element] = {}
         for name, joint in self._joints.items():
             parent, child = _text(joint, "parent"), _text(joint, "child")
-            if parent == "world":  # the root stands fast if it weighs nothing
+            if parent == "world":  # a root without mass is fixed
                 continue
             for link in (parent, child):
                 if link not in self._links:
@@ -131,7 +139,7 @@ class _Model:
     # --- poses ---
 
     def _in_model(self, name: str, asked: tuple[str, ...] = ()) -> Pose:
-        """Returns where a link, a joint or a frame is in the model's frame."""
+        """Returns the pose of a link, a joint or a frame in the model's frame."""
         if name not in self._known:
             element = self._frames.get(name)
             if element is None or name in asked:
@@ -144,7 +152,7 @@ class _Model:
         return self._known[name]
 
     def _pose(self, element: etree._Element, base: str, asked: tuple[str, ...] = ()) -> Pose:
-        """Returns an element's pose in the model's frame; it is relative to `base`, if it does not say."""
+        """Returns an element's pose in the model's frame; relative to `base` by default."""
         pose = element.find("pose")
         if pose is not None:
             base = pose.get("relative_to") or base
@@ -153,7 +161,7 @@ class _Model:
         return compose(self._in_model(base, asked), own)
 
     def _link_frame(self, link: str) -> Pose:
-        """Returns where the URDF has a link: at its joint, or at the model's origin if nothing holds it."""
+        """Returns the frame of a link in the URDF: at its joint, or at the model's origin without one."""
         joint = self._above.get(link)
         return IDENTITY if joint is None else self._in_model(joint.get("name", ""))
 
@@ -186,7 +194,7 @@ class _Model:
         mass = self._numbers(inertial, "mass", 1)[0] if inertial.find("mass") is not None else 1.0
         etree.SubElement(made, "mass", value=f"{max(mass, 1e-4):.9g}")
         inertia = inertial.find("inertia")
-        # One kilogram of a ball of 6 cm where nothing is said.
+        # Default: 1 kg as a ball of 6 cm.
         values = {"ixx": mass * 1.5e-3, "iyy": mass * 1.5e-3, "izz": mass * 1.5e-3}
         if inertia is not None:
             values |= {str(v.tag): self._numbers(inertia, str(v.tag), 1)[0] for v in inertia if len(v) == 0}

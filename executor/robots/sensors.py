@@ -1,4 +1,4 @@
-"""What a robot's `robot.yaml` may say about its sensors. SI units; each sits at a link of the URDF."""
+"""The sensors of a robot's `robot.yaml`. SI units; each is at a link of the URDF."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ Rate = Annotated[float, Field(gt=0, le=60, allow_inf_nan=False)]
 
 
 class Strict(BaseModel):
-    """A part of a document that knows all its keys."""
+    """A part of a document that refuses unknown keys."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Lidar(Strict):
-    """A scanner that turns counter-clockwise, from straight ahead if it sees all round, else from the right.
+    """A counter-clockwise scanner; a full circle begins straight ahead, others at the right.
 
     Ranges outside of `range_min` to `range_max` are -inf and +inf (REP-117); `noise_m` is the standard
     deviation of a range.
@@ -98,7 +98,7 @@ class Imu(Strict):
 
 
 class Bumper(Strict):
-    """Tells contacts of the front half: `topic` for any, and below it /left, /center and /right."""
+    """Reports contacts of the front half: `topic` for any, and below it /left, /center and /right."""
 
     name: SensorName = "bumper"
     kind: Literal["bumper"]
@@ -108,7 +108,7 @@ class Bumper(Strict):
 
 
 class Battery(Strict):
-    """A battery. Currents in A: of the electronics, and of driving at full speed. Empty, the wheels stop."""
+    """A battery. Currents in A: of the electronics, and at full speed. Wheels stop when it is empty."""
 
     name: SensorName = "battery"
     kind: Literal["battery"]

@@ -1,4 +1,4 @@
-"""Reads what we need of a URDF: links with their visual shapes, and the joints between them."""
+"""Parses the supported part of a URDF: links with visual shapes, and the joints between them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from lxml import etree
 
 from executor.robots.inertia import Inertial
-from executor.world.transforms import IDENTITY, Pose, compose, from_xyz_rpy
+from executor.world.geometry.transforms import IDENTITY, Pose, compose, from_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -34,7 +34,7 @@ class UrdfError(Exception):
 
 
 class _WrongError(ValueError):
-    """Something wrong with an element."""
+    """An error in an element."""
 
     def __init__(self, message: str, element: etree._Element) -> None:
         self.line = _line(element)
@@ -42,7 +42,7 @@ class _WrongError(ValueError):
 
 
 def _line(element: etree._Element) -> int:
-    return int(str(element.sourceline))  # its stub thinks that it may be an ellipsis
+    return int(str(element.sourceline))  # its stub includes an ellipsis
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Visual:
 
 @dataclass(frozen=True)
 class Link:
-    """A link and what one sees of it."""
+    """A link and its visual shapes."""
 
     name: str
     visuals: tuple[Visual, ...]
@@ -89,12 +89,12 @@ class Urdf:
 
     @functools.cached_property
     def joint_above(self) -> dict[str, Joint]:
-        """The joint that holds each link but the root."""
+        """Returns the joint above each link except the root."""
         return {joint.child: joint for joint in self.joints.values()}
 
     @functools.cached_property
     def mesh_files(self) -> dict[str, int]:
-        """The meshes that are named, by what is seen and by what can be touched, with the line of each."""
+        """Returns the mesh files of visual and collision shapes, with the line of each."""
         meshes = etree.fromstring(self.text.encode()).iterfind("link/*/geometry/mesh")
         return {mesh.get("filename", ""): _line(mesh) for mesh in meshes}
 
@@ -177,7 +177,7 @@ def _numbers(element: etree._Element, key: str, default: str = "", *, count: int
 
 
 def read_origin(element: etree._Element) -> Pose:
-    """Returns the pose that an element's `<origin>` gives it; none is the identity."""
+    """Returns the pose of an element's `<origin>`; without one, the identity."""
     origin = element.find("origin")
     if origin is None:
         return IDENTITY

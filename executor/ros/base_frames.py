@@ -1,6 +1,6 @@
 """The frames below a robot's sensors, as TurtleBot3 has them: `odom`, `base_footprint`, `base_link`.
 
-`base_footprint` lies on the ground below the robot; odometry and the ground truth are about it.
+`base_footprint` is on the ground below the robot; odometry and ground truth are its poses.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from executor.ros import messages
-from executor.world.transforms import IDENTITY, Pose, compose, inverse
+from executor.world.geometry.transforms import IDENTITY, Pose, compose, inverse
 
 if TYPE_CHECKING:
     from executor.robots.config import RobotConfig
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
-    """Returns what joins `base_footprint` to the links of the URDF, where the URDF does not do so itself.
+    """Returns the transforms from `base_footprint` to links of the URDF that the URDF itself lacks.
 
-    `base_link` is there also for a robot whose links are called otherwise.
+    `base_link` exists also for a robot whose links have other names.
     """
     links, root = config.urdf.links, config.urdf.root
     chain: list[tuple[str, str, Pose]] = []
@@ -31,7 +31,7 @@ def fixed_transforms(config: RobotConfig, prefix: str = "") -> list[Any]:
 
 
 def footprint_of(config: RobotConfig) -> Pose:
-    """Returns where the root link is in `base_footprint`: its wheels stand on the ground."""
+    """Returns the pose of the root link in `base_footprint`: its wheels touch the ground."""
     joint = config.urdf.joints[config.drive.left[0]]
     _, above = config.urdf.rigid_parent(joint.parent)
     height = config.drive.wheel_radius - compose(above, joint.origin)[2]
@@ -39,7 +39,7 @@ def footprint_of(config: RobotConfig) -> Pose:
 
 
 def odometry_frame(config: RobotConfig) -> str:
-    """Returns the frame that odometry places: the URDF's root if `base_footprint` is somewhere below it."""
+    """Returns the child frame of odometry: the URDF's root if `base_footprint` is below it."""
     below = messages.BASE_FRAME in config.urdf.links and config.urdf.root != messages.BASE_FRAME
     return config.urdf.root if below else messages.BASE_FRAME
 

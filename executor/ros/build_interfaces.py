@@ -1,10 +1,10 @@
-"""Builds ROS message packages of which there is no wheel, and installs them beside the others.
+"""Builds ROS message packages that have no wheel, and installs them beside the others.
 
-Set-up runs `python -m executor.ros.build_interfaces`. What they define is in `interfaces/`; the generators
-are in the rosidl wheels and need `empy<4`, of which they are given a copy of their own. A package is built
-again when its definition, one that it uses, this program or a generator has changed. Where that cannot be
-done, one sentence says why and what is left out, and the exit status is 0 all the same: nothing else needs
-them. `COMPLETE` is there when all were built.
+Set-up runs `python -m executor.ros.build_interfaces`. The definitions are in `interfaces/`; the generators
+are in the rosidl wheels and get their own copy of `empy<4`. A package is built again when its definition, one
+that it uses, this program or a generator has changed. If that fails, a sentence says why and what is missing,
+and the exit status is still 0, since nothing else needs these packages. `COMPLETE` exists when all were
+built.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ RUNTIME_LIBRARIES: Final = (
     "rcutils",
     "fastcdr",
 )
-# By these names rosidl looks for the parts of a package's type support; here they are one library.
+# rosidl searches the parts of a package's type support by these names; here they are one library.
 SUPPORTS: Final = ("typesupport_fastrtps_c", "typesupport_introspection_c")
 INTROSPECTION: Final = "introspection"  # the folder that generate_interfaces makes beside the packages
 PREFIX: Final = Path(sys.prefix)
@@ -66,7 +66,7 @@ _STATIC: Final = re.compile(r"^static .*?(\w+)(?:\[\w*\])? =", re.MULTILINE)
 # Optimised for size: half the time to compile, and converting messages takes the same.
 _FLAGS: Final = ("-Os", "-fPIC", "-w")
 
-# Each package in one go, so that a type support that does not load is found now.
+# Imported now, to find a type support that does not load.
 _CHECK: Final = """
 import importlib, sys, rclpy
 from rclpy.type_support import check_for_type_support
@@ -93,11 +93,11 @@ rclpy.shutdown()
 
 
 class CannotBuildError(Exception):
-    """Why there will be no such messages."""
+    """The packages cannot be built; the text says why."""
 
 
 def missing() -> list[str]:
-    """Returns the packages that are not built, or not of what is written today."""
+    """Returns the packages that are not built, or are outdated."""
     return [package for package in PACKAGES if not _is_current(package)]
 
 
@@ -105,7 +105,7 @@ def build(packages: Sequence[str], say: Callable[[str], None]) -> None:
     """Generates, compiles and installs packages.
 
     Raises:
-        CannotBuildError: something that it takes is missing.
+        CannotBuildError: a tool is missing, or failed.
     """
     _check_tools()
     with tempfile.TemporaryDirectory(prefix="interfaces-") as folder:
@@ -118,7 +118,7 @@ def build(packages: Sequence[str], say: Callable[[str], None]) -> None:
 
 
 class _Build:
-    """One build: packages beside each other, as many programs at once as there are processors."""
+    """One build: packages in parallel, with as many programs at once as processors."""
 
     def __init__(self, work: Path, say: Callable[[str], None]) -> None:
         self._work = work
@@ -134,7 +134,7 @@ class _Build:
         }
 
     def run(self, packages: Iterable[str]) -> None:
-        """Builds the packages and those of ours that they use; installs when all are there."""
+        """Builds the packages and those of ours that they use; installs them when all are built."""
         wanted = {name for package in packages for name in (package, *needed_by(package)) if name in PACKAGES}
         (self._work / "lib").mkdir()
         # Each package waits in threads for its own steps and for the packages that it uses.
@@ -185,7 +185,7 @@ class _Build:
         self._take_turn(command, self._environment)
 
     def _units(self, package: str) -> dict[str, list[Path]]:
-        """Returns what is compiled together: most of the time goes into reading the same headers again."""
+        """Returns the compilation units: sources are combined, to parse the same headers once."""
         folder = self._work / package
         descriptions = sorted(folder.glob("*/detail/*__description.c"))
         structures = [path for path in sorted(folder.glob("*/detail/*.c")) if path not in descriptions]
@@ -242,7 +242,7 @@ class _Build:
         self._take_turn([*head, str(compiled), *paths, up, f"-l{own}", *links, "-o", str(extension)])
 
     def _install(self, package: str) -> None:
-        """Copies what runs; the package's folder last, so that a broken copy never passes for a whole one."""
+        """Copies the runtime files, the package's folder last: a partial copy never looks complete."""
         STAMPS.mkdir(parents=True, exist_ok=True)
         (STAMPS / package).unlink(missing_ok=True)
         library = f"lib{package}__bt_studio.so"
@@ -260,7 +260,7 @@ class _Build:
     def _take_turn(self, command: list[str], environment: dict[str, str] | None = None) -> None:
         with self._processors:
             if self._failures:
-                raise CannotBuildError("another part failed")  # which is what is shown
+                raise CannotBuildError("another part failed")  # this text is shown
             try:
                 _run(command, environment)
             except CannotBuildError as error:
@@ -269,7 +269,7 @@ class _Build:
 
 
 def _included(source: Path) -> str:
-    """Includes a source; the static names of a description get its own suffix, since others repeat them."""
+    """Includes a source; static names get a suffix, since other sources define the same names."""
     names: list[str] = []
     if source.name.endswith("__description.c"):
         names = sorted(set(_STATIC.findall(source.read_text(encoding="utf-8"))))
@@ -287,7 +287,7 @@ def _is_current(package: str) -> bool:
 
 
 def _digest(package: str) -> str:
-    """Returns a digest of all that a package is made of."""
+    """Returns a digest of all sources of a package."""
     digest = hashlib.sha256(sysconfig.get_platform().encode() + str(PREFIX).encode())
     for name in (package, *needed_by(package)):
         if name in PACKAGES:
@@ -313,7 +313,7 @@ def _fetch_empy(target: Path) -> None:
 
 
 def _replace(source: Path, target: Path) -> None:
-    """Puts a file in place of one that a running program may have mapped."""
+    """Replaces a file that a running program may have mapped."""
     beside = target.with_name(f".{target.name}.new")
     shutil.copy2(source, beside)
     beside.replace(target)
@@ -331,7 +331,7 @@ def _run(command: list[str], environment: dict[str, str] | None = None) -> None:
 
 
 def main() -> None:
-    """Builds what is missing; says in one sentence what came of it."""
+    """Builds the missing packages; reports the result in one sentence."""
     packages = missing()
     if not packages:
         COMPLETE.touch()

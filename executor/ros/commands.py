@@ -1,9 +1,9 @@
-"""What a robot is told on `/cmd_vel`: `Twist`, `TwistStamped`, or both.
+"""Commands of a robot on `/cmd_vel`: `Twist`, `TwistStamped`, or both.
 
-A participant of the middleware holds one type for a topic. A robot that takes both hears `Twist` by the
-world's own one; for `TwistStamped` a second one is made once somebody publishes it, since it takes memory
-and time. Where the application is in the world's participant (lock-step), the robot hears what is published
-there.
+A participant of the middleware supports one type for a topic. A robot that accepts both subscribes to `Twist`
+with the world's own participant; a second one for `TwistStamped` is created only once there is a publisher of
+it, since it costs memory and time. If the application is in the world's participant (lock-step), the robot
+subscribes to the type that is published there.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
 
-from executor.ros.taking import ignore, take_with_info
+from executor.ros.raw_take import ignore, take_with_info
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,13 +28,13 @@ TYPES: Final[dict[CommandType, tuple[type, ...]]] = {
 }
 STAMPED: Final = "geometry_msgs/msg/TwistStamped"
 LOOK_EVERY: Final = 15
-"""Whether somebody publishes the second type is looked at each so many takes: four times a second."""
+"""Calls of `take` between searches for a publisher of the second type: four searches a second."""
 _DEPTH: Final = 10
 _NS: Final = 1e-9
 
 
 class Command(NamedTuple):
-    """A wanted twist in m/s and rad/s, and when it was wanted, in simulated time."""
+    """A target twist in m/s and rad/s, and its simulated time."""
 
     linear: float
     angular: float
@@ -44,13 +44,13 @@ class Command(NamedTuple):
 class Commands:
     """The commands of one robot.
 
-    A stamped one holds for `timeout_s` from its stamp, as with ROS 2's diff_drive_controller: one that is
-    older is refused. A stamp of 0 is now, and so is one of the future, as of a program that does not use
-    simulated time. Its frame is not looked at: a twist is the robot's own.
+    A stamped command is valid for `timeout_s` from its stamp, as with ROS 2's diff_drive_controller; older
+    ones are refused. A stamp of 0 counts as now, and so does one in the future, as from a program that does
+    not use simulated time. The frame is ignored: a twist is in the robot's own.
 
     Args:
-        node: who hears the first type.
-        second: makes, or returns, the node that hears the other one.
+        node: subscribes to the first type.
+        second: makes, or returns, the node that subscribes to the other one.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ class Commands:
         self._noted = False
 
     def take(self, now_s: float) -> tuple[Command | None, bool]:
-        """Returns the last command that arrived, and whether the last one can be obeyed."""
+        """Returns the last command that arrived, and whether it is valid."""
         if len(self._ears) < len(self.types):
             self._look()
         arrived: list[tuple[int, Any]] = []
@@ -82,7 +82,7 @@ class Commands:
         return self._stamped(newest, now_s)
 
     def make_way(self, message_type: type) -> None:
-        """Leaves the topic, in this participant, to one of the types that the robot takes."""
+        """Changes the type of the subscription in this participant, for a node that uses that type."""
         if message_type in self.types and message_type not in self._ears:
             for ear in self._ears.values():
                 self._node.destroy_subscription(ear)

@@ -20,11 +20,11 @@ SIMULATED: Final = ("--ros-args", "-p", "use_sim_time:=true")
 
 
 class DefaultContext:
-    """Puts a new context in the place of rclpy's default one, until `close`.
+    """Replaces rclpy's default context by a new one, until `close`.
 
     Args:
         domain_id: of the graph; that of the environment if None.
-        simulated: whether nodes that actions make are under simulated time, as the run's own node is.
+        simulated: whether nodes that actions create use simulated time, as the run's own node does.
     """
 
     def __init__(self, domain_id: int | None = None, *, simulated: bool) -> None:

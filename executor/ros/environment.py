@@ -11,7 +11,7 @@ LOCKSTEP_PROFILE: Final = Path(__file__).with_name("lockstep.xml")
 
 
 def ros_environment(domain_id: int) -> dict[str, str]:
-    """Returns the variables that put a process into the graph of a session on this host."""
+    """Returns the variables with which a process joins a session's graph on this host."""
     return {
         "ROS_DOMAIN_ID": str(domain_id),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -23,12 +23,12 @@ def ros_environment(domain_id: int) -> dict[str, str]:
 
 
 def lockstep_environment() -> dict[str, str]:
-    """Returns the variables of a process that holds its whole graph itself and hears nobody else."""
+    """Returns the variables of a process whose graph is isolated from all others."""
     profile = str(LOCKSTEP_PROFILE)
     names = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
     return ros_environment(0) | dict.fromkeys(names, profile)
 
 
 def has_tf() -> bool:
-    """Tells whether `tf2_msgs` was built at set-up; without it `/tf` is left out."""
+    """Whether `tf2_msgs` was built at set-up; without it `/tf` is left out."""
     return find_spec("tf2_msgs") is not None

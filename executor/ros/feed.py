@@ -1,4 +1,4 @@
-"""Topics that are fed at a rate: measured when they are due, and only if somebody receives them."""
+"""Topics with a rate: measured when they are due, and only if they have subscribers."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.sensors import Sensors
 
 
 class Due:
-    """Tells when something of a given rate is to be done again, counted from the simulated time 0."""
+    """A timer of a given rate, counted from the simulated time 0."""
 
     def __init__(self, rate_hz: float) -> None:
         self.rate_hz = rate_hz
         self._done = -1
 
     def __call__(self, time_s: float) -> bool:
-        """Tells whether it is due, and counts it as done."""
+        """Returns whether it is due, and counts it as done then."""
         turn = int(time_s * self.rate_hz + 1e-6)
         if turn == self._done:
             return False
@@ -27,7 +27,7 @@ class Due:
         return True
 
     def restart(self) -> None:
-        """Begins anew: simulated time is 0 again."""
+        """Restarts at the simulated time 0."""
         self._done = -1
 
 
@@ -35,7 +35,7 @@ class Due:
 class Feed:
     """One measurement and the publishers that it goes to; `make` measures.
 
-    `is_picture` if it must be drawn; `of_camera` also if it goes with a picture.
+    `is_picture` if it must be rendered; `of_camera` also if it accompanies a picture.
     """
 
     publishers: list[Any]
@@ -46,11 +46,11 @@ class Feed:
 
     @property
     def has_receiver(self) -> bool:
-        """Tells whether anybody listens."""
+        """Returns whether it has subscribers."""
         return any(publisher.get_subscription_count() for publisher in self.publishers)
 
     def publish(self, sensors: Sensors, now_s: float) -> None:
-        """Measures and sends to those who listen."""
+        """Measures and publishes to the topics with subscribers."""
         receivers = [publisher for publisher in self.publishers if publisher.get_subscription_count()]
         if receivers:
             message = self.make(sensors, now_s)
@@ -59,7 +59,7 @@ class Feed:
 
 
 class Feeds:
-    """Feeds by their rates: most have the rate of another, and looks are more often than any is due."""
+    """Feeds grouped by rate: many share one, and most calls find none due."""
 
     def __init__(self, feeds: Sequence[Feed]) -> None:
         groups: dict[tuple[float, bool], list[Feed]] = {}
@@ -68,19 +68,19 @@ class Feeds:
         self._groups = [(Due(rate_hz), members) for (rate_hz, _), members in groups.items()]
 
     def publish(self, sensors: Sensors, now_s: float) -> None:
-        """Sends what is due now."""
+        """Publishes the feeds that are due."""
         for is_due, feeds in self._groups:
             if is_due(now_s):
                 for feed in feeds:
                     feed.publish(sensors, now_s)
 
     def slow_cameras(self, share: float) -> None:
-        """Has cameras feed at a share of their rates."""
+        """Reduces cameras to a share of their rates."""
         for due, feeds in self._groups:
             if feeds[0].of_camera:
                 due.rate_hz = feeds[0].rate_hz * share
 
     def restart(self) -> None:
-        """Begins anew: simulated time is 0 again."""
+        """Restarts at the simulated time 0."""
         for due, _ in self._groups:
             due.restart()

@@ -1,8 +1,8 @@
 """Generates sources of a package of interfaces: `python generate_interfaces.py STEP FOLDER SHARE…`.
 
-A program of its own, since it needs `empy<4` where other things need a newer one. FOLDER has the package's
-name and its interface files, and gets the sources; SHARE are the folders of the packages that it uses. The
-steps after `describe` may run beside each other.
+A separate program, since it needs `empy<4` while other packages need a newer one. FOLDER has the package's
+name and its interface files, and receives the sources; SHARE are the folders of the packages that it uses.
+The steps after `describe` may run in parallel.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def describe(folder: Path, share: list[str]) -> None:
 
 
 def structures(folder: Path, share: list[str]) -> None:
-    """Writes the C structures; by kind, since the generator takes a message for the action of its name."""
+    """Writes the C structures; by kind, since the generator confuses a message with an action of its name."""
     for kind in KINDS:
         if files := _idl(folder, kind):
             described = sorted((folder / kind).glob("*.json"))
@@ -45,9 +45,9 @@ def structures(folder: Path, share: list[str]) -> None:
 
 
 def support(folder: Path, share: list[str]) -> None:
-    """Writes the type support: how our middleware packs messages, and what it tells others of their types."""
+    """Writes the type support: serialization, and the description of types for other participants."""
     GenerateFastRTPSCTypesupport("fastrtps_c").generate(folder.name, _idl(folder), share, folder)
-    # Its sources have the names of others.
+    # Its sources have the same names as others.
     beside = folder.parent / INTROSPECTION / folder.name
     GenerateIntrospectionCTypesupport("introspection_c").generate(folder.name, _idl(folder), share, beside)
     kinds = ["rosidl_typesupport_fastrtps_c", "rosidl_typesupport_introspection_c"]
@@ -71,7 +71,7 @@ def _idl(folder: Path, kind: str = "*") -> list[str]:
 
 
 def _parse_each_file_once() -> None:
-    """Has the generators of a step share what they read."""
+    """Lets the generators of a step share parsed files."""
     parse = idl_parser.parse_idl_file
 
     @functools.cache

@@ -1,4 +1,4 @@
-"""Message, service and action packages of which there is no wheel: which they are, and what they define.
+"""Message, service and action packages that have no wheel: their names and definitions.
 
 `interfaces/<package>.txt` has a section `[kind/Name]` for each interface, in the syntax of ROS's own
 interface files.
@@ -20,7 +20,7 @@ PACKAGES: Final[dict[str, tuple[str, ...]]] = {
     "control_msgs": ("geometry_msgs", "sensor_msgs", "trajectory_msgs", "action_msgs"),
     "vision_msgs": ("geometry_msgs",),
 }
-# What every one needs: of a service or an action too.
+# Dependencies of every package, also for services and actions.
 COMMON: Final = ("builtin_interfaces", "std_msgs", "service_msgs", "unique_identifier_msgs")
 
 _SECTION: Final = re.compile(r"^\[((msg|srv|action)/\w+)\]$")
@@ -40,12 +40,12 @@ def definitions_of(package: str) -> dict[str, str]:
 
 
 def _told_apart(line: str, number: int) -> str:
-    """Gives a constant a remark: rosidl takes two that read the same, in parts of an action, for one."""
+    """Adds a comment to a constant: rosidl confuses equal constants in the parts of an action."""
     return f"{line}  # line {number}" if "=" in line else line
 
 
 def needed_by(package: str) -> tuple[str, ...]:
-    """Returns all packages whose interfaces one needs, without itself, in the order of `PACKAGES`."""
+    """Returns all packages whose interfaces a package needs, in the order of `PACKAGES`."""
     needs = {*COMMON, *PACKAGES.get(package, ())}
     for name in PACKAGES.get(package, ()):
         needs |= {*needed_by(name)} if name in PACKAGES else set()

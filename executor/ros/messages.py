@@ -1,4 +1,4 @@
-"""Builds ROS messages from what the world measures."""
+"""Builds ROS messages from measurements of the world."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, CameraInfo, Image, JointState, LaserScan
 from sensor_msgs.msg import Imu as ImuMessage
 
-from executor.world.transforms import from_xyz_rpy
+from executor.world.geometry.transforms import from_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from executor.robots.config import Camera, Imu, Lidar
-    from executor.world.battery import BatteryReading
-    from executor.world.drive import Odometry
-    from executor.world.imu import ImuReading
+    from executor.world.geometry.transforms import Pose
     from executor.world.interface import LidarReading
-    from executor.world.transforms import Pose
+    from executor.world.physics.drive import Odometry
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.imu import ImuReading
 
 ODOM_FRAME = "odom"
 BASE_FRAME = "base_footprint"
 LINK_FRAME = "base_link"
 WORLD_FRAME = "world"
-_LEAST_VARIANCE = 1e-6  # of what is known exactly; filters must be able to invert it
+_LEAST_VARIANCE = 1e-6  # variance of exact values; filters must be able to invert it
 _UNKNOWN = 1e6
 
 
@@ -63,7 +63,7 @@ def laser_scan(lidar: Lidar, reading: LidarReading, prefix: str = "") -> LaserSc
 
 
 def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float, prefix: str = "") -> Image:
-    """Returns a picture as rgb8."""
+    """Returns an image as rgb8."""
     message = Image()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = prefix + optical_frame(camera)
@@ -75,7 +75,7 @@ def image(camera: Camera, pixels: NDArray[np.uint8], time_s: float, prefix: str 
 
 
 def depth_image(camera: Camera, metres: NDArray[np.float32], time_s: float, prefix: str = "") -> Image:
-    """Returns a depth picture as 32FC1, in m."""
+    """Returns a depth image as 32FC1, in m."""
     message = Image()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = prefix + optical_frame(camera)
@@ -87,7 +87,7 @@ def depth_image(camera: Camera, metres: NDArray[np.float32], time_s: float, pref
 
 
 def camera_info(camera: Camera, time_s: float, prefix: str = "") -> CameraInfo:
-    """Returns the lens: a pinhole without distortion."""
+    """Returns the camera model: a pinhole without distortion."""
     focal = camera.width / 2 / math.tan(camera.fov / 2)
     cx, cy = camera.width / 2, camera.height / 2
     message = CameraInfo()
@@ -103,7 +103,7 @@ def camera_info(camera: Camera, time_s: float, prefix: str = "") -> CameraInfo:
 
 
 def odometry(state: Odometry, time_s: float, prefix: str = "", frame: str = BASE_FRAME) -> OdometryMessage:
-    """Returns where the wheels say that the robot is; the covariance of the pose grows with the way."""
+    """Returns the odometry message; the covariance of the pose grows with the distance."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = prefix + ODOM_FRAME
@@ -120,7 +120,7 @@ def odometry(state: Odometry, time_s: float, prefix: str = "", frame: str = BASE
     matrix[5] = matrix[30] = xt
     matrix[11] = matrix[31] = yt
     message.pose.covariance = matrix
-    # What the wheels do now is measured well: only its sum drifts.
+    # The twist is measured well: only its integral drifts.
     least = _LEAST_VARIANCE
     message.twist.covariance = _diagonal(least, least, _UNKNOWN, _UNKNOWN, _UNKNOWN, least)
     return message
@@ -129,7 +129,7 @@ def odometry(state: Odometry, time_s: float, prefix: str = "", frame: str = BASE
 def ground_truth(
     pose: Pose, twist: tuple[float, float, float], time_s: float, prefix: str = "", frame: str = BASE_FRAME
 ) -> OdometryMessage:
-    """Returns where the robot truly is in the world, and how it truly moves; known exactly."""
+    """Returns the true pose in the world and the true twist, exact."""
     message = OdometryMessage()
     message.header.stamp = to_time(time_s)
     message.header.frame_id = WORLD_FRAME
@@ -142,7 +142,7 @@ def ground_truth(
 
 
 def transform(parent: str, child: str, pose: Pose, time_s: float = 0.0) -> TransformStamped:
-    """Returns where one frame is in another."""
+    """Returns the transform of one frame in another."""
     message = TransformStamped()
     message.header.stamp = to_time(time_s)
     message.header.frame_id, message.child_frame_id = parent, child
@@ -161,7 +161,7 @@ def odometry_transform(
 
 
 def imu(sensor: Imu, reading: ImuReading, prefix: str = "") -> ImuMessage:
-    """Returns what an inertial measurement unit feels."""
+    """Returns the message of an inertial measurement unit."""
     message = ImuMessage()
     message.header.stamp = to_time(reading.time_s)
     message.header.frame_id = prefix + sensor.link
@@ -204,12 +204,12 @@ def joint_state(states: Mapping[str, tuple[float, float]], time_s: float) -> Joi
 
 
 def optical_frame(camera: Camera) -> str:
-    """Names the frame of a camera whose z looks ahead, as REP-103 asks of pictures."""
+    """Returns the name of a camera's optical frame, with z ahead (REP-103)."""
     return camera.link.removesuffix("_link") + "_optical_frame"
 
 
 def _data(pixels: NDArray[Any]) -> array.array[int]:
-    """An array of the right type is taken over as it is; bytes or a list are copied one by one."""
+    """Makes an array of the right type: rclpy takes it as it is, but copies bytes item by item."""
     data = array.array("B")
     data.frombytes(np.ascontiguousarray(pixels).reshape(-1).view(np.uint8).data)  # its bytes, copied once
     return data
@@ -226,7 +226,7 @@ def _heading(yaw: float) -> Quaternion:
 
 
 def transforms(messages: list[TransformStamped]) -> Any:
-    """Returns the message of `/tf`; only where `tf2_msgs` is there."""
+    """Returns the message of `/tf`; only if `tf2_msgs` is installed."""
     from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - built at set-up, may be missing
 
     return TFMessage(transforms=messages)

@@ -1,10 +1,13 @@
-"""Topics whose two ends do not match: messages never arrive, and nothing else would say so."""
+"""Detects topics whose ends do not match: messages never arrive, without any error."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
+from msgspec.structs import astuple
 from rclpy.qos import DurabilityPolicy, QoSCompatibility, ReliabilityPolicy, qos_check_compatible
+
+from executor.child_messages import TopicMismatch
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -15,53 +18,56 @@ __all__ = ["Mismatches"]
 
 LOOK_S: Final = 1.0
 OURS: Final = "world"
-"""The nodes of the world begin so: they may listen to a topic in more than one type."""
+"""Prefix of the world's nodes: they may subscribe to a topic with more than one type."""
 _IGNORED: Final = ("/rosout", "/parameter_events")
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 
 
 class Mismatches:
-    """Looks for them, and tells of each once for as long as it is there.
+    """Reports each mismatch once while it exists.
 
     Args:
-        node: through which the graph is seen.
-        tell: takes a `topic_mismatch` message.
+        node: for queries of the graph.
+        report: takes each mismatch.
     """
 
-    def __init__(self, node: Node, tell: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(self, node: Node, report: Callable[[TopicMismatch], None]) -> None:
         self._node = node
-        self._tell = tell
+        self._report = report
         self._told: set[tuple[str, ...]] = set()
         self._seen: set[tuple[str, ...]] = set()
         self._look_s = 0.0
 
     def poll(self, now_s: float) -> None:
-        """Looks once a second of real time."""
+        """Checks once a second of real time."""
         if now_s >= self._look_s:
             self._look_s = now_s + LOOK_S
             self.look()
 
     def look(self) -> None:
-        """Looks now."""
+        """Checks now."""
         present: set[tuple[str, ...]] = set()
         for topic, _ in self._node.get_topic_names_and_types():
             if topic in _IGNORED:
                 continue
             publishers = _named(self._node.get_publishers_info_by_topic(topic))
             subscribers = _named(self._node.get_subscriptions_info_by_topic(topic))
-            for found in (*_types_differ(publishers, subscribers), *_qos_differs(publishers, subscribers)):
-                key = (topic, *found.values())
+            for found in (
+                *_types_differ(topic, publishers, subscribers),
+                *_qos_differs(topic, publishers, subscribers),
+            ):
+                key = astuple(found)
                 present.add(key)
                 if key not in self._told and (key in self._seen or not _may_pass(found)):
                     self._told.add(key)
-                    self._tell({"type": "topic_mismatch", "topic": topic, **found})
+                    self._report(found)
         self._seen = present
         self._told &= present
 
 
-def _may_pass(found: dict[str, str]) -> bool:
-    """Whether a robot may be about to listen to this type, too: then the next look finds no mismatch."""
-    return found["reason"] == "type" and found["subscriber"].startswith(f"/{OURS}")
+def _may_pass(found: TopicMismatch) -> bool:
+    """Whether a robot may subscribe to this type soon, so that the next check finds no mismatch."""
+    return found.reason == "type" and found.subscriber.startswith(f"/{OURS}")
 
 
 def _named(ends: list[Any]) -> list[Any]:
@@ -72,7 +78,7 @@ def _name(end: Any) -> str:
     return f"{end.node_namespace.rstrip('/')}/{end.node_name}"
 
 
-def _types_differ(publishers: list[Any], subscribers: list[Any]) -> Iterator[dict[str, str]]:
+def _types_differ(topic: str, publishers: list[Any], subscribers: list[Any]) -> Iterator[TopicMismatch]:
     said, heard = {end.topic_type for end in publishers}, {end.topic_type for end in subscribers}
     for publisher in publishers:
         for subscriber in subscribers:
@@ -81,17 +87,18 @@ def _types_differ(publishers: list[Any], subscribers: list[Any]) -> Iterator[dic
             is_lost = publisher.topic_type not in heard
             is_deaf = subscriber.topic_type not in said and not subscriber.node_name.startswith(OURS)
             if is_lost or is_deaf:
-                yield _mismatch(
-                    publisher,
-                    subscriber,
+                yield TopicMismatch(
+                    topic,
+                    _name(publisher),
+                    _name(subscriber),
                     "type",
-                    f"{_name(publisher)} publishes {publisher.topic_type}, "
-                    f"{_name(subscriber)} subscribes to {subscriber.topic_type}",
+                    f"Nothing arrives: {_name(publisher)} publishes {publisher.topic_type}, "
+                    f"{_name(subscriber)} subscribes to {subscriber.topic_type}.",
                     "Use the same message type at both ends.",
                 )
 
 
-def _qos_differs(publishers: list[Any], subscribers: list[Any]) -> Iterator[dict[str, str]]:
+def _qos_differs(topic: str, publishers: list[Any], subscribers: list[Any]) -> Iterator[TopicMismatch]:
     for publisher in publishers:
         for subscriber in subscribers:
             if publisher.topic_type != subscriber.topic_type:
@@ -99,7 +106,9 @@ def _qos_differs(publishers: list[Any], subscribers: list[Any]) -> Iterator[dict
             said, wanted = publisher.qos_profile, subscriber.qos_profile
             compatible, reason = qos_check_compatible(said, wanted)
             if compatible == QoSCompatibility.ERROR:
-                yield _mismatch(publisher, subscriber, "qos", *_explained(publisher, subscriber, reason))
+                text, hint = _explained(publisher, subscriber, reason)
+                ends = _name(publisher), _name(subscriber)
+                yield TopicMismatch(topic, *ends, "qos", f"Nothing arrives: {text}.", hint)
 
 
 def _explained(publisher: Any, subscriber: Any, reason: str) -> tuple[str, str]:
@@ -119,13 +128,3 @@ def _explained(publisher: Any, subscriber: Any, reason: str) -> tuple[str, str]:
         f"{_name(publisher)} and {_name(subscriber)} differ in quality of service: {text}",
         "Use the same QoSProfile at both ends.",
     )
-
-
-def _mismatch(publisher: Any, subscriber: Any, reason: str, text: str, hint: str) -> dict[str, str]:
-    return {
-        "publisher": _name(publisher),
-        "subscriber": _name(subscriber),
-        "reason": reason,
-        "message": f"Nothing arrives: {text}.",
-        "hint": hint,
-    }

@@ -1,7 +1,7 @@
 """A world's ROS node: takes `/cmd_vel`, publishes sensors, odometry and time. It needs no executor.
 
-Everything is pulled: `poll` takes what arrived, `publish` sends what is due. So the world's loop has one
-thread and an order of its own, and the same node serves real time and lock-step.
+Nothing is called back: `poll` takes messages, `publish` sends what is due. So the world's loop has one thread
+and a defined order, and the same node serves real time and lock-step.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from executor.ros import messages
 from executor.ros.environment import has_tf
 from executor.ros.feed import Due, Feed, Feeds
 from executor.ros.outlet import Outlet, Piped
+from executor.ros.raw_take import take
 from executor.ros.robot_topics import LATCHED_QOS, ODOMETRY_HZ, RobotTopics
-from executor.ros.taking import take
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
     from executor.world.interface import Robot, World
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.sensors import Sensors
 
 __all__ = ["CLOCK_HZ", "Due", "WorldNode", "take"]
 
@@ -84,7 +84,7 @@ class WorldNode:
         self.refused_commands += sum(not robot.poll(self._world.time_s) for robot in self._robots)
 
     def publish(self, sensors: Sensors) -> None:
-        """Sends what is due now. Nothing is measured or drawn that nobody receives."""
+        """Publishes what is due. Topics without subscribers are neither measured nor drawn."""
         now_s = self._world.time_s
         if self._clock_due(now_s):
             self.publish_clock()
@@ -93,40 +93,40 @@ class WorldNode:
             self._outlet.flush()
 
     def publish_clock(self) -> None:
-        """Sends the simulated time, also while it stands still."""
+        """Publishes the simulated time, also while it is paused."""
         self._clock.publish(messages.clock(self._world.time_s))
 
     def restart(self) -> None:
-        """Forgets what was done when: simulated time begins anew."""
+        """Resets all timers: simulated time starts again."""
         self._clock_due.restart()
         self._feeds.restart()
 
     def slow_cameras(self, share: float) -> None:
-        """Has cameras publish at a share of their rates, 0 to 1."""
+        """Reduces cameras to a share of their rates, 0 to 1."""
         self._feeds.slow_cameras(share)
 
     def wants_pictures(self) -> bool:
-        """Tells whether anybody receives a camera's pictures."""
+        """Returns whether a camera's images have subscribers."""
         return any(feed.has_receiver for feed in self._pictures)
 
     def take_notes(self) -> list[str]:
-        """Returns what people should know of the commands that came, once."""
+        """Returns new notes for users about received commands."""
         notes = [note for robot in self._robots for note in robot.commands.notes]
         for robot in self._robots:
             robot.commands.notes.clear()
         return notes
 
     def types_of(self, topic: str) -> tuple[type, ...]:
-        """Returns the types that a robot takes on a topic of commands; none for another topic."""
+        """Returns the types that a robot accepts on a command topic; none for another topic."""
         return next((robot.commands.types for robot in self._robots if robot.commands.topic == topic), ())
 
     def node_for(self, topic: str, message_type: type) -> Node:
-        """Returns the node whose participant can hold a topic as of a type."""
+        """Returns the node whose participant supports a topic with a type."""
         types = self.types_of(topic)
         return self._second_node() if message_type in types and message_type is not types[0] else self.node
 
     def make_way(self, topic: str, message_type: type) -> None:
-        """Leaves a topic of commands, in this participant, to one of the types that its robot takes."""
+        """Changes the type of a robot's command subscription in this participant."""
         for robot in self._robots:
             if robot.commands.topic == topic:
                 robot.commands.make_way(message_type)
@@ -141,7 +141,7 @@ class WorldNode:
             self._second.context.try_shutdown()
 
     def _second_node(self) -> Node:
-        """Returns a node in a participant of its own, made when it is first needed."""
+        """Returns a node in another participant, created when it is first needed."""
         if self._second is None:
             context = Context()
             rclpy.init(context=context, domain_id=self.node.context.get_domain_id())

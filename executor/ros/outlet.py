@@ -1,8 +1,8 @@
-"""Publishes in a thread of its own: a subscriber that is frozen must not hold up the world.
+"""Publishes on a separate thread, so that a frozen subscriber does not block the world.
 
-Fast DDS hands messages over in shared memory, whose lock a process may hold when it is stopped (a debugger,
-SIGSTOP); anyone who publishes to it then waits for up to three seconds. rclpy holds the interpreter's lock
-while it publishes, so a thread alone would not help: the call goes to rcl directly.
+Fast DDS delivers messages in shared memory. A process that is stopped (by a debugger, SIGSTOP) may hold its
+lock; a publisher then waits for up to three seconds. rclpy holds the interpreter lock while it publishes, so
+a thread alone would not help: this calls rcl directly.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["Outlet", "Piped", "RclPublish"]
 
 DEPTH: Final = 5
-"""Messages of one topic that wait; of more the oldest is left out."""
+"""Queue length of a topic; beyond that the oldest message is dropped."""
 PATIENCE_S: Final = 0.02
 
 
@@ -42,21 +42,21 @@ class RclPublish:
     """Publishes a serialized message without the interpreter's lock."""
 
     def __init__(self) -> None:
-        # rclpy has loaded it: asking by name again gives the same.
+        # rclpy has loaded the library; loading it by name returns the same.
         library = ctypes.CDLL(_loaded("librcl.so"))
         self._publish = library.rcl_publish_serialized_message
         self._publish.argtypes = (ctypes.c_void_p, ctypes.POINTER(_Array), ctypes.c_void_p)
         self._publish.restype = ctypes.c_int
 
     def __call__(self, publisher: Any, data: bytes) -> None:
-        """Sends; what cannot be sent is lost, as with a publisher that nobody hears."""
+        """Sends a message; a failure is ignored, as without subscribers."""
         array = _Array(data, len(data), len(data))
         with contextlib.suppress(rclpy_implementation.InvalidHandle), publisher.handle:
             self._publish(publisher.handle.pointer, ctypes.byref(array), None)
 
 
 class Outlet:
-    """Sends messages in the order in which they come; never makes anybody wait for longer than a moment.
+    """Sends messages in order; a call never blocks for longer than a moment.
 
     Args:
         send: sends one serialized message of a publisher; may block.
@@ -75,11 +75,11 @@ class Outlet:
         self._thread.start()
 
     def publish(self, publisher: Any, message: Any) -> None:
-        """Has a message sent; it is read now, and may be changed afterwards."""
+        """Queues a message; it is serialized now, and may be changed afterwards."""
         self.put(publisher, serialize_message(message))
 
     def put(self, publisher: Any, data: bytes) -> None:
-        """Has a serialized message sent."""
+        """Queues a serialized message."""
         with self._changed:
             count = self._counts.get(id(publisher), 0)
             if count >= DEPTH:
@@ -90,13 +90,13 @@ class Outlet:
             self._changed.notify_all()
 
     def flush(self) -> None:
-        """Lets the thread send what waits, as far as it comes in a moment."""
+        """Waits a moment for the thread to send the queue."""
         with self._changed:
             patience_s = 0.0 if self._is_late else PATIENCE_S
             self._is_late = not self._changed.wait_for(self._is_done, patience_s)
 
     def close(self) -> None:
-        """Sends no more; what waits is lost."""
+        """Stops the thread; queued messages are lost."""
         with self._changed:
             self._is_closed = True
             self._changed.notify_all()
@@ -132,11 +132,11 @@ class Piped:
         self._outlet = outlet
 
     def publish(self, message: Any) -> None:
-        """Has a message sent."""
+        """Queues a message."""
         self._outlet.publish(self._publisher, message)
 
     def get_subscription_count(self) -> int:
-        """Returns how many listen."""
+        """Returns the number of subscribers."""
         return int(self._publisher.get_subscription_count())
 
 

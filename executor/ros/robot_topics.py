@@ -1,4 +1,4 @@
-"""The topics of one robot. The first one's names stand at the root, another's under its id; so do frames."""
+"""The topics of one robot. Names and frames have the robot's id as prefix, except for the first robot."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from executor.ros import base_frames, messages
 from executor.ros.commands import Commands
 from executor.ros.feed import Feed
 from executor.ros.outlet import Outlet, Piped
-from executor.ros.taking import ignore, take
-from executor.world.bumper import ZONES
-from executor.world.kinematics import joint_pose
+from executor.ros.raw_take import ignore, take
+from executor.world.geometry.kinematics import joint_pose
+from executor.world.sensing.bumper import ZONES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,24 +23,24 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
     from executor.robots import sensors as config
-    from executor.world.bumper import Zone
     from executor.world.interface import Robot
-    from executor.world.sensors import Sensors
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.sensors import Sensors
 
 ODOMETRY_HZ: Final = 30.0
 LATCHED_QOS: Final = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _OPTICAL: Final = (0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5)
 _COMMANDS: Final = 10
 SENSOR_QOS: Final = QoSProfile(depth=5)
-"""Reliable, which matches subscribers of both kinds. Of what is not heard in time the oldest is left out."""
+"""Reliable, which matches subscribers of both kinds. A full queue drops the oldest message."""
 
 
 class RobotTopics:
     """Takes a robot's commands and feeds its topics.
 
     Args:
-        node: who publishes.
-        robot: found anew at each call, since a reset makes robots anew.
+        node: of the publishers.
+        robot: a function, since a reset creates new robots.
         index: which robot of the world; the first one's names have no prefix.
         renamed: topics by the name of the sensor, from the universe.
         second: makes a node for messages of a second type on one topic.
@@ -94,7 +94,7 @@ class RobotTopics:
         self._describe()
 
     def poll(self, now_s: float) -> bool:
-        """Takes the commands that arrived; the last one of each topic counts. Tells whether it obeyed all."""
+        """Takes commands; the last one of each topic counts. Returns whether all were valid."""
         robot = self._robot()
         command, obeyed = self.commands.take(now_s)
         if command is not None:
@@ -105,7 +105,7 @@ class RobotTopics:
         return obeyed
 
     def moving_transforms(self, now_s: float) -> list[Any]:
-        """Returns where the robot is by its odometry, and where its moving links are."""
+        """Returns the transforms of the odometry and of moving links."""
         robot = self._robot()
         found = [messages.odometry_transform(robot.odometry, now_s, self._frames, self._base)]
         for name, (position, _) in robot.joint_states().items():
@@ -121,7 +121,7 @@ class RobotTopics:
         return found
 
     def fixed_transforms(self) -> list[Any]:
-        """Returns what is fixed to the robot, the cameras' optical frames among it."""
+        """Returns the transforms of fixed links, including optical frames of cameras."""
         frames = self._frames
         fixed = [
             messages.transform(frames + joint.parent, frames + joint.child, joint.origin)

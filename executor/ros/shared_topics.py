@@ -1,4 +1,4 @@
-"""Where the application is in the world's participant: the world leaves topics of commands to its types."""
+"""Command topics of an application in the world's participant: the world adapts to its message types."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _MAKERS: Final = ("create_publisher", "create_subscription")
 
 
 def share_commands(world: WorldNode, context: Context) -> Callable[[], None]:
-    """Has the world make way before a node of `context` takes part in a topic of commands.
+    """Changes the world's subscription before a node of `context` uses a command topic.
 
-    A participant holds one type for a topic, and which one the application will choose is not known before.
-    Returns what undoes it.
+    A participant supports one type for a topic, and the choice of the application is not known in advance.
+    Returns a function that undoes this.
     """
     originals = {name: getattr(Node, name) for name in _MAKERS}
     for name, original in originals.items():

@@ -1,4 +1,4 @@
-"""Executors for one thread that cost less than rclpy's: they take messages without asking about all else."""
+"""Single-threaded executors that are cheaper than rclpy's: they take messages without a full wait set."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 MOST_CALLS: Final = 1000
 _KINDS: Final = ("subscriptions", "timers", "clients", "services")
 LOOK_EVERY: Final = 50
-"""Notices of the middleware (of a wrong QoS, say) may wait for so many drains or waits."""
+"""Number of drains or waits after which events of the middleware (such as QoS errors) are handled."""
 
 
 class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
-    """Waits for messages, and calls back with those that came.
+    """Waits for messages and calls their callbacks.
 
-    rclpy's own executor makes a new timer, a wait set of all that a node has, and a task for each wait; that
-    costs more than most callbacks. Here what is not a plain subscription only ends the wait, and is then left
+    For each wait, rclpy's own executor creates a timer, a wait set of all entities of a node, and a task;
+    that costs more than most callbacks. Here all but plain subscriptions only end the wait, and are then left
     to rclpy.
     """
 
@@ -48,7 +48,7 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
                 finally:
                     group.ending_execution(subscription)
         if others:
-            self._cb_iter = None  # what was left over of the last look is still ready
+            self._cb_iter = None  # entities left over from the last wait are still ready
             super().spin_once(0)
 
     def _wait(self, nodes: list[Node], timeout_s: float | None) -> tuple[list[Subscription], bool]:
@@ -91,18 +91,18 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
 
 
 class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
-    """For lock-step: what was published in this process before `drain` is called back within it."""
+    """For lock-step: `drain` delivers all messages published in this process before."""
 
     holds_time = True
-    """No time passes during a callback: waiting in one for something else is in vain."""
+    """No time passes during a callback, so waiting in one is pointless."""
 
     _drains = 0
 
     def drain(self) -> int:
-        """Calls what is ready; returns how many callbacks that were.
+        """Calls the callbacks that are ready; returns their number.
 
-        A callback's exception is raised here. Callbacks that make others ready without end are left at
-        `MOST_CALLS`.
+        An exception of a callback is raised here. At most `MOST_CALLS` are called, since callbacks may make
+        others ready endlessly.
         """
         calls = 0
         look = self._drains % LOOK_EVERY == 0
@@ -122,7 +122,7 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return calls
 
     def _call_subscriptions(self, most: int) -> int:
-        """Calls back plain subscriptions: taking a message costs a tenth of a wait set."""
+        """Calls the callbacks of plain subscriptions: taking a message costs a tenth of a wait set."""
         calls = 0
         for node in self.get_nodes():
             for subscription in list(node.subscriptions):
@@ -131,20 +131,20 @@ class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
         return calls
 
     def _may_have_more(self) -> bool:
-        """Tells whether anything but subscriptions could be ready: only a wait set knows."""
+        """Returns whether other entities could be ready, which only a wait set shows."""
         if self._tasks:
             return True
         return any(_has_more(node) for node in self.get_nodes())
 
 
 def _hold(things: Iterable[Any], held: list[Any]) -> list[Any]:
-    """Keeps things from being destroyed while they are waited for; returns those that still are there."""
+    """Protects entities from destruction during a wait; returns those that still exist."""
     found = []
     for thing in things:
         handle = thing.handle
         try:
             handle.__enter__()
-        except rclpy_implementation.InvalidHandle:  # somebody destroyed it just now
+        except rclpy_implementation.InvalidHandle:  # it was destroyed meanwhile
             continue
         held.append(handle)
         found.append(thing)
@@ -157,11 +157,11 @@ def _is_plain(subscription: Subscription) -> bool:
 
 
 def _call_once(subscription: Subscription) -> int:
-    """Takes one message, in the order in which they came, and calls back with it."""
+    """Takes the next message and calls its callback."""
     try:
         with subscription.handle:
             taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
-    except rclpy_implementation.InvalidHandle:  # a callback before this one destroyed it
+    except rclpy_implementation.InvalidHandle:  # an earlier callback destroyed it
         return 0
     if taken is None:
         return 0

@@ -1,4 +1,4 @@
-"""Looks into a ROS graph for people: which topics there are, what they say, and saying something on one."""
+"""Topic tools of clients: listing, echoing and publishing topics of a ROS graph."""
 
 from __future__ import annotations
 
@@ -12,6 +12,16 @@ from rclpy.exceptions import NameValidationException
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
+from executor import child_messages
+from executor.child_messages import (
+    DescribeType,
+    EchoTopic,
+    ListTopics,
+    PublishTopic,
+    TopicMessage,
+    TypeDescription,
+)
+from executor.messages import TopicInfo
 from executor.ros.outlet import Outlet, Piped
 from executor.ros.values import FieldError, describe, fill, flatten, message_type
 
@@ -22,7 +32,10 @@ if TYPE_CHECKING:
 
     from executor.ros.node import WorldNode
 
-__all__ = ["TopicError", "Topics"]
+__all__ = ["TopicError", "TopicReply", "TopicRequest", "Topics"]
+
+TopicRequest = ListTopics | EchoTopic | DescribeType | PublishTopic
+TopicReply = child_messages.Topics | TopicMessage | TypeDescription
 
 WINDOW_S: Final = 2.0
 LISTEN_S: Final = 10.0
@@ -38,14 +51,14 @@ _QOS: Final = QoSProfile(
 _LATCHED_QOS: Final = QoSProfile(
     depth=50, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
-# How rcl calls a node whose topics were discovered before its name was.
+# Name that rcl gives a node whose topics were discovered before its name.
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
-# A picture is heard only by those who asked for it: else listing topics would set the renderer to work.
+# Not measured by a listing: a subscription to images would start the renderer.
 _UNHEARD: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
 
 class TopicError(ValueError):
-    """What was asked cannot be done; `code` is for the client."""
+    """A request cannot be done; `code` is for the client."""
 
     def __init__(self, code: str, message: str) -> None:
         super().__init__(message)
@@ -54,7 +67,7 @@ class TopicError(ValueError):
 
 @dataclass
 class _Ear:
-    """A subscription to one topic, taken raw."""
+    """A subscription to one topic, for serialized messages."""
 
     type_name: str
     subscription: Any
@@ -68,7 +81,7 @@ class _Ear:
 
 @dataclass
 class _Unsent:
-    """A message that waits for its publisher to be known to those who listen."""
+    """A message that waits until subscribers have discovered its publisher."""
 
     publisher: Any
     message: Any
@@ -77,18 +90,18 @@ class _Unsent:
 
 
 class Topics:
-    """Answers what clients ask about topics. Rates are those of the last two seconds of real time.
+    """Handles topic requests of clients. Rates are those of the last two seconds of real time.
 
     Args:
-        node: who looks, and speaks.
-        commands: the world, whose robots may take two types on one topic.
-        outlet: what is published through; None for the publishers themselves.
+        node: of the queries, subscriptions and publishers.
+        commands: the world, whose robots may accept two types on one topic.
+        outlet: publishes messages; None for the publishers themselves.
     """
 
     def __init__(
         self,
         node: Node,
-        send: Callable[[dict[str, Any]], None],
+        send: Callable[[TopicReply], None],
         *,
         commands: WorldNode | None = None,
         outlet: Outlet | None = None,
@@ -100,31 +113,31 @@ class Topics:
         self._ears: dict[str, _Ear] = {}
         self._publishers: dict[tuple[str, str], Any] = {}
         self._unsent: list[_Unsent] = []
-        # Topics that are to be echoed as soon as they are there.
+        # Topics that are echoed as soon as they exist.
         self._patient: dict[str, float] = {}
         self._look_s = 0.0
 
-    def obey(self, message: dict[str, Any]) -> None:
-        """Does what one of the four messages asks.
+    def obey(self, message: TopicRequest) -> None:
+        """Handles a request.
 
         Raises:
             TopicError: it cannot be done; the text says why.
         """
-        match message["type"]:
-            case "list_topics":
+        match message:
+            case ListTopics():
                 self._list(time.monotonic())
-            case "echo_topic" if message.get("patient"):
-                self._patient[str(message["topic"])] = float(message["max_hz"])
-            case "echo_topic":
-                self._patient.pop(str(message["topic"]), None)
-                self._echo(str(message["topic"]), float(message["max_hz"]))
-            case "describe_type":
-                self._describe(str(message["message_type"]))
-            case _:
-                self._publish(str(message["topic"]), str(message["message_type"]), message["message"])
+            case EchoTopic(patient=True):
+                self._patient[message.topic] = message.max_hz
+            case EchoTopic():
+                self._patient.pop(message.topic, None)
+                self._echo(message.topic, message.max_hz)
+            case DescribeType():
+                self._describe(message.message_type)
+            case PublishTopic():
+                self._publish(message.topic, message.message_type, message.message)
 
     def poll(self, now_s: float) -> None:
-        """Takes what was heard, sends what is echoed, and publishes what waited for listeners."""
+        """Takes received messages, sends echoes, and publishes messages that waited for subscribers."""
         self._publish_waiting(now_s)
         self._begin_patient(now_s)
         for name, ear in list(self._ears.items()):
@@ -155,22 +168,22 @@ class Topics:
                 ear.until_s = now_s + LISTEN_S
             hz, bytes_per_s = _rates(ear, now_s)
             rows.append(
-                {
-                    "name": name,
-                    "type": types[0],
-                    "types": types,
-                    "hz": hz,
-                    "bytes_per_s": bytes_per_s,
-                    "publishers": self._node_names(self._node.get_publishers_info_by_topic(name)),
-                    "subscribers": self._node_names(
+                TopicInfo(
+                    name=name,
+                    type=types[0],
+                    types=types,
+                    hz=hz,
+                    bytes_per_s=bytes_per_s,
+                    publishers=self._node_names(self._node.get_publishers_info_by_topic(name)),
+                    subscribers=self._node_names(
                         self._node.get_subscriptions_info_by_topic(name), own=ear is not None
                     ),
-                }
+                )
             )
-        self._send({"type": "topics", "topics": rows})
+        self._send(child_messages.Topics(topics=rows))
 
     def _node_names(self, ends: list[Any], *, own: bool = False) -> list[str]:
-        """Names the nodes at one end of a topic, without our own ear and without those not yet introduced."""
+        """Returns the nodes at one end of a topic, except our own and those whose name is unknown yet."""
         names = [
             f"{end.node_namespace.rstrip('/')}/{end.node_name}"
             for end in ends
@@ -203,14 +216,14 @@ class Topics:
             return
         self._look_s = now_s + LOOK_S
         for name in {name for name, _ in self._node.get_topic_names_and_types()} & set(self._patient):
-            with contextlib.suppress(TopicError):  # it was told when a client asked
+            with contextlib.suppress(TopicError):  # the error was reported when a client asked
                 self._echo(name, self._patient.pop(name))
 
     def _listen(self, name: str, type_name: str, now_s: float) -> bool:
         try:
             kind = message_type(type_name)
         except ValueError:
-            return False  # it is listed, not heard
+            return False  # it is listed without a rate
         says = self._node.get_publishers_info_by_topic(name)
         latched = bool(says) and all(
             end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in says
@@ -224,14 +237,9 @@ class Topics:
     def _tell(self, name: str, ear: _Ear, raw: bytes) -> None:
         flat = flatten(deserialize_message(raw, message_type(ear.type_name)))
         self._send(
-            {
-                "type": "topic_message",
-                "topic": name,
-                "message_type": ear.type_name,
-                "message": flat.value,
-                "bytes": len(raw),
-                "cut": flat.cut,
-            }
+            TopicMessage(
+                topic=name, message_type=ear.type_name, message=flat.value, bytes=len(raw), cut=flat.cut
+            )
         )
 
     # --- publish ----------------------------------------------------------------------------------
@@ -241,7 +249,7 @@ class Topics:
             described = describe(type_name)
         except ValueError as error:
             raise TopicError("unknown_type", _sentence(error)) from error
-        self._send({"type": "type_description", "message_type": type_name, **described})
+        self._send(TypeDescription(message_type=type_name, **described))
 
     def _publish(self, topic: str, type_name: str, values: Any) -> None:
         try:
@@ -269,14 +277,14 @@ class Topics:
             try:
                 made = self._node_for(topic, kind).create_publisher(kind, topic, 10)
             except (NameValidationException, ValueError, RuntimeError) as error:
-                # The text of ROS goes on with a drawing of the place.
+                # Further lines of ROS's text mark the place.
                 text = str(error).partition("\n")[0].rstrip(":")
                 raise TopicError("bad_topic", f"{topic!r} is no name of a topic: {text}.") from error
             self._publishers[topic, type_name] = made if self._outlet is None else Piped(made, self._outlet)
         return self._publishers[topic, type_name]
 
     def _types(self, topic: str, there: list[str]) -> list[str]:
-        """Returns the types of a topic; first the one that is said, of those that a robot takes."""
+        """Returns the types of a topic; of the types that a robot accepts, the published one is first."""
         takes = () if self._commands is None else self._commands.types_of(topic)
         if not takes or not there:
             return there
@@ -290,7 +298,7 @@ class Topics:
         return self._node if self._commands is None else self._commands.node_for(topic, kind)
 
     def _publish_waiting(self, now_s: float) -> None:
-        """A publisher that was just made is not yet known to other processes: what it says would be lost."""
+        """Publishes messages once subscribers have discovered a new publisher; before, they would be lost."""
         left = []
         for unsent in self._unsent:
             if unsent.publisher.get_subscription_count() < unsent.listeners and now_s < unsent.until_s:
@@ -301,7 +309,7 @@ class Topics:
 
 
 def _rates(ear: _Ear | None, now_s: float) -> tuple[float | None, float | None]:
-    """Returns messages and bytes a second; None while there is nothing to tell it from."""
+    """Returns messages and bytes a second; None without enough data."""
     if ear is None or now_s - ear.since_s < WINDOW_S / 4:
         return None, None
     span_s = min(now_s - ear.since_s, WINDOW_S)
@@ -321,4 +329,4 @@ def _take_raw(subscription: Any) -> bytes | None:
 
 
 def _ignore(message: object) -> None:
-    """Never called: messages are taken, no executor spins this node."""
+    """Placeholder callback, never called: messages are taken, and no executor spins this node."""

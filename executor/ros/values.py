@@ -1,4 +1,4 @@
-"""ROS messages as plain JSON values and back, with every field checked before ROS sees it."""
+"""ROS messages as plain JSON values and back, with every field checked before ROS receives it."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def message_type(name: str) -> Any:
     """Returns the class of a message type such as `std_msgs/msg/String`, also written `std_msgs/String`.
 
     Raises:
-        ValueError: it is not installed, or this is no name of a type.
+        ValueError: it is not installed, or not a valid name.
     """
     match = _TYPE_NAME.fullmatch(name)
     if match is None:
@@ -47,7 +47,7 @@ def message_type(name: str) -> Any:
 
 @dataclass
 class Flattened:
-    """A message as dicts, lists and numbers; `cut` has the true length of what was shortened, by path."""
+    """A message as dicts, lists and numbers; `cut` has the true lengths of shortened values, by path."""
 
     value: Any = None
     cut: dict[str, int] = field(default_factory=dict)
@@ -105,7 +105,7 @@ def _fields(message: Any) -> dict[str, str]:
 
 
 def fill(message: Any, values: Any, path: str = "") -> None:
-    """Sets a message's fields from plain values; those that are left out stay as they are.
+    """Sets a message's fields from plain values; missing fields are unchanged.
 
     Raises:
         FieldError: there is no such field, or a value does not fit.

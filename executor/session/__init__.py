@@ -1,1 +1,1 @@
-"""The session as a state machine: what it hears, what it answers, what it asks for. No I/O."""
+"""The session as a state machine: events in, effects out, no I/O."""

@@ -1,9 +1,27 @@
-"""What the session knows of one child process, from what it said."""
+"""State of one child process, derived from its messages."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
+from msgspec import Struct
+
+from executor.child_messages import (
+    Answer,
+    ApplicationReady,
+    Beat,
+    Blackboard,
+    Failed,
+    Fault,
+    FromApplication,
+    FromWorld,
+    Log,
+    Sim,
+    Starting,
+    Tick,
+    Tree,
+    WorldReady,
+)
 from executor.session.vitals import Vitals
 
 if TYPE_CHECKING:
@@ -11,18 +29,23 @@ if TYPE_CHECKING:
 
 __all__ = ["Child"]
 
-_TASKS: Final = {"starting": "loading", "ready": ""}
-"""What a child does from a message of it on."""
+Message = TypeVar("Message", bound=Struct)
+
+_TASKS: Final[dict[type[Struct], str]] = {Starting: "loading", WorldReady: "", ApplicationReady: ""}
+"""The task of a child's main thread after it sent one of these messages."""
+_ACCEPTED: Final = frozenset({Starting, WorldReady, ApplicationReady, Failed, Fault})
+"""Messages that show that a child received its start message."""
+_NOT_STORED: Final = (Tick, Log, Blackboard, Tree, Sim, Answer, Beat)
 
 
 class Child:
     """A world or an application process.
 
-    A child is spawned ahead of its use; it counts from the `start` that it was told, and is in use once it
-    has taken that: until then none of the user's code is in it, and another one can stand in for it.
+    A child is spawned before it is needed (a spare), and is in use once it has received its start message.
+    Until then it runs none of the user's code, so another process can replace it.
 
     Attributes:
-        hang: what people were told of it, while it hangs.
+        hang: the message of the fault that reported its hang; "" while it does not hang.
     """
 
     def __init__(self, kind: Kind, number: int, now_s: float = 0.0) -> None:
@@ -36,62 +59,67 @@ class Child:
         self.vitals = Vitals(now_s)
         self.hang = ""
         self.was_inspected = False
-        self._said: dict[str, dict[str, Any]] = {}
-        self._answers: dict[str, dict[str, Any] | None] = {}
+        self._said: dict[type[Struct], FromWorld | FromApplication] = {}
+        self._answers: dict[str, Answer | None] = {}
+
+    @property
+    def key(self) -> tuple[Kind, int]:
+        """Kind and number."""
+        return self.kind, self.number
 
     @property
     def is_in_use(self) -> bool:
-        """Whether it took its `start`."""
-        return self.is_started and bool(self._said.keys() & {"starting", "ready", "error", "fault"})
+        """Whether it has received its start message."""
+        return self.is_started and not self._said.keys().isdisjoint(_ACCEPTED)
 
     @property
     def hanging_node(self) -> str:
         """Where its main thread was last seen in the user's code."""
-        return str(self.vitals.place.get("text", "")) if self.vitals.is_in_action else ""
+        return self.vitals.place.text if self.vitals.is_in_action else ""
 
     @property
     def is_hanging(self) -> bool:
-        """Whether people were told that it hangs, and it has done nothing since."""
+        """Whether its hang was reported, and it has not recovered since."""
         return bool(self.hang) and not self.vitals.is_well
 
     def expect(self, token: str) -> None:
-        """Remembers that it was asked something by the session itself."""
+        """Stores the token of a request of the session's own."""
         self._answers[token] = None
 
-    def take_answer(self, message: dict[str, Any]) -> bool:
-        """Takes an answer, if it was asked for by the session itself."""
-        if message.get("request") not in self._answers:
+    def take_answer(self, message: Answer) -> bool:
+        """Takes an answer to a request of the session's own; returns whether it is one."""
+        if message.request is None or message.request not in self._answers:
             return False
-        self._answers[str(message["request"])] = message
+        self._answers[message.request] = message
         return True
 
-    def answer(self, token: str) -> dict[str, Any] | None:
-        """Returns the answer to what it was asked, once it is there."""
+    def answer(self, token: str) -> Answer | None:
+        """Returns the answer to a request of the session's own, once it arrived."""
         return self._answers.get(token)
 
-    def note(self, message: dict[str, Any]) -> None:
-        """Remembers the last message of each type."""
-        self.vitals.heard(from_main=message["type"] not in {"beat", "log"})
-        if message["type"] == "beat":
+    def note(self, message: FromWorld | FromApplication) -> None:
+        """Stores the last message of each type."""
+        self.vitals.heard(from_main=not isinstance(message, Beat | Log))
+        if isinstance(message, Beat):
             self.vitals.beat(message)
-        elif message["type"] in _TASKS:
-            self.vitals.task = _TASKS[message["type"]]  # the next beat may never come
-        if message["type"] == "fault" and message.get("kind") == "timeout":
-            pass  # a tick that takes long may still end well
-        elif message["type"] not in {"tick", "log", "blackboard", "tree", "sim", "answer", "beat"}:
-            self._said[message["type"]] = message
+        elif type(message) in _TASKS:
+            self.vitals.task = _TASKS[type(message)]  # a hang may keep the next beat from being sent
+        if isinstance(message, Fault) and message.kind == "timeout":
+            pass  # a slow tick may still end well
+        elif not isinstance(message, _NOT_STORED):
+            self._said[type(message)] = message
 
-    def said(self, type_: str) -> dict[str, Any] | None:
+    def said(self, kind: type[Message]) -> Message | None:
         """Returns the last message of a type since it was last forgotten."""
-        return self._said.get(type_)
+        message = self._said.get(kind)
+        return message if isinstance(message, kind) else None
 
-    def forget(self, *types: str) -> None:
-        """Forgets messages, to wait for new ones."""
-        for type_ in types:
-            self._said.pop(type_, None)
+    def forget(self, kind: type[Struct]) -> None:
+        """Removes the stored message of a type, to wait for a new one."""
+        self._said.pop(kind, None)
 
     def end(self, reason: str, last_lines: tuple[str, ...] = ()) -> None:
-        """The process is gone."""
+        """Marks the process as ended."""
         self.is_alive = False
         self.exit_reason = reason
         self.last_lines = last_lines

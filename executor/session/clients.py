@@ -1,4 +1,4 @@
-"""The clients of a session: who drives, who watches what, who may come back."""
+"""The clients of a session: their roles, subscriptions and reconnections."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["MOST_ECHOED_BY_VIEWER", "Clients"]
 
 REMEMBERED: Final = 32
-# Half of what the world echoes for all: something is left for who drives.
+# Half of the world's limit for all clients, so that viewers cannot use up the driver's share.
 MOST_ECHOED_BY_VIEWER: Final = 12
 
 
@@ -32,8 +32,8 @@ class _Client:
 class Clients:
     """Keeps the clients by id. The first is the driver, later ones are viewers until they take over.
 
-    When the driver's connection is lost, whoever comes next drives (it may be the same page, loaded
-    again); a viewer that is already there becomes the driver when the driver stays away.
+    When the driver's connection is lost, the next client that connects becomes the driver (it may be the
+    same page, reloaded). A viewer that is already connected becomes the driver after a time without one.
     """
 
     def __init__(self, now_s: float) -> None:
@@ -42,18 +42,18 @@ class Clients:
         self._empty_since_s: float | None = now_s
 
     def client_id(self, resumed: str | None) -> str:
-        """Returns the id for a new connection: the old one for a client that comes back.
+        """Returns the id for a new connection: the old one for a client that reconnects.
 
-        It may come back before its lost connection has been heard of: who knows the id is that client.
+        It may reconnect before the loss of its old connection is noticed; knowing the id is proof enough.
         """
         return resumed if resumed is not None and resumed in self._clients else uuid4().hex
 
     def role(self, client: str) -> Role:
-        """Whether the client drives."""
+        """Returns the client's role."""
         return "driver" if client == self._driver else "viewer"
 
     def join(self, client: str) -> None:
-        """A client is there, new or again."""
+        """Adds a client, or marks a known one as connected."""
         record = self._clients.setdefault(client, _Client())
         record.is_here = True
         self._empty_since_s = None
@@ -61,7 +61,7 @@ class Clients:
             self._driver = client
 
     def leave(self, client: str, now_s: float) -> list[str]:
-        """A client lost its connection; returns the topics that nobody listens to any more."""
+        """Marks a client as disconnected; returns the topics that no client echoes any more."""
         record = self._clients.get(client)
         if record is None:
             return []
@@ -75,7 +75,7 @@ class Clients:
         return orphaned
 
     def deadline_s(self, grace_s: float, promote_s: float) -> float | None:
-        """When `promote` or `is_abandoned` will have something to say."""
+        """Returns when `promote` or `is_abandoned` may have a result at the earliest."""
         if self._empty_since_s is not None:
             return self._empty_since_s + grace_s if grace_s else None
         if self._driver is not None and not self._clients[self._driver].is_here:
@@ -83,7 +83,7 @@ class Clients:
         return None
 
     def promote(self, now_s: float, promote_s: float) -> list[str]:
-        """Makes a viewer the driver where the driver stays away; returns whose role changed."""
+        """Makes a viewer the driver if the driver stays away; returns the clients whose role changed."""
         driver = self._clients.get(self._driver) if self._driver else None
         if driver is None or driver.is_here or now_s < driver.left_s + promote_s:
             return []
@@ -93,20 +93,20 @@ class Clients:
         return viewers[:1]
 
     def take_over(self, client: str) -> list[str]:
-        """Makes a client the driver; returns whose role changed, of those who are there."""
+        """Makes a client the driver; returns the connected clients whose role changed."""
         before, self._driver = self._driver, client
         if before == client:
             return []
         return [client, *(c for c in (before,) if c is not None and self._clients[c].is_here)]
 
     def is_abandoned(self, now_s: float, grace_s: float) -> bool:
-        """Whether nobody has been there for the grace period (0: for ever is fine)."""
+        """Whether no client was connected for the grace period; 0 is no limit."""
         return bool(grace_s) and self._empty_since_s is not None and now_s >= self._empty_since_s + grace_s
 
     # --- streams and topics -----------------------------------------------------------------------
 
     def set_stream(self, client: str, *, is_open: bool) -> None:
-        """The client's stream socket was opened or closed."""
+        """Stores whether the client's stream socket is open."""
         if client in self._clients:
             self._clients[client].has_stream = is_open
 
@@ -115,25 +115,25 @@ class Clients:
         return client in self._clients and self._clients[client].has_stream
 
     def subscribe(self, client: str, data: Subscribe) -> None:
-        """The client wants a stream."""
+        """Stores a subscription."""
         self._clients[client].streams[data.stream] = data
 
     def unsubscribe(self, client: str, stream: StreamName) -> None:
-        """The client wants a stream no more."""
+        """Removes a subscription."""
         self._clients[client].streams.pop(stream, None)
 
     def streams_of(self, client: str) -> list[Subscribe]:
-        """What is to be sent to a client."""
+        """Returns the subscriptions that can be served to a client."""
         return list(self._clients[client].streams.values()) if self.has_stream(client) else []
 
     def wanted_streams(self) -> Iterator[tuple[str, Subscribe]]:
-        """What is to be sent to whom."""
+        """Yields all subscriptions that can be served, with their clients."""
         for client in self._clients:
             for data in self.streams_of(client):
                 yield client, data
 
     def echo(self, client: str, topic: str, max_hz: float) -> float:
-        """Notes who listens to a topic; returns the highest rate that somebody wants, or 0."""
+        """Stores at which rate a client echoes a topic, 0 to end it; returns the highest rate."""
         if max_hz > 0:
             self._clients[client].echoed[topic] = max_hz
         else:
@@ -141,23 +141,23 @@ class Clients:
         return max((self._clients[c].echoed[topic] for c in self._echoers(topic)), default=0.0)
 
     def echoes_too_many(self, client: str, topic: str) -> bool:
-        """Whether a viewer echoes all that it may, and this topic is not among it."""
+        """Whether a viewer has reached its limit of echoed topics, without this one."""
         echoed = self._clients[client].echoed
         is_full = len(echoed) >= MOST_ECHOED_BY_VIEWER and topic not in echoed
         return is_full and self.role(client) == "viewer"
 
     def here(self) -> list[str]:
-        """The clients that are connected."""
+        """Returns the connected clients."""
         return [client for client, record in self._clients.items() if record.is_here]
 
     def echoes(self) -> dict[str, float]:
-        """The topics that clients listen to, and how often at most."""
+        """Returns the topics that clients echo, with their highest rates."""
         here = [record.echoed for record in self._clients.values() if record.is_here]
         topics = {topic for echoed in here for topic in echoed}
         return {topic: max(echoed.get(topic, 0.0) for echoed in here) for topic in topics}
 
     def listeners(self, event: Struct) -> list[str]:
-        """Who gets a `topics` or `topic_message` event."""
+        """Returns the clients that get a `topics` or `topic_message` event."""
         if isinstance(event, TopicMessage):
             return list(self._echoers(event.topic))
         assert isinstance(event, Topics)  # noqa: S101 - the only other type that comes here

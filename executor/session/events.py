@@ -1,18 +1,19 @@
-"""What goes into the session's state machine (events) and what comes out of it (effects).
+"""Input (events) and output (effects) of the session's state machine.
 
-Times are seconds of a monotonic clock and are given by the caller: the machine never looks at one.
+Times are seconds of a monotonic clock and are arguments: the machine never reads one.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from executor.launching.model import LaunchPlan
 
 if TYPE_CHECKING:
     from msgspec import Struct
 
+    from executor.child_messages import FromApplication, FromWorld, ToApplication, ToWorld
     from executor.launching.model import NodeSpec
     from executor.universes.document import Problem
 
@@ -44,7 +45,7 @@ __all__ = [
 ]
 
 Kind = Literal["world", "application", "node"]
-"""What a child process is for."""
+"""Kind of a child process; `node` is an extra node of the launch files."""
 
 
 # --- events ---------------------------------------------------------------------------------------
@@ -66,14 +67,14 @@ class ClientLeft:
 
 @dataclass(frozen=True)
 class StreamOpened:
-    """A client's stream socket was opened: it needs its streams whole."""
+    """A client's stream socket was opened: it needs the scene and all poses again."""
 
     client: str
 
 
 @dataclass(frozen=True)
 class StreamPaced:
-    """A client's share of pictures that newer ones overtook before they could be sent, 0 to 1."""
+    """The share of a client's pictures that were replaced by newer ones before they could be sent, 0 to 1."""
 
     client: str
     lost: float
@@ -98,11 +99,11 @@ class CommandCame:
 
 @dataclass(frozen=True)
 class ChildSaid:
-    """A child sent a message; `number` tells it from earlier ones of its kind."""
+    """A child sent a message; `number` distinguishes it from earlier children of its kind."""
 
     kind: Kind
     number: int
-    message: dict[str, Any]
+    message: FromWorld | FromApplication
 
 
 @dataclass(frozen=True)
@@ -117,10 +118,10 @@ class ChildExited:
 
 @dataclass(frozen=True)
 class ChildLooked:
-    """The supervisor looked at a child from outside, as it does several times a second.
+    """A sample of a child's state as the kernel reports it, several times a second.
 
-    `state` is Linux's letter. `ran_s` is what its main thread computed since the last look, `waited_s` how
-    long it could have and got no processor.
+    `state` is the kernel's letter for it. Since the last sample its main thread ran for `ran_s`, and waited
+    for a processor for `waited_s`.
     """
 
     kind: Kind
@@ -132,9 +133,9 @@ class ChildLooked:
 
 @dataclass(frozen=True)
 class ChildTraced:
-    """A child was asked by `Inspect` where it is: faulthandler's text, "" if it did not say.
+    """The result of `Inspect`: the text of faulthandler, or "".
 
-    `uid` is the node that it was ticking; 0 if none.
+    `uid` is the tree node that was being ticked; 0 if none.
     """
 
     kind: Kind
@@ -147,7 +148,7 @@ class ChildTraced:
 class Unpacked:
     """An archive was unpacked into `folder`, or refused with `error`.
 
-    `plan` is what its launch files ask for; `problem` names the file that cannot be read, and why.
+    `plan` holds the nodes of its launch files; `problem` is the file that cannot be read, and why.
     """
 
     token: int
@@ -159,7 +160,7 @@ class Unpacked:
 
 @dataclass(frozen=True)
 class TimePassed:
-    """Nothing happened, but `Session.deadline_s` is over."""
+    """`Session.deadline_s` is over."""
 
 
 Event = (
@@ -193,9 +194,9 @@ class Send:
 
 @dataclass(frozen=True)
 class Spawn:
-    """Start a child process. If that fails, say so with `ChildExited`.
+    """Start a child process. A failure is reported with `ChildExited`.
 
-    `node` is what to start for an extra node, in `folder`.
+    `node` is the extra node to start, in `folder`.
     """
 
     kind: Kind
@@ -206,16 +207,16 @@ class Spawn:
 
 @dataclass(frozen=True)
 class Tell:
-    """Send a message to a child. To one that is gone it is dropped: `ChildExited` follows anyway."""
+    """Send a message to a child. It is dropped if the child is gone: `ChildExited` follows anyway."""
 
     kind: Kind
     number: int
-    message: dict[str, Any] = field(default_factory=dict)
+    message: ToWorld | ToApplication
 
 
 @dataclass(frozen=True)
 class Interrupt:
-    """Signal a child that its tick is to be broken off."""
+    """Interrupt the child's current tick by a signal."""
 
     kind: Kind
     number: int
@@ -223,7 +224,7 @@ class Interrupt:
 
 @dataclass(frozen=True)
 class Inspect:
-    """Ask a child that is silent where its threads are, and say so with `ChildTraced`."""
+    """Dump the stacks of a silent child, and report them with `ChildTraced`."""
 
     kind: Kind
     number: int
@@ -231,7 +232,7 @@ class Inspect:
 
 @dataclass(frozen=True)
 class Retire:
-    """Let a child that was told to stop end by itself within `grace_s`, then kill what is left of it."""
+    """Wait up to `grace_s` for a child that was told to stop, then kill what is left of it."""
 
     kind: Kind
     number: int
@@ -240,7 +241,7 @@ class Retire:
 
 @dataclass(frozen=True)
 class Kill:
-    """End a child and all that it started, now."""
+    """Kill a child and its descendants at once."""
 
     kind: Kind
     number: int
@@ -248,7 +249,7 @@ class Kill:
 
 @dataclass(frozen=True)
 class Unpack:
-    """Unpack an archive (base64) into a folder of its own and say so with `Unpacked`."""
+    """Unpack an archive (base64) into a folder of its own, and report with `Unpacked`."""
 
     token: int
     archive_base64: str
@@ -256,7 +257,7 @@ class Unpack:
 
 @dataclass(frozen=True)
 class EndSession:
-    """Nobody came back within the grace period: end the manager."""
+    """End the manager: no client reconnected within the grace period."""
 
     reason: str
 

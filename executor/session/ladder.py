@@ -1,4 +1,4 @@
-"""The session's ladder as data: its states, and what each command does in which of them.
+"""The session's ladder as data: its states, and the effect of each command in each of them.
 
 The state machine (`executor.session.protocol`), its tests and `docs/reference/protocol.md` all read `TABLE`.
 """
@@ -13,7 +13,7 @@ __all__ = ["TABLE", "Row", "State", "is_legal", "where"]
 
 
 class State(StrEnum):
-    """A rung of the ladder, from the ground up; PAUSED is as high as APPLICATION_RUNNING."""
+    """A rung of the ladder, from bottom to top; PAUSED is as high as APPLICATION_RUNNING."""
 
     IDLE = "idle"
     CONNECTED = "connected"
@@ -24,7 +24,7 @@ class State(StrEnum):
 
     @property
     def height(self) -> int:
-        """How many rungs are below."""
+        """The number of rungs below."""
         return min(list(State).index(self), 4)
 
     def reaches(self, other: State) -> bool:
@@ -46,7 +46,7 @@ class Row:
     Attributes:
         sources: the states in which it is legal.
         target: the state that it leads to; None leaves the state as it is.
-        is_step: it takes time: others of its kind are refused until it ends, `cancel` ends it early.
+        is_step: it takes time: other steps are refused until it ends, `cancel` ends it early.
         for_viewers: clients that do not drive may send it too.
         does: one sentence for the reference page.
     """
@@ -80,16 +80,16 @@ TABLE: Final[dict[str, Row]] = {
     "run": _move(
         ANY,
         State.APPLICATION_RUNNING,
-        "Climbs all missing rungs; a world that is up already is reset, another universe replaces it.",
+        "Climbs all missing rungs; a running world is reset, or replaced for another universe.",
     ),
     "restart_application": _move(
-        RUNNABLE, State.APPLICATION_RUNNING, "Starts the application of the last run again."
+        RUNNABLE, State.APPLICATION_RUNNING, "Restarts the application of the last run."
     ),
     "pause": _move(
         frozenset({State.APPLICATION_RUNNING}), State.PAUSED, "Stops ticks and simulated time together."
     ),
     "resume": _move(
-        frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Goes on with ticks and simulated time."
+        frozenset({State.PAUSED}), State.APPLICATION_RUNNING, "Resumes ticks and simulated time."
     ),
     "terminate_application": _move(
         RUNNABLE,
@@ -101,24 +101,24 @@ TABLE: Final[dict[str, Row]] = {
     ),
     "terminate_universe": _move(frozenset({State.UNIVERSE_READY}), State.CONNECTED, "Ends the world."),
     "disconnect": _move(ANY, State.IDLE, "Ends everything, in order."),
-    "cancel": _act(ANY, "Ends the step that is going on; the ladder stays on the last rung reached."),
+    "cancel": _act(ANY, "Ends the step under way; the ladder stays on the last rung reached."),
     "step": _act(frozenset({State.PAUSED}), "One tick, and `1/tick_hz` of simulated time.", is_step=True),
     "set_tick_rate": _act(HAS_APPLICATION, "Changes the tick rate from the next tick on."),
     "set_speed": _act(WORLD_UP, "Changes how fast simulated time passes."),
-    "reset_world": _act(WORLD_UP, "Puts everything where it was at the start."),
+    "reset_world": _act(WORLD_UP, "Restores the initial state of the world."),
     "set_blackboard": _act(frozenset({State.PAUSED}), "Writes an entry of the blackboard.", is_step=True),
     "teleop": _act(WORLD_UP, "Drives the robot by hand."),
-    "move_body": _act(WORLD_STANDS, "Puts a body somewhere."),
-    "subscribe": _act(ANY, "Asks for a stream, or changes how it is sent.", for_viewers=True),
+    "move_body": _act(WORLD_STANDS, "Sets the pose of a body."),
+    "subscribe": _act(ANY, "Subscribes to a stream, or changes the subscription.", for_viewers=True),
     "unsubscribe": _act(ANY, "Ends a stream.", for_viewers=True),
     "list_topics": _act(WORLD_UP, "Answers with a `topics` event.", for_viewers=True),
     "echo_topic": _act(WORLD_UP, "Sends the messages of a topic.", for_viewers=True),
     "publish_topic": _act(WORLD_UP, "Publishes one message."),
     "describe_type": _act(WORLD_UP, "Answers with a `type_description` event.", for_viewers=True),
-    "restart_node": _act(HAS_APPLICATION, "Starts an extra node of the launch files again."),
-    "take_over": _act(ANY, "Drives from now on; who drove looks on.", for_viewers=True),
+    "restart_node": _act(HAS_APPLICATION, "Restarts a node of the launch files."),
+    "take_over": _act(ANY, "Becomes the driver; the last driver becomes a viewer.", for_viewers=True),
     "ping": _act(
-        ANY, "Is answered at once; who hears nothing for 3 s knows that it hangs.", for_viewers=True
+        ANY, "Is answered at once; no answer for 3 s means that the manager hangs.", for_viewers=True
     ),
 }
 
@@ -129,5 +129,5 @@ def is_legal(state: State, command: str) -> bool:
 
 
 def where(command: str) -> str:
-    """Names the states in which a command is legal, for people."""
+    """Returns the names of the states in which a command is legal."""
     return ", ".join(state for state in State if state in TABLE[command].sources)

@@ -1,7 +1,7 @@
-"""What the manager knows of the running tree and world, so that a late joiner gets it whole.
+"""State of the running tree and world, for the snapshot of a client that joins late.
 
-`Mirror.apply` takes every event that clients are sent; `Mirror.snapshot` is what a client that saw all
-of them would know.
+`Mirror.apply` takes every event that is sent to clients; `Mirror.snapshot` is the state of a client that
+received all of them.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Mirror:
         self.universe = ""
 
     def begin_run(self, tick_hz: float) -> None:
-        """Forgets the run before."""
+        """Removes the state of the run before."""
         self.tree = None
         self.statuses.clear()
         self.blackboard.clear()
@@ -96,9 +96,9 @@ class Mirror:
             case _:
                 pass
 
-    def tick_load(self) -> dict[str, float]:
-        """How long a tick takes of late, and how long it may take, in ms."""
-        return {"tick_ms": self.tick_ms, "tick_budget_ms": 1000.0 / self.tick_hz if self.tick_hz else 0.0}
+    def tick_load(self) -> tuple[float, float]:
+        """Returns the mean duration of the last ticks, and the time available for one, in ms."""
+        return self.tick_ms, 1000.0 / self.tick_hz if self.tick_hz else 0.0
 
     def snapshot(self) -> Snapshot:
         """Returns everything that a client needs before it can follow the deltas."""

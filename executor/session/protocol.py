@@ -1,26 +1,22 @@
 """The session as a state machine without I/O: events in, effects out, time as an argument.
 
-`Session.handle` takes one event of `executor.session.events` and returns the effects that it asks for. What a
-command does in which state is in `ladder.TABLE`; what its steps are is in `steps`.
-A step that takes time is a generator that says what it waits for, so every other event is answered
-meanwhile; one step goes on at a time, and `cancel` and `disconnect` end it early.
+`Session.handle` takes one event of `executor.session.events` and returns the effects. `ladder.TABLE` says in
+which states a command is legal; `steps` and `immediate` implement the commands.
+A step that takes time is a generator that yields what it waits for, so other events are handled meanwhile.
+One step runs at a time; `cancel` and `disconnect` end it early.
 """
 
 from __future__ import annotations
 
 import contextlib
 import logging
-from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
-import msgspec
-from msgspec import Struct
-
-from executor import messages
-from executor.session import actions, endings, hearing, steps, streaming, watch
-from executor.session.asked import ANSWER_S, Asked
-from executor.session.child import Child
+from executor import child_messages, messages
+from executor.child_messages import Fault, Finished
+from executor.session import child_events, child_exits, immediate, steps, streaming, watch
+from executor.session.children import Children
 from executor.session.clients import Clients
 from executor.session.events import (
     ChildExited,
@@ -33,32 +29,30 @@ from executor.session.events import (
     Effect,
     EndSession,
     Event,
-    Interrupt,
-    Kill,
-    Kind,
-    Retire,
     Send,
-    Spawn,
     StreamClosed,
     StreamOpened,
     StreamPaced,
-    Tell,
     TimePassed,
     Unpack,
     Unpacked,
 )
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
+from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
-from executor.session.nodes import Nodes
-from executor.session.waits import NOT_ANSWERING, StepFailed, Wait
+from executor.session.questions import Questions, answer_late
+from executor.session.stage import About, LastRun
+from executor.session.waits import StepFailed, Wait
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Mapping
+    from collections.abc import Callable, Generator
 
-    from executor.session.asked import Question
+    from msgspec import Struct
+
+    from executor.session.child import Child
     from executor.session.waits import Step
 
-__all__ = ["About", "Session"]
+__all__ = ["Session"]
 
 _log = logging.getLogger(__name__)
 
@@ -67,22 +61,9 @@ _CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "rest
 RETIRE_GRACE_S: Final = 2.0
 
 
-@dataclass(frozen=True)
-class About:
-    """What does not change during a session."""
-
-    version: str
-    ros_distro: str = "jazzy"
-    ros_domain_id: int = 0
-    ros_environment: Mapping[str, str] = field(default_factory=dict)
-    outside_domain_id: int = 0
-    grace_s: float = 300.0
-    promote_s: float = 5.0
-
-
 @dataclass
 class _Job:
-    """The step that goes on, for the client and request to be answered at its end."""
+    """The step under way, and the clients and requests that are answered at its end."""
 
     command: str
     askers: list[tuple[str, str]]
@@ -91,31 +72,23 @@ class _Job:
     deadline_s: float = 0.0
 
 
-@dataclass
-class _Counters:
-    child: int = 0
-    archive: int = 0
-    unpacked: dict[int, Unpacked] = field(default_factory=dict)
-
-
 class Session:
-    """One session: its ladder, its clients, and what is known of its two child processes."""
+    """One session: its ladder, its clients and its child processes."""
 
     def __init__(self, about: About, *, now_s: float = 0.0) -> None:
         self.about = about
+        self.now_s = now_s
         self.mirror = Mirror()
         self.clients = Clients(now_s)
-        self.children: dict[Kind, Child] = {}
-        self.leaving: set[tuple[Kind, int]] = set()
-        self.spares_lost: Counter[Kind] = Counter()
-        self.run = steps.LastRun()
+        self.questions = Questions()
+        self.children = Children(self.effect, lambda: self.now_s, self.questions.token, self._lost)
+        self.run = LastRun()
         self.sim_time_s = 0.0
-        self._now_s = now_s
         self._effects: list[Effect] = []
         self._job: _Job | None = None
-        self._count = _Counters()
-        self.asked = Asked()
-        self.nodes = Nodes()
+        self._archives = 0
+        self._unpacked: Unpacked | None = None
+        self.nodes = LaunchNodes()
         self.renderer = ""
         self.has_tf = False
 
@@ -123,37 +96,38 @@ class Session:
 
     @property
     def state(self) -> State:
-        """The rung on which the ladder stands."""
+        """The state of the ladder."""
         return self.mirror.state
 
     @property
     def deadline_s(self) -> float | None:
         """When `TimePassed` is due at the latest, if nothing else happens."""
         times = [self.clients.deadline_s(self.about.grace_s, self.about.promote_s)]
-        times.append(self.asked.deadline_s)
+        times.append(self.questions.deadline_s)
         if self._job is not None:
             times.append(self._job.deadline_s)
         return min((t for t in times if t is not None), default=None)
 
     def prestart(self) -> list[Effect]:
         """Starts both processes ahead of the first command, since their imports take time."""
-        self.replenish()
+        self.children.replenish()
         return self._take_effects()
 
     def handle(self, event: Event, now_s: float) -> list[Effect]:
-        """Takes an event and returns what is to be done, in order."""
-        self._now_s = now_s
+        """Handles an event and returns its effects, in order."""
+        self.now_s = now_s
         self._dispatch(event)
         self._advance()
         self._expire()
-        if "application" not in self.children or not self.children["application"].is_started:
+        application = self.children.get("application")
+        if application is None or not application.is_started:
             self.nodes.stop(self)
         return self._take_effects()
 
     # --- what the steps use -----------------------------------------------------------------------
 
     def enter(self, state: State, reason: str = "") -> None:
-        """Moves the ladder: the one place where its state changes."""
+        """Changes the state of the ladder; the only place that does."""
         _log.info("%s -> %s %s", self.state, state, reason)
         if not state.reaches(State.UNIVERSE_READY):
             self.renderer, self.has_tf = "", False
@@ -164,129 +138,30 @@ class Session:
         self._effects.append(Send(client, _EVENT_NAMES[type(event)], event, request))
 
     def emit(self, event: Struct) -> None:
-        """Sends an event to all clients and remembers it for those that come later."""
+        """Sends an event to all clients and stores it for those that join later."""
         self.mirror.apply(event)
         self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
 
     def effect(self, effect: Effect) -> None:
-        """Asks for something to be done."""
+        """Adds an effect."""
         self._effects.append(effect)
 
-    def next_number(self) -> int:
-        """Returns the number of a new child."""
-        self._count.child += 1
-        return self._count.child
-
-    def child(self, kind: Kind) -> Child:
-        """Returns the living child of a kind, and starts it where there is none."""
-        if kind not in self.children:
-            self.children[kind] = Child(kind, self.next_number(), self._now_s)
-            self._effects.append(Spawn(kind, self._count.child))
-        return self.children[kind]
-
-    def replenish(self) -> None:
-        """Has a process of each kind ready for what may come next."""
-        self.child("world")
-        self.child("application")
-
-    def tell(self, kind: Kind, type_: str, **fields: Any) -> None:
-        """Sends a message to the living child of a kind, if there is one."""
-        if kind in self.children:
-            self._effects.append(Tell(kind, self.children[kind].number, {"type": type_, **fields}))
-
-    def ask(  # noqa: PLR0913 - one question
-        self,
-        kind: Kind,
-        event: CommandCame,
-        fields: dict[str, Any] | None = None,
-        *,
-        type_: str = "",
-        patience_s: float = ANSWER_S,
-        then: Callable[[], None] | None = None,
-    ) -> None:
-        """Has the child of a kind answer a command; `then` is done when it did what it was asked."""
-        child, fields = self.children.get(kind), fields or {}
-        if child is None:
-            self.refuse(event, "process_died", f"The {kind} is gone.")
-            return
-        topic = str(fields.get("topic", ""))
-        if child.is_hanging:
-            if topic:
-                self.clients.echo(event.client, topic, 0.0)
-            self.refuse(event, NOT_ANSWERING, child.hang)
-            return
-        token = self.asked.add(
-            event.client,
-            event.request,
-            (kind, child.number),
-            self._now_s,
-            topic=topic,
-            patience_s=patience_s,
-            then=then,
-        )
-        self.tell(kind, type_ or event.command, request=token, **fields)
-
-    def order(self, kind: Kind, type_: str, **fields: Any) -> tuple[Child, str]:
-        """Has a child confirm what it is told; returns it, and the token that its answer will have."""
-        child, token = self.child(kind), self.asked.token()
-        child.expect(token)
-        self.tell(kind, type_, request=token, **fields)
-        return child, token
-
-    def answer(self, question: Question, error: messages.Error | None) -> None:
-        """Answers a command whose child has answered, or cannot any more."""
-        if error is None:
-            if question.then is not None:
-                question.then()
-            self._ack(question.client, question.request)
-            return
-        if question.topic:
-            self.clients.echo(question.client, question.topic, 0.0)
-        self.send(question.client, error, question.request)
-
-    def interrupt(self, child: Child) -> None:
-        """Has the child's tick broken off."""
-        self._effects.append(Interrupt(child.kind, child.number))
-
-    def drop(self, kind: Kind, *, grace_s: float = 0.0, reason: str = "was ended") -> None:
-        """Ends the child of a kind: now, or when it had time to end by itself."""
-        child = self.children.pop(kind, None)
-        if child is None:
-            return
-        child.end(reason)  # whoever waits for it waits no more
-        self.answer_late(self.asked.orphaned((kind, child.number)), "process_died", reason)
-        self.leaving.add((kind, child.number))
-        if grace_s:
-            self._effects.append(Tell(kind, child.number, {"type": "stop"}))
-            self._effects.append(Retire(kind, child.number, grace_s))
-        else:
-            self._effects.append(Kill(kind, child.number))
-
     def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
-        """Has an archive unpacked; returns a function that tells the result once it is there."""
-        self._count.archive += 1
-        token = self._count.archive
+        """Unpacks an archive; returns a function that returns the result once it exists."""
+        self._archives += 1
+        token = self._archives
         self._effects.append(Unpack(token, archive_base64))
-        return lambda: self._count.unpacked.get(token)
+        return lambda: (
+            self._unpacked if self._unpacked is not None and self._unpacked.token == token else None
+        )
 
-    def open_streams(self) -> None:
-        """Asks the world for all that the clients want to see."""
-        for client, data in self.clients.wanted_streams():
-            self.subscribe(client, data)
+    def start_nodes(self) -> None:
+        """Starts the extra nodes of the last run's plan."""
+        self.nodes.start(self, self.run.plan)
 
-    def subscribe(self, client: str, data: messages.Subscribe) -> None:
-        """Asks the world for one stream."""
-        self.tell("world", "subscribe", client=client, **msgspec.to_builtins(data))
-
-    def resume_echoes(self) -> None:
-        """Asks the world for the topics that the clients listen to, as soon as they are there."""
-        for topic, max_hz in self.clients.echoes().items():
-            self.tell("world", "echo_topic", topic=topic, max_hz=max_hz, patient=True)
-
-    def close_streams(self) -> None:
-        """Asks the world to send nothing more."""
-        for client, data in self.clients.wanted_streams():
-            self.tell("world", "unsubscribe", client=client, stream=data.stream)
+    def restart_node(self, id_: str) -> str:
+        """Restarts an extra node; returns why it cannot, or ""."""
+        return self.nodes.restart(self, id_)
 
     # --- events -----------------------------------------------------------------------------------
 
@@ -296,29 +171,29 @@ class Session:
                 self.clients.join(event.client)
                 self.introspect(event.client)
                 self.send(event.client, self.mirror.snapshot())
-                self.resume_echoes()
+                streaming.resume_echoes(self)
             case ClientLeft():
-                for topic in self.clients.leave(event.client, self._now_s):
-                    self.tell("world", "echo_topic", topic=topic, max_hz=0.0)
+                for topic in self.clients.leave(event.client, self.now_s):
+                    self.children.tell_world(child_messages.EchoTopic(topic, 0.0))
             case StreamOpened() | StreamClosed() | StreamPaced():
-                streaming.heard(self, event)
+                streaming.take(self, event)
             case CommandCame():
                 self._on_command(event)
             case ChildSaid():
                 self._on_message(event)
             case ChildLooked():
-                watch.looked(self, event, self._now_s)
+                watch.looked(self, event, self.now_s)
             case ChildTraced():
                 watch.traced(self, event)
             case ChildExited():
-                endings.exited(self, event)
+                self._on_exit(event)
             case Unpacked():
-                self._count.unpacked = {event.token: event}
+                self._unpacked = event
             case TimePassed():
                 pass
 
     def introspect(self, client: str) -> None:
-        """Tells a client what the session is, and whether it drives."""
+        """Sends a client the properties of the session, and the client's role."""
         payload = messages.Introspection(
             protocol=messages.PROTOCOL,
             client_id=client,
@@ -334,35 +209,41 @@ class Session:
         self.send(client, payload)
 
     def know_world(self, renderer: str, *, has_tf: bool) -> None:
-        """The world says what it can do; clients that were told otherwise are told again."""
+        """Stores what the world can do, and notifies clients if that changed."""
         if (renderer, has_tf) == (self.renderer, self.has_tf):
             return
         self.renderer, self.has_tf = renderer, has_tf
         for client in self.clients.here():
             self.introspect(client)
 
+    def _on_exit(self, event: ChildExited) -> None:
+        self.children.leaving.discard((event.kind, event.number))
+        if event.kind == "node":
+            self.nodes.exited(self, event)
+        else:
+            child_exits.exited(self, event)
+
     def _on_message(self, event: ChildSaid) -> None:
         if event.kind == "node":
             self.nodes.said(self, event)
             return
-        child = self.children.get(event.kind)
-        if child is None or child.number != event.number:
-            if event.message["type"] == "log":
-                hearing.forward(self, event)  # the last words of a child that was let go
+        child = self.children.of(event)
+        if child is None:
+            child_events.log(self, event)  # the last lines of a child that was dropped
             return
         child.note(event.message)
-        hearing.hear(self, event)
+        child_events.forward(self, child, event)
         self._after_forward(child, event.message)
 
-    def _after_forward(self, child: Child, message: dict[str, Any]) -> None:
-        """The application ended by itself: the ladder goes down, the process is let go."""
-        if message["type"] == "finished" and self.state in HAS_APPLICATION and not child.is_stopping:
+    def _after_forward(self, child: Child, message: Struct) -> None:
+        """Goes down the ladder when the application ended by itself, and stops the robot when it hangs."""
+        if isinstance(message, Finished) and self.state in HAS_APPLICATION and not child.is_stopping:
             steps.stop_moving(self)
-            self.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
-            self.enter(State.VISUALIZATION_READY, str(message.get("message") or "The run ended."))
-            self.replenish()
-        elif message["type"] == "fault" and message.get("kind") == "timeout":
-            self.tell("world", "stop_robot")
+            self.children.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")
+            self.enter(State.VISUALIZATION_READY, message.message or "The run ended.")
+            self.children.replenish()
+        elif isinstance(message, Fault) and message.kind == "timeout":
+            self.children.tell_world(child_messages.StopRobot())
 
     # --- commands ---------------------------------------------------------------------------------
 
@@ -383,8 +264,8 @@ class Session:
         elif row.is_step:
             self._begin(event)
         else:
-            actions.ACTIONS[event.command](self, event)
-            if event.command not in actions.ANSWER_LATER:
+            immediate.IMMEDIATE[event.command](self, event)
+            if event.command not in immediate.ANSWER_LATER:
                 self._ack(event.client, event.request)
 
     def _begin(self, event: CommandCame) -> None:
@@ -393,7 +274,7 @@ class Session:
 
     @property
     def is_free(self) -> bool:
-        """Whether no step is going on."""
+        """Whether no step is under way."""
         return self._job is None
 
     def begin_own(self, command: str, generator: Step) -> None:
@@ -404,7 +285,7 @@ class Session:
         if job.command == event.command and event.command.startswith("terminate_"):
             job.askers.append((event.client, event.request))
             return
-        self.refuse(event, "busy", f"{job.command} is going on.", "Wait for it, or send cancel.")
+        self.refuse(event, "busy", f"{job.command} is under way.", "Wait for it, or send cancel.")
 
     def _disconnect(self, event: CommandCame) -> None:
         if self._job is not None and self._job.command == "disconnect":
@@ -414,7 +295,7 @@ class Session:
         self._begin(event)
 
     def _cancel(self, *, also_bounded: bool = False) -> None:
-        """Ends the step that goes on; those that end by themselves soon are left alone."""
+        """Ends the step under way, unless it is bounded by short timeouts anyway."""
         if self._job is None or not (also_bounded or self._job.command in _CLIMBING):
             return
         job, self._job = self._job, None
@@ -426,7 +307,7 @@ class Session:
         self._fail(job, failure)
 
     def _advance(self) -> None:
-        """Lets the step go on as far as it can."""
+        """Resumes the step under way as often as its waits are over."""
         while (job := self._job) is not None:
             try:
                 if not self._resume(job):
@@ -440,7 +321,7 @@ class Session:
                 self._fail(job, failure)
 
     def _resume(self, job: _Job) -> bool:
-        """Resumes the generator if what it waits for is there; tells whether it moved."""
+        """Resumes the step if its wait is over; returns whether it was resumed."""
         if job.wait is None:
             job.wait = next(job.steps)
         else:
@@ -451,24 +332,21 @@ class Session:
             else:
                 if value is not None:
                     job.wait = job.steps.send(value)
-                elif self._now_s >= job.deadline_s:
+                elif self.now_s >= job.deadline_s:
                     job.wait = job.steps.throw(StepFailed("timeout", job.wait.too_late))
                 else:
                     return False
-        job.deadline_s = self._now_s + job.wait.timeout_s
+        job.deadline_s = self.now_s + job.wait.timeout_s
         return True
 
-    def answer_late(self, questions: list[Question], code: str, reason: str, why: str = "") -> None:
-        """Answers commands whose child will not."""
-        for question in questions:
-            text = why or f"The {question.child[0]} {reason}."
-            self.answer(question, messages.Error(code, text))
+    def _lost(self, child: Child, reason: str) -> None:
+        answer_late(self, self.questions.orphaned(child.key), "process_died", reason)
 
     def _expire(self) -> None:
-        self.answer_late(self.asked.expired(self._now_s), "timeout", "did not answer in time")
-        for client in self.clients.promote(self._now_s, self.about.promote_s):
+        answer_late(self, self.questions.expired(self.now_s), "timeout", "did not answer in time")
+        for client in self.clients.promote(self.now_s, self.about.promote_s):
             self.introspect(client)
-        if self.clients.is_abandoned(self._now_s, self.about.grace_s):
+        if self.clients.is_abandoned(self.now_s, self.about.grace_s):
             self._effects.append(EndSession("no client came back within the grace period"))
 
     def _ack(self, client: str, request: str) -> None:

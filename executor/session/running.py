@@ -1,10 +1,11 @@
-"""What the commands do that concern a run that is under way."""
+"""Steps of the commands that concern a run under way."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Any, Final
 
-from executor import messages
+from executor import child_messages, messages
+from executor.child_messages import BlackboardSet, Finished, Paused, Resumed, Stepped
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.waits import (
     NOT_ANSWERING,
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from msgspec import Struct
 
     from executor.session.child import Child
-    from executor.session.protocol import Session
+    from executor.session.stage import Stage
 
 __all__ = [
     "await_tick",
@@ -41,45 +42,46 @@ __all__ = [
 TICK_PATIENCE_S: Final = 1.0
 ROUNDS_OF_PATIENCE: Final = 5
 INTERRUPT_PATIENCE_S: Final = 1.0
-_PLACE: Final = frozenset({"node_id", "tree_id", "node_path", "file", "traceback"})
 
 
-def stop_moving(session: Session) -> None:
-    """Freezes the world, with the robot at rest."""
-    session.tell("world", "stop_robot")
-    session.tell("world", "pause")
+def stop_moving(stage: Stage) -> None:
+    """Sets the robot's target velocity to zero and pauses the world."""
+    stage.children.tell_world(child_messages.StopRobot())
+    stage.children.tell_world(child_messages.Pause())
 
 
-def go(session: Session, application: Child) -> Step:
-    """Lets time pass in both processes."""
-    application.forget("resumed")
-    world = session.order("world", "resume")
-    session.tell("application", "resume")
+def go(stage: Stage, application: Child) -> Step:
+    """Resumes time in both processes."""
+    application.forget(Resumed)
+    world = stage.children.order("world", child_messages.Resume())
+    stage.children.tell_application(child_messages.Resume())
     yield confirmed(world, "resume")
     late = "The application did not resume in time."
-    yield Wait(answered(application, "resumed"), REPLY_TIMEOUT_S, late)
+    yield Wait(answered(application, Resumed), REPLY_TIMEOUT_S, late)
 
 
-def pause(session: Session, _: Struct) -> Step:
+def pause(stage: Stage, _: Struct) -> Step:
     """Stops ticks and simulated time together."""
-    application = session.child("application")
-    application.forget("paused")
-    session.tell("application", "pause")
-    world = session.order("world", "pause")
-    failure = yield from await_tick(session, application, message_of(application, "paused"))
+    application = stage.children.ensure("application")
+    application.forget(Paused)
+    stage.children.tell_application(child_messages.Pause())
+    world = stage.children.order("world", child_messages.Pause())
+    failure = yield from await_tick(stage, application, message_of(application, Paused))
     if failure is not None:
         raise failure
     try:
         yield confirmed(world, "pause")
     except StepFailed:
-        if session.state is State.APPLICATION_RUNNING:
-            session.tell("application", "resume")  # time passes in both processes, or in none
+        if stage.state is State.APPLICATION_RUNNING:
+            stage.children.tell_application(
+                child_messages.Resume()
+            )  # time must pass in both processes, or in neither
         raise
-    session.enter(State.PAUSED)
+    stage.enter(State.PAUSED)
 
 
-def await_tick(session: Session, application: Child, until: Callable[[], Any]) -> Ended:
-    """Waits for what comes once the tick is over; one that hangs is ended, and why it failed is returned."""
+def await_tick(stage: Stage, application: Child, until: Callable[[], Any]) -> Ended:
+    """Waits for a message that follows the current tick; ends a tick that hangs and returns the failure."""
     vitals = application.vitals
     for _ in range(ROUNDS_OF_PATIENCE):
         try:
@@ -88,94 +90,95 @@ def await_tick(session: Session, application: Child, until: Callable[[], Any]) -
             if failure.code != "timeout":
                 raise
             if not vitals.has_beaten or vitals.stuck_s >= TICK_PATIENCE_S:
-                break  # else it is slow, as all is on a busy machine
+                break  # otherwise the tick is only slow, as on a busy machine
         else:
             return None
-    return (yield from end_hanging_tick(session, application))
+    return (yield from end_hanging_tick(stage, application))
 
 
-def end_hanging_tick(session: Session, application: Child) -> Broken:
-    """Breaks the tick off, so that the application names its node; kills it if that does not help.
+def end_hanging_tick(stage: Stage, application: Child) -> Broken:
+    """Interrupts the tick, so that the application reports its node; kills the application if that fails.
 
-    Returns why what waits for the tick has failed.
+    Returns the failure for the command that waits for the tick.
     """
-    session.interrupt(application)
+    stage.children.interrupt(application)
     try:
         yield Wait(
-            lambda: application.said("finished") or gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
+            lambda: application.said(Finished) or gone(application)(), INTERRUPT_PATIENCE_S, "interrupt"
         )
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
     reason = _tick_failure(application)
-    if session.state in HAS_APPLICATION:
-        if application.said("finished") is None:
-            _tell_killed(session, application, reason)
-        stop_moving(session)
-        session.enter(State.VISUALIZATION_READY, reason.message)
-    if session.children.get("application") is application:
-        session.drop("application")
-    session.replenish()
+    if stage.state in HAS_APPLICATION:
+        if application.said(Finished) is None:
+            _tell_killed(stage, application, reason)
+        stop_moving(stage)
+        stage.enter(State.VISUALIZATION_READY, reason.message)
+    if stage.children.get("application") is application:
+        stage.children.drop("application")
+    stage.children.replenish()
     return reason
 
 
 def _tick_failure(application: Child) -> StepFailed:
-    if application.vitals.is_frozen and application.said("finished") is None:
+    if application.vitals.is_frozen and application.said(Finished) is None:
         why = application.hang or "The application does not answer: its process is frozen."
         return StepFailed(NOT_ANSWERING, why, "It was ended; press Run to start it again.")
     return StepFailed(
         "tick_hangs",
         f"The tick did not return within {TICK_PATIENCE_S:g} s and was ended.",
-        "An action's update() must return soon; let it return RUNNING while work goes on.",
+        "An action's update() must return soon; let it return RUNNING while work continues.",
     )
 
 
-def _tell_killed(session: Session, application: Child, failure: StepFailed) -> None:
+def _tell_killed(stage: Stage, application: Child, failure: StepFailed) -> None:
     node = application.hanging_node
     message = f"The tick hung{f' in {node}' if node else ''}, and the application was killed."
     if failure.code == NOT_ANSWERING:
         message = failure.message
     if not application.hang:
-        place = {k: str(v) for k, v in application.vitals.place.items() if k in _PLACE}
-        line = int(application.vitals.place.get("line", 0))
-        session.emit(messages.Fault("timeout", message, line=line, **place))
-    session.emit(messages.Finished("IDLE", "process_died", message))
+        at = application.vitals.place
+        place = (at.node_id, at.tree_id, at.node_path, at.file, at.line, at.traceback)
+        stage.emit(messages.Fault("timeout", message, "", *place))
+    stage.emit(messages.Finished("IDLE", "process_died", message))
 
 
-def resume(session: Session, _: Struct) -> Step:
-    """Lets ticks and simulated time go on."""
+def resume(stage: Stage, _: Struct) -> Step:
+    """Resumes ticks and simulated time."""
     try:
-        yield from go(session, session.child("application"))
+        yield from go(stage, stage.children.ensure("application"))
     except StepFailed:
-        if session.state is State.PAUSED:  # time passes in both processes, or in none
-            session.tell("application", "pause")
-            session.tell("world", "pause")
+        if stage.state is State.PAUSED:  # time must pass in both processes, or in neither
+            stage.children.tell_application(child_messages.Pause())
+            stage.children.tell_world(child_messages.Pause())
         raise
-    session.enter(State.APPLICATION_RUNNING)
+    stage.enter(State.APPLICATION_RUNNING)
 
 
-def step(session: Session, _: Struct) -> Step:
-    """Ticks once, and lets the time of one tick pass."""
-    application = session.child("application")
-    application.forget("stepped")
-    session.tell("application", "step")
+def step(stage: Stage, _: Struct) -> Step:
+    """Ticks once, and simulates one tick period."""
+    application = stage.children.ensure("application")
+    application.forget(Stepped)
+    stage.children.tell_application(child_messages.StepTick())
     try:
-        yield Wait(message_of(application, "stepped", "finished"), REPLY_TIMEOUT_S, "tick")
+        yield Wait(message_of(application, Stepped, Finished), REPLY_TIMEOUT_S, "tick")
     except StepFailed as failure:
         if failure.code != "timeout":
             raise
-        raise (yield from end_hanging_tick(session, application)) from None
-    if session.state is State.PAUSED:
-        yield confirmed(session.order("world", "step", dt_s=1.0 / session.mirror.tick_hz), "step")
+        raise (yield from end_hanging_tick(stage, application)) from None
+    if stage.state is State.PAUSED:
+        yield confirmed(
+            stage.children.order("world", child_messages.StepWorld(1.0 / stage.mirror.tick_hz)), "step"
+        )
 
 
-def set_blackboard(session: Session, data: Struct) -> Step:
+def set_blackboard(stage: Stage, data: messages.SetBlackboard) -> Step:
     """Writes an entry of the blackboard."""
-    data = cast("messages.SetBlackboard", data)
-    application = session.child("application")
-    application.forget("blackboard_set")
-    session.tell("application", "set_blackboard", scope=data.scope, key=data.key, value=data.value)
+    application = stage.children.ensure("application")
+    application.forget(BlackboardSet)
+    stage.children.tell_application(child_messages.SetBlackboard(data.scope, data.key, data.value))
     late = "The application did not answer in time."
-    reply = yield Wait(message_of(application, "blackboard_set"), REPLY_TIMEOUT_S, late)
-    if reply.get("error"):
-        raise StepFailed("bad_data", str(reply["error"]))
+    reply = yield Wait(message_of(application, BlackboardSet), REPLY_TIMEOUT_S, late)
+    if reply.error:
+        raise StepFailed("bad_data", reply.error)

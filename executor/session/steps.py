@@ -1,17 +1,17 @@
-"""What each command does: steps that take time as generators, the others as plain functions.
+"""Steps: the commands that take time, as generators.
 
-A step yields a `Wait` and is resumed with what it waited for; `StepFailed` is raised into it when that
-cannot come any more, when it is too late, or when the step is cancelled. A step that fails leaves the
-ladder on the last rung that it reached.
+A step yields a `Wait` and is resumed with its result; `StepFailed` is raised into it when the wait cannot
+succeed any more, times out, or the step is cancelled. A step that fails leaves the ladder on the last rung
+that it reached.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import TYPE_CHECKING, Final, TypeVar
 
-from executor import messages
-from executor.launching.model import LaunchPlan
+from executor import child_messages, messages
+from executor.child_messages import ApplicationReady, Failed, Fault, StartWorld, WorldReady
+from executor.session import streaming
 from executor.session.ladder import HAS_APPLICATION, State
 from executor.session.running import (
     await_tick,
@@ -40,9 +40,11 @@ if TYPE_CHECKING:
 
     from executor.session.child import Child
     from executor.session.events import Unpacked
-    from executor.session.protocol import Session
+    from executor.session.stage import Stage
 
-__all__ = ["RESET_TIMEOUT_S", "STEPS", "LastRun", "restart_application", "stop_moving"]
+__all__ = ["RESET_TIMEOUT_S", "STEPS", "restart_application", "stop_moving"]
+
+Data = TypeVar("Data", bound="Struct")
 
 LAUNCH_TIMEOUT_S: Final = 60.0
 LOAD_TIMEOUT_S: Final = 60.0
@@ -52,101 +54,85 @@ EXIT_TIMEOUT_S: Final = 10.0
 RESET_TIMEOUT_S: Final = 60.0
 
 
-@dataclass
-class LastRun:
-    """What was started last, to start it again."""
-
-    universe: messages.LaunchUniverse | None = None
-    application: messages.RunApplication | None = None
-    folder: str = ""
-    plan: LaunchPlan = field(default_factory=LaunchPlan)
-    domain_id: int = 0
-    is_outside: bool = False
-    seed: int = 0
-    deaf_until_s: float = 0.0
-    """Until then an application that hears no time is not started again once more."""
-
-
 # --- helpers --------------------------------------------------------------------------------------
 
 
-def _progress(session: Session, rung: messages.Rung, fraction: float, message: str) -> None:
-    session.emit(messages.Progress(rung, fraction, message))
+def _progress(stage: Stage, rung: messages.Rung, fraction: float, message: str) -> None:
+    stage.emit(messages.Progress(rung, fraction, message))
 
 
 # --- rungs ----------------------------------------------------------------------------------------
 
 
-def _connect(session: Session, _: Struct) -> Step:
-    session.enter(State.CONNECTED)
-    session.replenish()
+def _connect(stage: Stage, _: Struct) -> Step:
+    stage.enter(State.CONNECTED)
+    stage.children.replenish()
     yield from ()
 
 
-def _launch_universe(session: Session, data: Struct) -> Step:
-    data = cast("messages.LaunchUniverse", data)
-    _progress(session, "launch_universe", 0.0, "Starting the simulated world")
-    session.run.universe = data
-    _aim(session, data)
+def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
+    _progress(stage, "launch_universe", 0.0, "Starting the simulated world")
+    stage.run.universe = data
+    _aim(stage, data)
     universe, assets, file = data.universe, "", ""
     if isinstance(universe, messages.UniverseDocument):
         if universe.assets_zip_base64:
-            unpacked = yield _unpacking(session, universe.assets_zip_base64)
+            unpacked = yield _unpacking(stage, universe.assets_zip_base64)
             assets = _folder_of(unpacked, "assets")
         file = universe.file
         universe = universe.document
-    start = {
-        "universe": universe,
-        "file": file,
-        "assets": assets,
-        "robot": data.robot,
-        "seed": data.seed,
-        "speed": data.speed,
-        "domain_id": _domain_of(session, data),
-    }
+    start = StartWorld(
+        universe=universe,
+        file=file,
+        assets=assets,
+        robot=data.robot,
+        seed=data.seed,
+        speed=data.speed,
+        domain_id=_domain_of(stage, data),
+    )
     try:
-        reply = yield from _start_world(session, start)
+        reply = yield from _start_world(stage, start)
     except StepFailed:
-        session.run.universe = None
-        session.drop("world")
-        session.replenish()
+        stage.run.universe = None
+        stage.children.drop("world")
+        stage.children.replenish()
         raise
-    session.mirror.universe = str(reply.get("universe") or data.universe)
-    session.mirror.speed = data.speed
-    session.resume_echoes()
-    _progress(session, "launch_universe", 1.0, "The world is ready")
-    session.enter(State.UNIVERSE_READY)
+    stage.mirror.universe = reply.universe or str(data.universe)
+    stage.mirror.speed = data.speed
+    streaming.resume_echoes(stage)
+    _progress(stage, "launch_universe", 1.0, "The world is ready")
+    stage.enter(State.UNIVERSE_READY)
 
 
-def _start_world(session: Session, start: dict[str, Any], tries: int = 2) -> Answered:
-    """Has the world that waits build what is asked for; a spare that was lost is replaced once."""
-    world = session.child("world")
+def _start_world(stage: Stage, start: StartWorld, tries: int = 2) -> Answered[WorldReady]:
+    """Lets the spare world build the universe; a spare that turns out to be dead is replaced once."""
+    world = stage.children.ensure("world")
     world.is_started = True
-    session.tell("world", "start", **start)
+    stage.children.tell_world(start)
     late = "The world did not become ready in time."
     try:
-        reply: dict[str, Any] = yield Wait(taken(world, "ready", "error"), LAUNCH_TIMEOUT_S, late)
+        reply = yield Wait(taken(world, WorldReady, Failed), LAUNCH_TIMEOUT_S, late)
     except StepFailed as failure:
         if tries == 1 or not is_spare_lost(world, failure):
             raise
-        if session.children.get("world") is world:
-            session.drop("world")
-        return (yield from _start_world(session, start, tries - 1))
-    if reply["type"] == "error":
-        hint = str(reply.get("hint", ""))
-        raise StepFailed(str(reply.get("code") or "launch_failed"), str(reply.get("message", "")), hint)
+        if stage.children.get("world") is world:
+            stage.children.drop("world")
+        return (yield from _start_world(stage, start, tries - 1))
+    if isinstance(reply, Failed):
+        raise StepFailed(reply.code or "launch_failed", reply.message, reply.hint)
+    assert isinstance(reply, WorldReady)  # noqa: S101 - it waits for these two
     return reply
 
 
-def _prepare_visualization(session: Session, _: Struct) -> Step:
-    session.open_streams()
-    _progress(session, "prepare_visualization", 1.0, "The streams are open")
-    session.enter(State.VISUALIZATION_READY)
+def _prepare_visualization(stage: Stage, _: Struct) -> Step:
+    streaming.open_all(stage)
+    _progress(stage, "prepare_visualization", 1.0, "The streams are open")
+    stage.enter(State.VISUALIZATION_READY)
     yield from ()
 
 
-def _unpacking(session: Session, archive_base64: str) -> Wait:
-    return Wait(session.unpack(archive_base64), UNPACK_TIMEOUT_S, "The archive took too long to unpack.")
+def _unpacking(stage: Stage, archive_base64: str) -> Wait:
+    return Wait(stage.unpack(archive_base64), UNPACK_TIMEOUT_S, "The archive took too long to unpack.")
 
 
 def _folder_of(unpacked: Unpacked, what: str) -> str:
@@ -155,135 +141,133 @@ def _folder_of(unpacked: Unpacked, what: str) -> str:
     return unpacked.folder
 
 
-def _take_folder(session: Session, unpacked: Unpacked) -> None:
-    session.run.folder = _folder_of(unpacked, "application's")
-    session.run.plan = unpacked.plan
+def _take_folder(stage: Stage, unpacked: Unpacked) -> None:
+    stage.run.folder = _folder_of(unpacked, "application's")
+    stage.run.plan = unpacked.plan
     if unpacked.problem is not None:
         file, problem = unpacked.problem
-        session.emit(messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line))
+        stage.emit(messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line))
         text = f"{file}:{problem.line}:{problem.column}: {problem.message}."
         raise StepFailed("bad_launch_file", text, problem.hint)
 
 
-def _run_application(session: Session, data: Struct) -> Step:
-    data = cast("messages.RunApplication", data)
-    if session.state in HAS_APPLICATION:
-        yield from _terminate_application(session, data)
-    unpacked = yield _unpacking(session, data.app_zip_base64)
-    _take_folder(session, unpacked)
-    session.run.application = data
-    application = _start_application(session)
-    yield from _await_application(session, application)
+def _run_application(stage: Stage, data: messages.RunApplication) -> Step:
+    if stage.state in HAS_APPLICATION:
+        yield from _terminate_application(stage, data)
+    unpacked = yield _unpacking(stage, data.app_zip_base64)
+    _take_folder(stage, unpacked)
+    stage.run.application = data
+    application = _start_application(stage)
+    yield from _await_application(stage, application)
 
 
-def restart_application(session: Session, data: Struct) -> Step:
-    """Starts the application of the last run again."""
-    if session.run.application is None:
+def restart_application(stage: Stage, data: Struct) -> Step:
+    """Restarts the application of the last run."""
+    if stage.run.application is None:
         raise StepFailed("nothing_to_restart", "No application was run yet.", "Press Run.")
-    if session.state in HAS_APPLICATION:
-        yield from _terminate_application(session, data)
-    yield from _await_application(session, _start_application(session))
+    if stage.state in HAS_APPLICATION:
+        yield from _terminate_application(stage, data)
+    yield from _await_application(stage, _start_application(stage))
 
 
-def _start_application(session: Session) -> Child:
-    data = session.run.application
+def _start_application(stage: Stage) -> Child:
+    data = stage.run.application
     assert data is not None  # noqa: S101 - both callers set it
-    session.mirror.begin_run(data.tick_hz)
-    _progress(session, "run_application", 0.0, "Loading the tree and its actions")
-    application = session.child("application")
+    stage.mirror.begin_run(data.tick_hz)
+    _progress(stage, "run_application", 0.0, "Loading the tree and its actions")
+    application = stage.children.ensure("application")
     application.is_started = True
-    session.tell(
-        "application",
-        "start",
-        app_dir=session.run.folder,
-        tick_hz=data.tick_hz,
-        on_finish=data.on_finish,
-        on_error=data.on_error,
-        seed=session.run.seed,
-        domain_id=session.run.domain_id,
-        outside=session.run.is_outside,
+    stage.children.tell_application(
+        child_messages.StartApplication(
+            app_dir=stage.run.folder,
+            tick_hz=data.tick_hz,
+            on_finish=data.on_finish,
+            on_error=data.on_error,
+            seed=stage.run.seed,
+            domain_id=stage.run.domain_id,
+            outside=stage.run.is_outside,
+        )
     )
-    session.nodes.start(session, session.run.plan)
+    stage.start_nodes()
     return application
 
 
-def _await_application(session: Session, application: Child, tries: int = 2) -> Step:
-    """Waits until it has loaded, and lets time pass; a spare that was lost is replaced once."""
+def _await_application(stage: Stage, application: Child, tries: int = 2) -> Step:
+    """Waits until the application is loaded, then resumes time; a dead spare is replaced once."""
     try:
         reply = yield Wait(
-            taken(application, "fault", "ready"),
+            taken(application, Fault, ApplicationReady),
             LOAD_TIMEOUT_S,
             "The application did not finish loading in time: a module or a setup() hangs.",
         )
-        if reply["type"] == "fault":
-            raise StepFailed("load_failed", str(reply.get("message")), str(reply.get("hint", "")))
-        _progress(session, "run_application", 1.0, "The application runs")
-        yield from go(session, application)
+        if isinstance(reply, Fault):
+            raise StepFailed("load_failed", reply.message, reply.hint)
+        _progress(stage, "run_application", 1.0, "The application runs")
+        yield from go(stage, application)
     except StepFailed as failure:
-        if session.children.get("application") is application:
-            session.drop("application")
-        has_world = session.state.reaches(State.VISUALIZATION_READY)
+        if stage.children.get("application") is application:
+            stage.children.drop("application")
+        has_world = stage.state.reaches(State.VISUALIZATION_READY)
         if tries > 1 and has_world and is_spare_lost(application, failure):
-            yield from _await_application(session, _start_application(session), tries - 1)
+            yield from _await_application(stage, _start_application(stage), tries - 1)
             return
-        session.replenish()
+        stage.children.replenish()
         raise
-    session.enter(State.APPLICATION_RUNNING)
+    stage.enter(State.APPLICATION_RUNNING)
 
 
-def _run(session: Session, data: Struct) -> Step:
-    """Climbs all rungs; the application loads while the world starts."""
-    data = cast("messages.Run", data)
-    if session.state in HAS_APPLICATION:
-        yield from _terminate_application(session, data)
-    if session.state is State.IDLE:
-        yield from _connect(session, data)
+def _run(stage: Stage, data: messages.Run) -> Step:
+    """Climbs all rungs; world and application load in parallel."""
+    if stage.state in HAS_APPLICATION:
+        yield from _terminate_application(stage, data)
+    if stage.state is State.IDLE:
+        yield from _connect(stage, data)
     orders = []
-    if session.state.reaches(State.UNIVERSE_READY):
-        if session.child("world").is_hanging or not _is_same_world(session.run.universe, data.universe):
-            yield from _end_world(session)
+    if stage.state.reaches(State.UNIVERSE_READY):
+        if stage.children.ensure("world").is_hanging or not _is_same_world(stage.run.universe, data.universe):
+            yield from _end_world(stage)
         else:
-            orders = _reuse_world(session, data.universe.speed)
-    unpacking = _unpacking(session, data.application.app_zip_base64)
+            orders = _reuse_world(stage, data.universe.speed)
+    unpacking = _unpacking(stage, data.application.app_zip_base64)
     unpacked = yield unpacking
-    _take_folder(session, unpacked)
-    session.run.application = data.application
-    _aim(session, data.universe)
-    application = _start_application(session)
+    _take_folder(stage, unpacked)
+    stage.run.application = data.application
+    _aim(stage, data.universe)
+    application = _start_application(stage)
     try:
         for order in orders:
             yield confirmed(order, "reset", RESET_TIMEOUT_S)
-        if not session.state.reaches(State.UNIVERSE_READY):
-            yield from _launch_universe(session, data.universe)
+        if not stage.state.reaches(State.UNIVERSE_READY):
+            yield from _launch_universe(stage, data.universe)
     except StepFailed:
-        session.drop("application")
-        session.replenish()
+        stage.children.drop("application")
+        stage.children.replenish()
         raise
-    if not session.state.reaches(State.VISUALIZATION_READY):
-        yield from _prepare_visualization(session, data)
-    yield from _await_application(session, application)
+    if not stage.state.reaches(State.VISUALIZATION_READY):
+        yield from _prepare_visualization(stage, data)
+    yield from _await_application(stage, application)
 
 
-def _reuse_world(session: Session, speed: float) -> list[tuple[Child, str]]:
-    """Has a world that is up begin again; returns what it has to confirm."""
-    orders = [session.order("world", "reset")]
-    if not session.run.is_outside:
-        orders.append(session.order("world", "set_speed", speed=speed))
-        session.mirror.speed = speed
+def _reuse_world(stage: Stage, speed: float) -> list[tuple[Child, str]]:
+    """Resets a running world; returns the requests that it has to answer."""
+    orders = [stage.children.order("world", child_messages.Reset())]
+    if not stage.run.is_outside:
+        orders.append(stage.children.order("world", child_messages.SetSpeed(speed)))
+        stage.mirror.speed = speed
     return orders
 
 
-def _aim(session: Session, data: messages.LaunchUniverse) -> None:
-    """Notes the seed of the actions, and into which ROS graph the application and its extra nodes go."""
-    session.run.seed = data.seed
-    session.run.is_outside = data.universe == "none"
-    session.run.domain_id = _domain_of(session, data)
+def _aim(stage: Stage, data: messages.LaunchUniverse) -> None:
+    """Stores the seed of the actions, and the ROS graph of the application and its launch nodes."""
+    stage.run.seed = data.seed
+    stage.run.is_outside = data.universe == "none"
+    stage.run.domain_id = _domain_of(stage, data)
 
 
-def _domain_of(session: Session, data: messages.LaunchUniverse) -> int:
+def _domain_of(stage: Stage, data: messages.LaunchUniverse) -> int:
     if data.universe != "none":
-        return session.about.ros_domain_id
-    return session.about.outside_domain_id if data.domain_id is None else data.domain_id
+        return stage.about.ros_domain_id
+    return stage.about.outside_domain_id if data.domain_id is None else data.domain_id
 
 
 def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniverse) -> bool:
@@ -297,66 +281,77 @@ def _is_same_world(old: messages.LaunchUniverse | None, new: messages.LaunchUniv
 # --- down the ladder ------------------------------------------------------------------------------
 
 
-def _terminate_application(session: Session, _: Struct) -> Step:
-    if session.state not in HAS_APPLICATION:
+def _terminate_application(stage: Stage, _: Struct) -> Step:
+    if stage.state not in HAS_APPLICATION:
         return
-    application = session.child("application")
+    application = stage.children.ensure("application")
     application.is_stopping = True
-    session.tell("application", "stop")
-    stop_moving(session)
-    yield from await_tick(session, application, gone(application))
+    stage.children.tell_application(child_messages.Stop())
+    stop_moving(stage)
+    yield from await_tick(stage, application, gone(application))
 
 
-def _terminate_visualization(session: Session, _: Struct) -> Step:
-    session.close_streams()
-    session.enter(State.UNIVERSE_READY)
+def _terminate_visualization(stage: Stage, _: Struct) -> Step:
+    streaming.close_all(stage)
+    stage.enter(State.UNIVERSE_READY)
     yield from ()
 
 
-def _end_world(session: Session) -> Step:
-    """Leaves the rungs above `connected`, one by one."""
-    if session.state in HAS_APPLICATION:
-        yield from _terminate_application(session, messages.Empty())
-    if session.state is State.VISUALIZATION_READY:
-        yield from _terminate_visualization(session, messages.Empty())
-    if session.state is State.UNIVERSE_READY:
-        session.drop("world", grace_s=WORLD_GRACE_S)
-        session.run.universe = None
-        session.enter(State.CONNECTED)
+def _end_world(stage: Stage) -> Step:
+    """Goes down to `connected`, rung by rung."""
+    if stage.state in HAS_APPLICATION:
+        yield from _terminate_application(stage, messages.Empty())
+    if stage.state is State.VISUALIZATION_READY:
+        yield from _terminate_visualization(stage, messages.Empty())
+    if stage.state is State.UNIVERSE_READY:
+        stage.children.drop("world", grace_s=WORLD_GRACE_S)
+        stage.run.universe = None
+        stage.enter(State.CONNECTED)
 
 
-def _terminate_universe(session: Session, _: Struct) -> Step:
-    session.drop("world", grace_s=WORLD_GRACE_S)
-    session.run.universe = None
-    session.enter(State.CONNECTED)
-    session.replenish()
-    yield from _all_gone(session)
+def _terminate_universe(stage: Stage, _: Struct) -> Step:
+    stage.children.drop("world", grace_s=WORLD_GRACE_S)
+    stage.run.universe = None
+    stage.enter(State.CONNECTED)
+    stage.children.replenish()
+    yield from _all_gone(stage)
 
 
-def _all_gone(session: Session) -> Step:
-    yield Wait(lambda: None if session.leaving else True, EXIT_TIMEOUT_S, "A process does not end.")
+def _all_gone(stage: Stage) -> Step:
+    yield Wait(lambda: None if stage.children.leaving else True, EXIT_TIMEOUT_S, "A process does not end.")
 
 
-def _disconnect(session: Session, _: Struct) -> Step:
-    yield from _end_world(session)
-    session.drop("application")
-    session.drop("world")
-    yield from _all_gone(session)
-    if session.state is not State.IDLE:
-        session.enter(State.IDLE)
+def _disconnect(stage: Stage, _: Struct) -> Step:
+    yield from _end_world(stage)
+    stage.children.drop("application")
+    stage.children.drop("world")
+    yield from _all_gone(stage)
+    if stage.state is not State.IDLE:
+        stage.enter(State.IDLE)
 
 
-STEPS: Final[dict[str, Callable[[Session, Struct], Step]]] = {
+def _typed(kind: type[Data], step: Callable[[Stage, Data], Step]) -> Callable[[Stage, Struct], Step]:
+    """Makes a step of a command's data from one of any data; `COMMANDS` holds the same types."""
+
+    def begin(stage: Stage, data: Struct) -> Step:
+        if not isinstance(data, kind):
+            raise TypeError(f"{kind.__name__} expected, not {type(data).__name__}")
+        return step(stage, data)
+
+    return begin
+
+
+STEPS: Final[dict[str, Callable[[Stage, Struct], Step]]] = {
     "connect": _connect,
-    "launch_universe": _launch_universe,
+    "launch_universe": _typed(messages.LaunchUniverse, _launch_universe),
     "prepare_visualization": _prepare_visualization,
-    "run_application": _run_application,
-    "run": _run,
+    "run_application": _typed(messages.RunApplication, _run_application),
+    "run": _typed(messages.Run, _run),
     "restart_application": restart_application,
     "pause": pause,
     "resume": resume,
     "step": step,
-    "set_blackboard": set_blackboard,
+    "set_blackboard": _typed(messages.SetBlackboard, set_blackboard),
     "terminate_application": _terminate_application,
     "terminate_visualization": _terminate_visualization,
     "terminate_universe": _terminate_universe,

@@ -1,37 +1,64 @@
-"""Stream sockets that open, close and fall behind: what the world is asked to send for each client."""
+"""Requests to the world to send streams and echoed topics to clients."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from executor import child_messages
 from executor.session.events import StreamClosed, StreamOpened, StreamPaced
 from executor.session.ladder import State
 
 if TYPE_CHECKING:
-    from executor.session.protocol import Session
+    from executor import messages
+    from executor.session.stage import Stage
 
-__all__ = ["heard"]
+__all__ = ["close_all", "open_all", "resume_echoes", "subscribe", "take"]
 
 
-def heard(session: Session, event: StreamOpened | StreamClosed | StreamPaced) -> None:
-    """Has the world send what a client wants to see, as fast as it can take it."""
+def take(stage: Stage, event: StreamOpened | StreamClosed | StreamPaced) -> None:
+    """Takes an event of a stream socket."""
     match event:
         case StreamOpened():
-            _open(session, event.client)
+            _open(stage, event.client)
         case StreamClosed():
-            _close(session, event.client)
-        case StreamPaced() if session.state.reaches(State.VISUALIZATION_READY):
-            session.tell("world", "pace", client=event.client, lost=event.lost)
+            _close(stage, event.client)
+        case StreamPaced() if stage.state.reaches(State.VISUALIZATION_READY):
+            stage.children.tell_world(child_messages.Pace(event.client, event.lost))
 
 
-def _open(session: Session, client: str) -> None:
-    session.clients.set_stream(client, is_open=True)
-    if session.state.reaches(State.VISUALIZATION_READY):
-        for data in session.clients.streams_of(client):
-            session.subscribe(client, data)
+def subscribe(stage: Stage, client: str, data: messages.Subscribe) -> None:
+    """Asks the world for one stream."""
+    stage.children.tell_world(
+        child_messages.Subscribe(client, data.stream, data.max_hz, data.width, data.camera_pose)
+    )
 
 
-def _close(session: Session, client: str) -> None:
-    for data in session.clients.streams_of(client):
-        session.tell("world", "unsubscribe", client=client, stream=data.stream)
-    session.clients.set_stream(client, is_open=False)
+def open_all(stage: Stage) -> None:
+    """Asks the world for all streams that clients subscribed to."""
+    for client, data in stage.clients.wanted_streams():
+        subscribe(stage, client, data)
+
+
+def close_all(stage: Stage) -> None:
+    """Asks the world to end all streams."""
+    for client, data in stage.clients.wanted_streams():
+        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream))
+
+
+def resume_echoes(stage: Stage) -> None:
+    """Asks a new world for the topics that clients echo, as soon as these topics exist."""
+    for topic, max_hz in stage.clients.echoes().items():
+        stage.children.tell_world(child_messages.EchoTopic(topic, max_hz, patient=True))
+
+
+def _open(stage: Stage, client: str) -> None:
+    stage.clients.set_stream(client, is_open=True)
+    if stage.state.reaches(State.VISUALIZATION_READY):
+        for data in stage.clients.streams_of(client):
+            subscribe(stage, client, data)
+
+
+def _close(stage: Stage, client: str) -> None:
+    for data in stage.clients.streams_of(client):
+        stage.children.tell_world(child_messages.Unsubscribe(client, data.stream))
+    stage.clients.set_stream(client, is_open=False)

@@ -1,4 +1,4 @@
-"""Reads what faulthandler writes of the threads of a process that cannot speak for itself."""
+"""Parses the stacks that faulthandler dumps for a process that does not respond."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Frame:
 
 
 def action_frame(text: str) -> Frame | None:
-    """Returns the innermost line of an action: of the thread that was asked, else of any other."""
+    """Returns the innermost line of an action: of the current thread, or of another one."""
     return next((frame for frame in _frames(text) if frame.file.startswith(_ACTIONS)), None)
 
 
 def own_frame(text: str) -> Frame | None:
-    """Returns the innermost line of this repository, by its path within it."""
+    """Returns the innermost line in this repository, with its path in it."""
     for frame in _frames(text):
         if (match := _OWN.search(frame.file)) is not None:
             return Frame(match["file"], frame.line, frame.function)

@@ -1,14 +1,17 @@
-"""How a child process does, from its beats and from looks at it from outside. Time is an argument.
+"""Liveness of a child process, from its beats and from samples of its state. Time is an argument.
 
-What counts is time in which the child could have done something: not what passed while the manager itself was
-late, and little of what the child waited for a processor. So on a machine where all is slow nothing hangs.
+Only time in which the child could have worked counts: not the delay of the manager itself, and little of the
+time in which the child waited for a processor. So a slow machine alone never looks like a hang.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
+
+from executor.child_messages import Place
 
 if TYPE_CHECKING:
+    from executor.child_messages import Beat
     from executor.session.events import ChildLooked
 
 __all__ = ["END_AFTER_S", "FAULT_AFTER_S", "Vitals"]
@@ -18,9 +21,9 @@ END_AFTER_S: Final = 8.0
 LOADING_S: Final = 60.0
 LONGEST_GAP_S: Final = 0.5
 BUSY_SHARE: Final = 0.1
-"""Of the time that counts: who computes at least so much of it is at work."""
+"""Share of the time that counts: a thread that computes at least this long is at work."""
 MOST_FORGIVEN: Final = 0.75
-"""Of the time in which it waits for a processor: what hangs must be found on a busy machine, too."""
+"""Limit of the share of a sample that waits for a processor excuse: a busy machine must not hide a hang."""
 FROZEN_S: Final = 1.0
 STARTING: Final = "starting"
 STOPPED: Final = "T"
@@ -29,22 +32,22 @@ ON_DISK: Final = "D"
 
 
 class Vitals:
-    """What is known of one child.
+    """Liveness of one child.
 
     Attributes:
         silent_s: since the last message.
-        stuck_s: since its main thread came round.
-        idle_s: in which it neither came round nor computed.
-        deaf_s: since it heard, or told, what simulated time it is; counted by `watch`.
-        task: what it loads, or does else that may take long; "" while its main thread should come round.
-        place: where its main thread is, once it has been away for a moment.
-        state: Linux's letter.
+        stuck_s: since its main thread completed its loop.
+        idle_s: in which it neither completed its loop nor computed.
+        deaf_s: since it received, or published, simulated time; counted by `watch`.
+        task: what it loads, or another long task; "" while its main thread should run its loop.
+        place: where its main thread is, if it has not completed its loop for a moment.
+        state: the kernel's letter.
     """
 
     def __init__(self, now_s: float) -> None:
         self.silent_s = self.stuck_s = self.idle_s = self.deaf_s = 0.0
         self.task = STARTING
-        self.place: dict[str, Any] = {}
+        self.place = Place()
         self.state = ""
         self.clocks = 0
         self.has_beaten = False
@@ -52,25 +55,24 @@ class Vitals:
         self._looked_s = now_s
 
     def heard(self, *, from_main: bool) -> None:
-        """A message came; some are sent by the main thread alone."""
+        """Notes a message; `from_main` if only the main thread sends such."""
         self.silent_s = 0.0
         if from_main:
             self.stuck_s = self.idle_s = 0.0
 
-    def beat(self, message: dict[str, Any]) -> None:
-        """A beat came."""
+    def beat(self, message: Beat) -> None:
+        """Notes a beat."""
         self.has_beaten = True
-        self.task = str(message.get("task", ""))
-        place = message.get("place")
-        self.place = place if isinstance(place, dict) else {}
-        if message.get("turns") != self._turns:
-            self._turns = message.get("turns", 0)
+        self.task = message.task
+        self.place = message.place or Place()
+        if message.turns != self._turns:
+            self._turns = message.turns
             self.stuck_s = self.idle_s = 0.0
-        if (clocks := message.get("clocks", 0)) != self.clocks:
-            self.clocks, self.deaf_s = clocks, 0.0
+        if message.clocks != self.clocks:
+            self.clocks, self.deaf_s = message.clocks, 0.0
 
     def look(self, seen: ChildLooked, now_s: float) -> float:
-        """Takes a look from outside; returns the seconds that count since the last one."""
+        """Takes a sample of the process; returns the seconds that count since the last one."""
         gap_s = min(max(0.0, now_s - self._looked_s), LONGEST_GAP_S)
         self._looked_s, self.state = now_s, seen.state
         forgiven_s = min(seen.waited_s, MOST_FORGIVEN * gap_s)
@@ -85,35 +87,37 @@ class Vitals:
 
     @property
     def is_frozen(self) -> bool:
-        """Whether nothing at all is heard of it."""
+        """Whether no thread of it sends anything."""
         return self.silent_s >= FROZEN_S or self.state == STOPPED
 
     @property
     def is_in_action(self) -> bool:
         """Whether its main thread was last seen in the user's code."""
-        return bool(self.place.get("file") or self.place.get("node_path"))
+        return bool(self.place.file or self.place.node_path)
 
     @property
     def hangs(self) -> bool:
-        """Whether it has done nothing for so long that people should know."""
-        if self.task == STARTING:  # no code of the user: large libraries may hold the interpreter lock
+        """Whether it was inactive for so long that users must be notified."""
+        if (
+            self.task == STARTING
+        ):  # no user code runs yet: importing large libraries may hold the interpreter lock
             return self.silent_s >= FROZEN_S and self.idle_s >= FAULT_AFTER_S
         if self.silent_s >= FROZEN_S:
-            return self.silent_s >= FAULT_AFTER_S  # it is more than its main thread
+            return self.silent_s >= FAULT_AFTER_S  # no thread runs, not only the main one
         return self.stuck_s >= FAULT_AFTER_S and (not self.task or self.is_in_action)
 
     @property
     def is_lost(self) -> bool:
-        """Whether it is to be ended."""
+        """Whether it must be ended."""
         if self.task:
-            # What computes is loading; what sleeps waits for something that does not come.
+            # A child that computes is loading; one that sleeps waits for something that never comes.
             return self.idle_s >= END_AFTER_S or self.stuck_s >= LOADING_S
         if self.silent_s >= END_AFTER_S:
             return True
-        # A tick may be slow only; Pause and Stop break it off.
+        # A tick may only be slow; Pause and Stop interrupt it.
         return self.stuck_s >= END_AFTER_S and not self.is_in_action
 
     @property
     def is_well(self) -> bool:
-        """Whether it does what it should."""
+        """Whether it works normally."""
         return self.silent_s < FROZEN_S and self.stuck_s < FAULT_AFTER_S / 2

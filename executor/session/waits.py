@@ -1,10 +1,12 @@
-"""What a step of the session may wait for, and how it fails."""
+"""Conditions that a step of the session waits for, and its failures."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from executor.session.child import Child
@@ -30,7 +32,7 @@ REPLY_TIMEOUT_S: Final = 5.0
 
 
 class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
-    """The step cannot be done; code, message and hint are for the client."""
+    """A step failed; code, message and hint are for the client."""
 
     def __init__(self, code: str, message: str, hint: str = "") -> None:
         super().__init__(message)
@@ -41,25 +43,26 @@ class StepFailed(Exception):  # noqa: N818 - it is the outcome of a step
 
 @dataclass(frozen=True)
 class Wait:
-    """What a step waits for: until `until` returns something, or raises `StepFailed`."""
+    """A condition: over once `until` returns a value, or raises `StepFailed`."""
 
     until: Callable[[], Any]
     timeout_s: float
     too_late: str
 
 
+Message = TypeVar("Message", bound=Struct)
 Step = Generator[Wait, Any, None]
 Broken = Generator[Wait, Any, StepFailed]
 Ended = Generator[Wait, Any, StepFailed | None]
-Answered = Generator[Wait, Any, dict[str, Any]]
+Answered = Generator[Wait, Any, Message]
 
 
-def message_of(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
+def message_of(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
     """Returns a condition: the child sent one of these messages; it fails if the child is gone."""
 
-    def until() -> dict[str, Any] | None:
-        for type_ in types:
-            if (message := child.said(type_)) is not None:
+    def until() -> Message | None:
+        for kind in kinds:
+            if (message := child.said(kind)) is not None:
                 return message
         if not child.is_alive:
             raise StepFailed("process_died", f"The {child.kind} {child.exit_reason}.", _last_words(child))
@@ -68,11 +71,11 @@ def message_of(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]
     return until
 
 
-def taken(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
-    """The same for what a child does at its start: one that does not even take that is given up at once."""
-    until = message_of(child, *types)
+def taken(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
+    """Like `message_of`, for a child that starts: a spare that hangs is given up at once."""
+    until = message_of(child, *kinds)
 
-    def taken() -> dict[str, Any] | None:
+    def taken() -> Message | None:
         reply = until()
         if reply is None and child.is_hanging and not child.is_in_use:
             raise StepFailed(NOT_ANSWERING, child.hang)
@@ -81,11 +84,11 @@ def taken(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
     return taken
 
 
-def answered(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
-    """The same as `message_of`, but one that hangs is not waited for."""
-    until = message_of(child, *types)
+def answered(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
+    """Like `message_of`, but fails if the child hangs."""
+    until = message_of(child, *kinds)
 
-    def answered() -> dict[str, Any] | None:
+    def answered() -> Message | None:
         reply = until()
         if reply is None and child.is_hanging:
             raise StepFailed(NOT_ANSWERING, child.hang)
@@ -95,16 +98,15 @@ def answered(child: Child, *types: str) -> Callable[[], dict[str, Any] | None]:
 
 
 def confirmed(ordered: tuple[Child, str], what: str, timeout_s: float = REPLY_TIMEOUT_S) -> Wait:
-    """Waits until a child did what it was told by `Session.order`."""
+    """Waits for the answer to `Children.order`."""
     child, token = ordered
 
     def until() -> bool | None:
         answer = child.answer(token)
         if answer is not None:
-            error = answer.get("error")
-            if not error:
+            if answer.error is None:
                 return True
-            raise StepFailed(str(error.get("code")), str(error.get("message")), str(error.get("hint", "")))
+            raise StepFailed(answer.error.code, answer.error.message, answer.error.hint)
         if not child.is_alive:
             raise StepFailed("process_died", f"The {child.kind} {child.exit_reason}.", _last_words(child))
         if child.is_hanging:
@@ -115,7 +117,7 @@ def confirmed(ordered: tuple[Child, str], what: str, timeout_s: float = REPLY_TI
 
 
 def is_spare_lost(child: Child, failure: StepFailed) -> bool:
-    """Whether a step failed since the process that waited for it was frozen, or died just then."""
+    """Whether a step failed because the spare that it used was frozen, or died at that moment."""
     return not child.is_in_use and failure.code in {NOT_ANSWERING, "process_died"}
 
 

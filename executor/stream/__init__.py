@@ -1,1 +1,1 @@
-"""What goes over the stream socket, and what waits to."""
+"""Frames of the stream socket: encoding and queues."""

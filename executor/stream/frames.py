@@ -1,4 +1,4 @@
-"""Frames of the stream socket on their way: what a newer frame does to one that still waits."""
+"""Merges a frame with an older one of its stream that is not sent yet."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _encode = msgspec.msgpack.Encoder().encode
 
 
 def supersede(waiting: bytes, newer: bytes) -> bytes:
-    """Returns the frame that stands for both.
+    """Returns one frame in place of both.
 
-    A picture or a scan simply replaces the one before. `poses` carries only what changed, so dropping
-    one would leave a body that has come to rest in the wrong place: poses are merged.
+    A picture or a scan replaces the older one. `poses` holds only changes, so dropping one could leave a body
+    that has come to rest in the wrong place: poses are merged.
     """
     if not (_looks_like_poses(waiting) and _looks_like_poses(newer)):
         return newer

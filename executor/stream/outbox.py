@@ -1,4 +1,4 @@
-"""What waits to be sent to one client. Neither queue grows without bounds, however slow the client."""
+"""Queues of one client. Both are bounded, however slow the client is."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ __all__ = ["ControlOutbox", "StreamOutbox"]
 
 MAX_MESSAGES: Final = 4000
 MAX_BYTES: Final = 16 << 20
-# Answers are never dropped, so a client that reads none gets nothing more done.
+# Answers are never dropped, so commands of a client that reads none are not handled any more.
 MAX_REPLIES: Final = 10_000
 PICTURES: Final = ("camera", "view")
 PACE_S: Final = 0.5
 
 
 class ControlOutbox:
-    """Messages in order. A client too slow for them is given a fresh snapshot in place of the backlog.
+    """Messages in order. For a client that is too slow, a new snapshot replaces the backlog.
 
     Args:
         snapshot: makes the bytes of a snapshot message.
@@ -54,7 +54,7 @@ class ControlOutbox:
         self._filled.set()
 
     async def has_room(self) -> None:
-        """Waits until the client has read some of its replies, if too many wait."""
+        """Waits until the client has read some of its replies, if too many are unread."""
         await self._room.wait()
 
     async def take(self) -> bytes:
@@ -82,7 +82,7 @@ class ControlOutbox:
 
 
 class StreamOutbox:
-    """The latest frame of each stream. A scene goes before the poses in it."""
+    """The latest frame of each stream. A scene is sent before poses of it."""
 
     def __init__(self) -> None:
         self._pictures = self._lost = 0
@@ -91,7 +91,7 @@ class StreamOutbox:
         self._filled = asyncio.Event()
 
     def put(self, stream: str, data: bytes) -> None:
-        """Queues a frame in place of the one of that stream that still waits."""
+        """Queues a frame; it replaces an unsent one of its stream."""
         if stream == "scene":
             self._frames.pop("poses", None)
         waiting = self._frames.get(stream)
@@ -102,7 +102,7 @@ class StreamOutbox:
         self._filled.set()
 
     def lost_share(self, now_s: float) -> float | None:
-        """Returns the share of pictures that newer ones overtook, every `PACE_S`; else None."""
+        """Returns the share of pictures that newer ones replaced, every `PACE_S`; otherwise None."""
         if not self._pictures or (self._reported_s is not None and now_s - self._reported_s < PACE_S):
             return None
         share = self._lost / self._pictures
@@ -111,7 +111,7 @@ class StreamOutbox:
         return None if is_first else share
 
     async def take(self) -> bytes:
-        """Returns the frame that has waited longest, the scene first."""
+        """Returns the oldest frame, a scene first."""
         await self._filled.wait()
         stream = "scene" if "scene" in self._frames else next(iter(self._frames))
         data = self._frames.pop(stream)

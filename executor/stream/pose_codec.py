@@ -1,15 +1,16 @@
-"""Poses on the stream: 16 bytes each, for a pose that would take 28 as floats.
+"""Encoding of poses on the stream: 16 bytes each, where floats would take 28.
 
 =====  ==============================================================================================
 bytes  what
 =====  ==============================================================================================
 0-8    x, y, z as signed 24-bit integers in units of 0.1 mm (up to 838 m to each side)
-9      which of qx, qy, qz, qw is left out: the one with the largest absolute value, 0 to 3
+9      index of the omitted one of qx, qy, qz, qw: the one with the largest absolute value, 0 to 3
 10-15  the other three in their order, as signed 16-bit integers in units of 1/(32767 * sqrt(2))
 =====  ==============================================================================================
 
-All little-endian. The quaternion is turned so that the one left out is positive; it follows from the others,
-since a quaternion has length 1. Positions are off by at most 0.05 mm, directions by less than 0.0001 rad.
+All little-endian. The sign of the quaternion is chosen so that the omitted value is positive; it follows from
+the others, since a quaternion has length 1. Positions are off by at most 0.05 mm, directions by less than
+0.0001 rad.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def unpack(record: bytes | memoryview) -> tuple[float, ...]:
     """Returns one pose [x, y, z, qx, qy, qz, qw].
 
     Raises:
-        ValueError: the record is not one.
+        ValueError: the record is invalid.
     """
     if len(record) != POSE_BYTES:
         raise ValueError(f"a pose has {POSE_BYTES} bytes, not {len(record)}")

@@ -1,1 +1,1 @@
-"""Child processes: starting them, listening to them, confining and ending them."""
+"""Child processes: starting, supervising, confining and ending them."""

@@ -1,13 +1,13 @@
 """Messages between the manager and its children: length-prefixed MessagePack over a socket pair.
 
-The child's side (`Channel`) is synchronous and may be used from any thread; the manager's side
-(`AsyncChannel`) lives on an event loop. Both are bounded: messages of type ``frame`` are droppable, and
-of those that wait the latest of a client's stream wins, unless they say ``"keep": True`` (a scene, which
-later frames build upon). All other messages are control messages and are never dropped; a peer that
-does not read them for `STALL_TIMEOUT_S` is taken for dead.
+The messages are those of `executor.child_messages`; each end is given the union that it receives. The child's
+end (`Channel`) is synchronous and may be used from any thread; the manager's end (`AsyncChannel`) belongs to
+an event loop. Both are bounded: a `Frame` may be dropped, and of the frames that wait only the latest of a
+client's stream is sent, unless `keep` is set (a scene, which later frames build upon). All other messages are
+control messages and are never dropped; a peer that does not read them for `STALL_TIMEOUT_S` counts as dead.
 
     ChannelError
-    └── ChannelClosed    the other end is gone, or was given up
+    └── ChannelClosed    the other end is gone, or does not read
 """
 
 from __future__ import annotations
@@ -20,16 +20,21 @@ import struct
 import threading
 import time
 from collections import deque
-from typing import Any, Final
+from typing import TYPE_CHECKING, Final, Generic, TypeVar
 
 import msgspec
 
+from executor.child_messages import Frame, name_of
 from executor.stream.frames import supersede
 
-__all__ = ["AsyncChannel", "Channel", "ChannelClosed", "ChannelError", "Message", "encode", "socket_pair"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-Message = dict[str, Any]
-FrameKey = tuple[Any, Any]
+__all__ = ["AsyncChannel", "Channel", "ChannelClosed", "ChannelError", "encode", "socket_pair"]
+
+FrameKey = tuple[str | None, str]
+Sent = TypeVar("Sent", bound=msgspec.Struct)
+Received = TypeVar("Received")
 
 MAX_MESSAGE_BYTES: Final = 256 * 1024 * 1024
 MAX_QUEUED_BYTES: Final = 64 * 1024 * 1024
@@ -54,55 +59,42 @@ def socket_pair() -> tuple[socket.socket, socket.socket]:
     return ours, theirs
 
 
-def encode(message: Message) -> bytes:
-    """Returns the bytes of a message with its length before them."""
+def encode(message: msgspec.Struct) -> bytes:
+    """Returns the bytes of a message, with its length as prefix."""
     body = msgspec.msgpack.encode(message)
     if len(body) > MAX_MESSAGE_BYTES:
-        raise ChannelError(
-            f"a {message.get('type')} message of {len(body)} bytes is too large for the channel"
-        )
+        raise ChannelError(f"a {name_of(message)} message of {len(body)} bytes is too large for the channel")
     return _PREFIX.pack(len(body)) + body
 
 
-def decode(body: bytes | bytearray | memoryview) -> Message:
-    """Returns the message in `body`; raises `ChannelError` if it is none."""
+def _decode(decode: Callable[[bytes], Received], body: bytes) -> Received:
     try:
-        message = msgspec.msgpack.decode(body)
+        return decode(body)
     except (msgspec.DecodeError, RecursionError, UnicodeDecodeError) as error:
-        raise ChannelError(f"not a message: {error}") from error
-    if not isinstance(message, dict) or not isinstance(message.get("type"), str):
-        raise ChannelError("a message needs a type")
-    return message
-
-
-def _is_droppable(message: Message) -> bool:
-    return message["type"] == "frame" and not message.get("keep")
-
-
-def _frame_key(message: Message) -> FrameKey:
-    return (message.get("client"), message.get("stream"))
+        raise ChannelError(f"a message does not decode: {error}") from error
 
 
 class _Outbox:
-    """What waits to be written: control messages in order, then the latest frame of each stream."""
+    """Messages that wait to be written: control messages in order, then the latest frame of each stream."""
 
     def __init__(self) -> None:
         self.control: deque[bytes] = deque()
-        self.frames: dict[FrameKey, Message] = {}
+        self.frames: dict[FrameKey, Frame] = {}
         self.control_bytes = 0
 
     def __bool__(self) -> bool:
         return bool(self.control or self.frames)
 
-    def put(self, message: Message) -> None:
-        if _is_droppable(message):
-            waiting = self.frames.pop(_frame_key(message), None)
-            if waiting is not None:
-                message = {**message, "data": supersede(waiting["data"], message["data"])}
-            self.frames[_frame_key(message)] = message
-            return
-        if message["type"] == "frame":
-            self.frames.pop(_frame_key(message), None)  # older than what is to be kept
+    def put(self, message: msgspec.Struct) -> None:
+        if isinstance(message, Frame):
+            waiting = self.frames.pop((message.client, message.stream), None)
+            if not message.keep:
+                if waiting is not None:
+                    data = supersede(waiting.data, message.data)
+                    message = Frame(message.client, message.stream, data)
+                self.frames[message.client, message.stream] = message
+                return
+            # A frame to be kept is never dropped; `waiting` is older, and nothing builds upon it.
         data = encode(message)
         self.control.append(data)
         self.control_bytes += len(data)
@@ -115,14 +107,16 @@ class _Outbox:
         return encode(self.frames.pop(next(iter(self.frames))))
 
 
-class Channel:
+class Channel(Generic[Sent, Received]):
     """The child's end of a channel, made from the file descriptor that the child was given.
 
     Args:
         fd: the descriptor; the channel owns it from now on.
+        decode: makes a message of the bytes that the other end sends.
     """
 
-    def __init__(self, fd: int) -> None:
+    def __init__(self, fd: int, decode: Callable[[bytes], Received]) -> None:
+        self._decode = decode
         os.set_inheritable(fd, False)  # noqa: FBT003 - positional only
         self._socket = socket.socket(fileno=fd)
         self._socket.settimeout(0)
@@ -132,14 +126,14 @@ class Channel:
         self._changed = threading.Condition()
         self._closed = False
         self._writer: threading.Thread | None = None
-        # A program that an action forks must not write into our stream.
+        # A program that an action forks must not write to the channel.
         os.register_at_fork(after_in_child=self._abandon)
 
     def fileno(self) -> int:
-        """The descriptor to wait on; call `receive(0)` until it returns None when it is readable."""
+        """The descriptor to wait on; when it is readable, call `receive(0)` until it returns None."""
         return self._socket.fileno()
 
-    def send(self, message: Message) -> None:
+    def send(self, message: Sent) -> None:
         """Queues a message; writes it at once where that does not block.
 
         Raises:
@@ -158,12 +152,12 @@ class Channel:
                 self._start_writer()
                 self._changed.notify_all()
 
-    def receive(self, timeout_s: float | None = None) -> Message | None:
-        """Returns the next message, or None if none came in time. None as time waits for ever.
+    def receive(self, timeout_s: float | None = None) -> Received | None:
+        """Returns the next message, or None if none came in time. Without a timeout it waits for ever.
 
         Raises:
             ChannelClosed: the manager is gone.
-            ChannelError: what came is not a message.
+            ChannelError: a message does not decode.
         """
         deadline = None if timeout_s is None else time.monotonic() + timeout_s
         while True:
@@ -176,7 +170,7 @@ class Channel:
             self._read()
 
     def flush(self, timeout_s: float = STALL_TIMEOUT_S) -> bool:
-        """Waits until all is written; tells whether it was."""
+        """Waits until all messages are written; returns whether they were."""
         with self._changed:
             return (
                 self._changed.wait_for(lambda: self._closed or not (self._outbox or self._writing), timeout_s)
@@ -188,7 +182,7 @@ class Channel:
         with self._changed:
             self._close()
 
-    def _take_received(self) -> Message | None:
+    def _take_received(self) -> Received | None:
         if len(self._received) < _PREFIX.size:
             return None
         (length,) = _PREFIX.unpack_from(self._received)
@@ -199,7 +193,7 @@ class Channel:
             return None
         body = bytes(memoryview(self._received)[_PREFIX.size : end])
         del self._received[:end]
-        return decode(body)
+        return _decode(self._decode, body)
 
     def _read(self) -> None:
         try:
@@ -266,24 +260,32 @@ class Channel:
         self._changed = threading.Condition()
 
 
-class AsyncChannel:
+class AsyncChannel(Generic[Sent, Received]):
     """The manager's end of a channel; make it with `AsyncChannel.open`."""
 
-    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+    def __init__(
+        self,
+        reader: asyncio.StreamReader,
+        writer: asyncio.StreamWriter,
+        decode: Callable[[bytes], Received],
+    ) -> None:
+        self._decode = decode
         self._reader = reader
         self._writer = writer
 
     @classmethod
-    async def open(cls, ours: socket.socket) -> AsyncChannel:
-        """Takes over the manager's end of a socket pair."""
+    async def open(
+        cls, ours: socket.socket, decode: Callable[[bytes], Received]
+    ) -> AsyncChannel[Sent, Received]:
+        """Takes ownership of the manager's end of a socket pair."""
         ours.settimeout(0)
-        return cls(*await asyncio.open_connection(sock=ours))
+        return cls(*await asyncio.open_connection(sock=ours), decode)
 
-    def send(self, message: Message) -> None:
+    def send(self, message: Sent) -> None:
         """Writes a message without waiting.
 
         Raises:
-            ChannelClosed: the child is gone, or lets too much pile up.
+            ChannelClosed: the child is gone, or does not read its messages.
         """
         if self._writer.is_closing():
             raise ChannelClosed("the process is gone")
@@ -291,18 +293,18 @@ class AsyncChannel:
             raise ChannelClosed("the process does not read its messages")
         self._writer.write(encode(message))
 
-    async def receive(self) -> Message:
+    async def receive(self) -> Received:
         """Returns the next message.
 
         Raises:
             ChannelClosed: the child is gone.
-            ChannelError: what came is not a message.
+            ChannelError: a message does not decode.
         """
         try:
             (length,) = _PREFIX.unpack(await self._reader.readexactly(_PREFIX.size))
             if length > MAX_MESSAGE_BYTES:
                 raise ChannelError(f"a message of {length} bytes is too large")
-            return decode(await self._reader.readexactly(length))
+            return _decode(self._decode, await self._reader.readexactly(length))
         except (asyncio.IncompleteReadError, OSError) as error:
             raise ChannelClosed("the process closed its channel") from error
 

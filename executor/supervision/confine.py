@@ -1,4 +1,4 @@
-"""What a child process of the manager does first: make sure that it cannot outlive the manager."""
+"""Ties the life of a child process to the manager: the first thing that a child does."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ def _prctl(option: int, value: int) -> None:
 
 
 def die_with_parent() -> None:
-    """Has this process, and what it forks from Python, killed when its parent ends.
+    """Lets the kernel kill this process, and its forks from Python, when its parent ends.
 
-    The parent's id comes in the environment: a parent that ended before we asked is noticed.
+    The environment holds the parent's id, to notice a parent that ended before the call.
     """
     _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     expected = os.environ.pop(PARENT_VARIABLE, "")
     if expected and os.getppid() != int(expected):
         os._exit(1)
-    # The setting is lost in a fork.
+    # A fork loses the setting.
     os.register_at_fork(after_in_child=lambda: _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL))
 
 

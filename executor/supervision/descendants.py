@@ -1,4 +1,4 @@
-"""All processes that come from this one, found without reading each time about all of the machine."""
+"""All descendants of this process, without reading the state of every process of the machine each time."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import psutil
 __all__ = ["Descendants"]
 
 NOBODY: Final = 0
-"""The parent of the first process, of the kernel's, and of those that came from outside of a container."""
+"""Parent id of the first process, of kernel threads, and of processes from outside of a container."""
 FORGET_EVERY: Final = 16
-"""Looks after which all is read anew: the number of a process that ended may have been given to another."""
+"""Calls after which everything is read again, since process ids are reused."""
 
 
 class Descendants:
-    """Looks for the children of this process, and theirs, again and again.
+    """Finds the descendants of this process repeatedly.
 
-    Who descends from a sub-reaper does so for life, and who does not never will: so only what is new since
-    the last look is asked for its parent.
+    A descendant of a sub-reaper remains one for life, and no other process becomes one: so only processes
+    that are new since the last call are asked for their parent.
     """
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class Descendants:
         self._looks = 0
 
     def look(self) -> list[psutil.Process]:
-        """Returns those that are there now, also those that have ended and wait to be collected."""
+        """Returns the current descendants, including zombies."""
         if self._looks % FORGET_EVERY == 0:
             self._found.clear()
             self._others.clear()
@@ -41,7 +41,7 @@ class Descendants:
         return list(self._found.values())
 
     def _sort(self, new: set[int]) -> None:
-        """Tells the new ones that are ours from others, parents before their children."""
+        """Sorts new processes into descendants and others, parents before their children."""
         parents = {pid: _parent_of(pid) for pid in new}
         own = os.getpid()
         for pid in new - {own}:
@@ -55,7 +55,7 @@ class Descendants:
                             self._found[one] = psutil.Process(one)
             elif parent == NOBODY or parent in self._others:
                 self._others.update(line)
-            # Else its parent came or went while we looked: the next look will tell.
+            # Otherwise its parent started or ended meanwhile: the next call decides.
 
 
 def _parent_of(pid: int) -> int | None:

@@ -1,4 +1,4 @@
-"""Files that their owner holds a lock on while it lives."""
+"""Files that their owner keeps locked while it lives."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["is_abandoned", "is_young"]
 
-# An owner needs a moment from creating the file to locking it.
+# An owner needs a moment between creating the file and locking it.
 YOUNGEST_S: Final = 1.0
 
 
@@ -25,7 +25,7 @@ def is_young(file: Path) -> bool:
 
 
 def is_abandoned(lock: Path) -> bool:
-    """Whether nobody holds the lock any more; what cannot be looked at is somebody else's."""
+    """Whether the lock is not held any more; a file that cannot be opened belongs to another user."""
     try:
         descriptor = os.open(lock, os.O_RDONLY | os.O_CLOEXEC | os.O_NOFOLLOW)
     except OSError:

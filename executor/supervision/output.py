@@ -1,15 +1,19 @@
-"""Lines from the standard streams of a child: cut, limited in rate, and made into log messages."""
+"""Makes log messages of the standard streams of a child: lines are truncated and limited in rate."""
 
 from __future__ import annotations
 
 import re
 from collections import deque
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
+
+from executor.child_messages import Log
 
 if TYPE_CHECKING:
     import asyncio
     from collections.abc import Callable
+
+    from executor.messages import LogLevel
 
 __all__ = ["LineReader", "RateLimit"]
 
@@ -18,12 +22,18 @@ LINES_PER_S: Final = 200.0
 LINES_BURST: Final = 1000
 _CHUNK: Final = 1 << 16
 _ROS_LINE: Final = re.compile(r"^\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[[\d.]+\] \[")
-_ROS_LEVELS: Final = {"DEBUG": "debug", "INFO": "info", "WARN": "warning", "ERROR": "error", "FATAL": "error"}
+_ROS_LEVELS: Final[dict[str, LogLevel]] = {
+    "DEBUG": "debug",
+    "INFO": "info",
+    "WARN": "warning",
+    "ERROR": "error",
+    "FATAL": "error",
+}
 
 
 @dataclass
 class RateLimit:
-    """Lets a burst through, then so many a second; counts what it holds back."""
+    """A token bucket that counts the lines it drops."""
 
     per_s: float = LINES_PER_S
     burst: float = LINES_BURST
@@ -32,7 +42,7 @@ class RateLimit:
     _at_s: float | None = field(default=None, init=False)
 
     def admits(self, now_s: float) -> bool:
-        """Whether one more may pass now."""
+        """Whether one more line may pass now."""
         if self._at_s is None:
             self._tokens, self._at_s = self.burst, now_s
         self._tokens = min(self.burst, self._tokens + (now_s - self._at_s) * self.per_s)
@@ -44,23 +54,21 @@ class RateLimit:
         return True
 
     def take_held_back(self) -> int:
-        """Returns how many were held back since the last call."""
+        """Returns how many lines were dropped since the last call."""
         count, self.held_back = self.held_back, 0
         return count
 
 
 class LineReader:
-    """Reads one stream of a child to its end.
+    """Reads one stream of a child until its end.
 
     Args:
-        level: of lines that do not tell it themselves, as those of rclpy's logger do.
+        level: of lines without a level; those of rclpy's logger have one.
         report: takes each log message.
         clock: monotonic seconds.
     """
 
-    def __init__(
-        self, level: str, report: Callable[[dict[str, Any]], None], clock: Callable[[], float]
-    ) -> None:
+    def __init__(self, level: LogLevel, report: Callable[[Log], None], clock: Callable[[], float]) -> None:
         self.last_lines: deque[str] = deque(maxlen=20)
         self._level = level
         self._report = report
@@ -76,7 +84,7 @@ class LineReader:
             self.feed(b"\n")
 
     def feed(self, chunk: bytes) -> None:
-        """Takes what came."""
+        """Takes a chunk of bytes."""
         *lines, self._rest = (self._rest + chunk).split(b"\n")
         if len(self._rest) > LINE_CHARACTERS:
             lines.append(self._rest)
@@ -89,7 +97,7 @@ class LineReader:
         if not self._limit.admits(self._clock()):
             return
         if held_back := self._limit.take_held_back():
-            self._report({"type": "log", "level": "warning", "text": f"… {held_back} lines were left out"})
+            self._report(Log("warning", f"… {held_back} lines were left out"))
         ros = _ROS_LINE.match(text)
         level = _ROS_LEVELS[ros.group(1)] if ros else self._level
-        self._report({"type": "log", "level": level, "text": text})
+        self._report(Log(level, text))

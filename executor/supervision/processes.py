@@ -1,4 +1,4 @@
-"""One child process and all that it starts: spawning, listening, and ending the whole tree."""
+"""One child process with its descendants: spawning, receiving, and ending the whole process tree."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ import os
 import resource
 import signal
 import subprocess
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import psutil
 
+from executor.child_messages import FromApplication, FromWorld, ToApplication, ToWorld
 from executor.supervision.channel import AsyncChannel, ChannelClosed, ChannelError, socket_pair
 from executor.supervision.confine import INTERRUPT_SIGNAL, PARENT_VARIABLE
 from executor.supervision.output import LineReader
@@ -21,9 +23,13 @@ from executor.supervision.signs import Notes, Signs, look_at
 
 if TYPE_CHECKING:
     import socket
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
 __all__ = ["ChildProcess", "Limits", "Program"]
+
+Said = FromWorld | FromApplication
+Told = ToWorld | ToApplication
+Decode = Callable[[bytes], Said]
 
 MARK: Final = "BT_STUDIO_CHILD"
 DRAIN_TIMEOUT_S: Final = 0.5
@@ -34,7 +40,7 @@ CLOSED_CHANNEL_GRACE_S: Final = 1.0
 
 @dataclass(frozen=True)
 class Limits:
-    """What a child may use. Memory is of the process first (an allocation fails), then of its tree."""
+    """Resource limits of a child; memory is limited for the process and for its process tree."""
 
     memory_bytes: int | None = None
     file_bytes: int | None = None
@@ -49,7 +55,6 @@ class Program:
     arguments: tuple[str, ...]
     environment: Mapping[str, str] = field(default_factory=dict)
     limits: Limits = field(default_factory=Limits)
-    has_channel: bool = True
 
 
 class ChildProcess:
@@ -57,9 +62,10 @@ class ChildProcess:
 
     Args:
         program: what to run.
-        on_message: takes each message of the child, and its output as `log` messages.
+        on_message: takes each message of the child, and its output as `Log` messages.
+        decode: makes a message of its bytes; None for a program without a channel.
 
-    Make it with `spawn`; `wait` returns once the process and its whole tree are gone.
+    Make it with `spawn`; `wait` returns once the process and all its descendants are gone.
     """
 
     def __init__(
@@ -67,15 +73,17 @@ class ChildProcess:
         program: Program,
         popen: subprocess.Popen[bytes],
         mark: str,
-        on_message: Callable[[dict[str, Any]], None],
+        on_message: Callable[[Said], None],
+        decode: Decode | None,
     ) -> None:
+        self._decode = decode
         self.pid = popen.pid
         self._mark = mark
         self.reason = ""
         self._program = program
         self._popen = popen
         self._on_message = on_message
-        self._channel: AsyncChannel | None = None
+        self._channel: AsyncChannel[Told, Said] | None = None
         self._notes: Notes | None = None
         self._signs: Signs | None = None
         self.exited = asyncio.get_running_loop().create_future()
@@ -85,7 +93,9 @@ class ChildProcess:
         self._readers: list[asyncio.Task[None]] = []
 
     @classmethod
-    async def spawn(cls, program: Program, on_message: Callable[[dict[str, Any]], None]) -> ChildProcess:
+    async def spawn(
+        cls, program: Program, on_message: Callable[[Said], None], decode: Decode | None = None
+    ) -> ChildProcess:
         """Starts a child. Call it from a thread that lives as long as the manager.
 
         Raises:
@@ -93,7 +103,7 @@ class ChildProcess:
         """
         mark = os.urandom(8).hex()
         ours, notes = None, None
-        if program.has_channel:
+        if decode is not None:
             ours, theirs = socket_pair()
             notes = Notes()
             with theirs:
@@ -105,7 +115,7 @@ class ChildProcess:
                     raise
         else:
             popen = cls._start(program, mark)
-        child = cls(program, popen, mark, on_message)
+        child = cls(program, popen, mark, on_message, decode)
         child._notes = notes
         child._limit()
         await child._listen(ours)
@@ -133,8 +143,8 @@ class ChildProcess:
         """The last lines of its error output."""
         return tuple(self._err.last_lines)
 
-    def tell(self, message: dict[str, Any]) -> None:
-        """Sends a message; to a child that is gone, or does not read, it is lost."""
+    def tell(self, message: Told) -> None:
+        """Sends a message; it is lost if the child is gone, and a child that does not read is killed."""
         if self._channel is None:
             return
         try:
@@ -143,9 +153,9 @@ class ChildProcess:
             self.kill(f"was ended: {error}")
 
     def look(self) -> tuple[str, float, float] | None:
-        """Looks at the child from outside: its state, and what it ran and waited since the last look.
+        """Samples the child: its state, and the seconds that it ran and waited since the last sample.
 
-        None at the first look, at a child that is gone, and at one without a channel.
+        Returns None for the first sample, a child that is gone, and a child without a channel.
         """
         if self._channel is None or self.exited.done():
             return None
@@ -155,31 +165,31 @@ class ChildProcess:
         return self._signs.state, self._signs.ran_s - before.ran_s, self._signs.waited_s - before.waited_s
 
     async def trace(self) -> tuple[str, int]:
-        """Asks where the child's threads are; returns that, and the node that is being ticked."""
+        """Returns a dump of the child's stacks, and the tree node that is being ticked."""
         if self._notes is None or self.exited.done():
             return "", 0
         text = await self._notes.trace(self.pid)
         return text, self._notes.current_uid() if not self.exited.done() else 0
 
     def interrupt(self) -> None:
-        """Asks the child to break off its tick."""
+        """Interrupts the child's current tick."""
         with contextlib.suppress(ProcessLookupError):
             self._popen.send_signal(INTERRUPT_SIGNAL)
 
     def ask_to_end(self) -> None:
-        """Tells a child without a channel that it is over, as Ctrl+C would; others were told."""
-        if not self._program.has_channel:
+        """Interrupts a child without a channel, as Ctrl+C would; others received a message."""
+        if self._decode is None:
             with contextlib.suppress(ProcessLookupError, PermissionError):
                 os.killpg(self.pid, signal.SIGINT)
 
     def kill(self, reason: str = "") -> None:
-        """Kills the child's process group; `wait` sees to the rest of its tree."""
+        """Kills the child's process group; `wait` ends the rest of its descendants."""
         self.reason = self.reason or reason
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.pid, signal.SIGKILL)
 
     async def wait(self) -> None:
-        """Returns when nothing of the child is left, and `reason` says how it ended."""
+        """Waits until nothing of the child is left; then `reason` says how it ended."""
         await self.exited
         code = self._popen.wait()
         self.reason = self.reason or _exit_reason(code, self._program.limits)
@@ -196,7 +206,7 @@ class ChildProcess:
             self._notes.close()
 
     def check_limits(self, descendants: Iterable[psutil.Process]) -> None:
-        """Ends a child whose tree, among all that descends from this process, uses more than it may."""
+        """Kills a child whose processes, out of the given descendants, exceed its limits."""
         limits = self._program.limits
         tree = self._tree(descendants)
         if limits.processes is not None and len(tree) > limits.processes:
@@ -207,13 +217,13 @@ class ChildProcess:
             )
 
     def tree(self) -> list[psutil.Process]:
-        """The child and all living processes that come from it, also those that left its group."""
+        """Returns the child and its living descendants, also those that left its process group."""
         return self._tree(psutil.Process().children(recursive=True))
 
     def _tree(self, descendants: Iterable[psutil.Process]) -> list[psutil.Process]:
         family = {self.pid}
         found = []
-        # Parents come before their children, so one pass sees whole branches.
+        # Parents come before their children, so one pass finds whole branches.
         for process in descendants:
             with contextlib.suppress(psutil.Error, OSError), process.oneshot():
                 if process.status() == psutil.STATUS_ZOMBIE:
@@ -239,7 +249,7 @@ class ChildProcess:
                     resource.prlimit(self.pid, which, (value, value))
         if limits.cpu_s is not None:
             with contextlib.suppress(ProcessLookupError, PermissionError, ValueError):
-                # The soft limit tells by its signal what happened; at the hard one it would be killed.
+                # The signal of the soft limit identifies the cause; the hard limit would send SIGKILL.
                 resource.prlimit(self.pid, resource.RLIMIT_CPU, (limits.cpu_s, limits.cpu_s + CPU_GRACE_S))
 
     async def _listen(self, ours: socket.socket | None) -> None:
@@ -250,16 +260,16 @@ class ChildProcess:
             stream = asyncio.StreamReader()
             await loop.connect_read_pipe(lambda s=stream: asyncio.StreamReaderProtocol(s), pipe)  # type: ignore[misc]
             self._readers.append(loop.create_task(reader.read(stream)))
-        if ours is not None:
-            self._channel = await AsyncChannel.open(ours)
+        if ours is not None and self._decode is not None:
+            self._channel = await AsyncChannel.open(ours, self._decode)
             self._readers.append(loop.create_task(self._read_channel(self._channel)))
 
-    async def _read_channel(self, channel: AsyncChannel) -> None:
+    async def _read_channel(self, channel: AsyncChannel[Told, Said]) -> None:
         try:
             while True:
                 self._on_message(await channel.receive())
         except ChannelClosed:
-            # Usually it is just ending. Without its channel nobody could tell it to stop.
+            # Usually the child is ending. Without its channel it could not be told to stop.
             await asyncio.wait([self.exited], timeout=CLOSED_CHANNEL_GRACE_S)
             self.kill("was ended: it closed its channel" if not self.exited.done() else "")
         except ChannelError as error:
@@ -284,7 +294,7 @@ class ChildProcess:
             await asyncio.sleep(0.005 if round_ < 20 else 0.05)
 
     def _reap(self, killed: set[int]) -> None:
-        """Collects what ended after it was left to us as an orphan."""
+        """Collects orphans of the child that ended."""
         for process in psutil.Process().children():
             with contextlib.suppress(psutil.Error, OSError):
                 is_ours = process.pid in killed or os.getsid(process.pid) == self.pid
@@ -304,7 +314,7 @@ def _exit_reason(code: int, limits: Limits) -> str:
 
 
 def _used_bytes(tree: Iterable[psutil.Process], limit: int) -> int:
-    """Memory of a tree. The exact count takes long, so it is made only where the rough one is too high."""
+    """Returns the memory of a process tree. The slow exact count is made only if the rough one is high."""
     tree = list(tree)
     rough = _sum_up(tree, lambda process: process.memory_info().rss)
     return rough if rough <= limit else _sum_up(tree, lambda process: process.memory_full_info().pss)

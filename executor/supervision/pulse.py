@@ -1,10 +1,9 @@
-"""What a child process does so that the manager hears whether it hangs, and where.
+"""Reports to the manager whether a child process hangs, and where.
 
-A thread of its own sends a *beat* four times a second, from the first moment on: how often the main thread
-came round, what it loads if it loads, and where it is if it has not come round for a while. No beat at all
-means that the process is frozen, or that something holds Python's interpreter lock. For that case the manager
-gave us a file (`NOTES_VARIABLE`): by a signal, `faulthandler` writes there in C where each thread is, and its
-first bytes are the number of the node that is being ticked.
+A separate thread sends a `Beat` four times a second from the start of the process. Without beats the process
+is frozen, or some code holds Python's interpreter lock. For that case the manager passes a file
+(`NOTES_VARIABLE`): on a signal, `faulthandler` dumps all stacks there, in C and so without the lock. The
+first bytes of the file hold the number of the tree node that is being ticked.
 """
 
 from __future__ import annotations
@@ -17,8 +16,9 @@ import threading
 import time
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
+from executor.child_messages import Beat, Place
 from executor.supervision.channel import ChannelClosed
 from executor.supervision.confine import TRACE_SIGNAL
 
@@ -30,53 +30,53 @@ __all__ = ["NOTES_BYTES", "NOTES_VARIABLE", "Pulse", "place_in_our_code"]
 
 NOTES_VARIABLE: Final = "BT_STUDIO_NOTES_FD"
 NOTES_BYTES: Final = mmap.PAGESIZE
-"""Where in the file of notes the traces begin; before that is the number of the node."""
+"""Offset of the stacks in the file; the number of the node is before it."""
 BEAT_S: Final = 0.25
 AWAY_S: Final = 0.5
 _ROOT: Final = str(Path(__file__).parents[2]) + os.sep
 
 
-def place_in_our_code(frame: FrameType | None) -> dict[str, Any]:
-    """Returns the innermost line of a stack that is in this repository."""
+def place_in_our_code(frame: FrameType | None) -> Place:
+    """Returns the innermost line of a stack that is in this repository; empty without one."""
     while frame is not None:
         file = frame.f_code.co_filename
         if file.startswith(_ROOT) and "site-packages" not in file:
-            return {"text": f"{file.removeprefix(_ROOT)}:{frame.f_lineno}"}
+            return Place(f"{file.removeprefix(_ROOT)}:{frame.f_lineno}")
         frame = frame.f_back
-    return {}
+    return Place()
 
 
 class Pulse:
-    """Beats for this process. Make it on the main thread, before anything that takes long.
+    """Sends the beats of this process. Create it on the main thread, before anything slow.
 
     Attributes:
-        clocks: how many times the process heard, or told, what simulated time it is.
-        locate: says where a frame of the main thread is, for people and for the manager.
-        current: the number of the node that is being ticked; visible from outside.
+        clocks: how often the process received, or published, simulated time.
+        locate: makes a place of a frame of the main thread.
+        current: the number of the tree node that is being ticked; the manager reads it from the file.
     """
 
-    def __init__(self, send: Callable[[dict[str, Any]], None]) -> None:
+    def __init__(self, send: Callable[[Beat], None]) -> None:
         self._send = send
         self._main = threading.main_thread().ident or 0
         self._turns = 0
         self._task = "starting"
         self.clocks = 0
-        self.locate: Callable[[FrameType | None], dict[str, Any]] = place_in_our_code
+        self.locate: Callable[[FrameType | None], Place] = place_in_our_code
         self.current = _take_notes()
         threading.Thread(target=self._beat, name="pulse", daemon=True).start()
 
     def moved(self) -> None:
-        """The main thread has come round, or made a step of a long piece of work."""
+        """Notes that the main thread completed its loop, or a part of a long task."""
         self._turns += 1
 
     def rests(self) -> None:
-        """What was loaded is there: from now on the main thread comes round again and again."""
+        """Notes that loading is done: the main thread runs its loop from now on."""
         self._task = ""
         self._turns += 1
 
     @contextmanager
     def busy(self, task: str) -> Iterator[None]:
-        """Says that the main thread does something that may take long, as long as it computes."""
+        """Marks a task of the main thread that may take long."""
         before, self._task = self._task, task
         self._turns += 1
         try:
@@ -92,21 +92,19 @@ class Pulse:
                 now_s = time.monotonic()
                 if self._turns != turns:
                     turns, since_s = self._turns, now_s
-                beat = {"type": "beat", "turns": turns, "task": self._task, "clocks": self.clocks}
-                if now_s - since_s >= AWAY_S:
-                    beat["place"] = self._place()
-                self._send(beat)
+                place = self._place() if now_s - since_s >= AWAY_S else None
+                self._send(Beat(turns, self._task, self.clocks, place))
                 time.sleep(BEAT_S)
 
-    def _place(self) -> dict[str, Any]:
+    def _place(self) -> Place:
         try:
             return self.locate(sys._current_frames().get(self._main))
-        except Exception as error:  # the frames of a thread that runs may change under our hands
-            return {"text": f"unknown: {error}"}
+        except Exception as error:  # the frames of a running thread may change meanwhile
+            return Place(f"unknown: {error}")
 
 
 def _take_notes() -> list[int] | memoryview[int]:
-    """Has the manager's signal answered into its file; returns where the node's number is to be written."""
+    """Registers the dump of stacks on the manager's signal; returns where to write the node's number."""
     given = os.environ.pop(NOTES_VARIABLE, "")
     if not given:
         return [0]

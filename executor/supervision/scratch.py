@@ -1,7 +1,6 @@
-"""A temporary folder that does not outlive its process for long, not even when that is killed.
+"""A temporary folder that is removed after its process, even after a kill.
 
-Its owner holds a lock on a file in it while it lives; who makes the next folder removes those that nobody
-holds any more.
+Its owner keeps a file in it locked. Creating a folder removes all folders whose lock is not held any more.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ class Scratch:
     """A folder of this process.
 
     Raises:
-        OSError: there is no room for it.
+        OSError: the disk is full.
     """
 
     def __init__(self) -> None:
@@ -35,7 +34,7 @@ class Scratch:
         fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def remove(self) -> None:
-        """Removes it with all that is in it; again is harmless."""
+        """Removes the folder with its content. May be called twice."""
         shutil.rmtree(self.path, ignore_errors=True)
         if self._lock >= 0:
             os.close(self._lock)

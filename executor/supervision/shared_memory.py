@@ -1,8 +1,8 @@
 """Removes the shared memory that Fast DDS leaves in `/dev/shm` when its process is killed.
 
 Each segment `fastrtps_<id>` has a file `fastrtps_<id>_el` on which its owner holds a lock while it lives.
-A port `fastrtps_port<number>` belongs to its reader in the same way; but who writes to a reader that is gone
-makes the port anew, without a lock; not even `fastdds shm clean` removes it when the writer is killed too.
+A port `fastrtps_port<number>` belongs to its reader in the same way. But a writer to a reader that is gone
+creates the port again without a lock; `fastdds shm clean` does not remove it when the writer is killed too.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ PORT: Final = re.compile(r"fastrtps_port\d+")
 
 
 def remove_abandoned_segments(folder: Path = FOLDER) -> int:
-    """Removes the segments whose owner is gone; returns how many."""
+    """Removes the segments whose owner is gone; returns their number."""
     locks = list(folder.glob(f"fastrtps_*{LOCK_SUFFIX}"))
     abandoned = [lock.name.removesuffix(LOCK_SUFFIX) for lock in locks if is_abandoned(lock)]
     abandoned += _ports_of_nobody(folder)
@@ -30,10 +30,10 @@ def remove_abandoned_segments(folder: Path = FOLDER) -> int:
 
 
 def mapped_files(processes: Path = Path("/proc")) -> set[str]:
-    """The paths of the files that processes have in their memory, as far as one may look."""
+    """Returns the files that processes have mapped, as far as permissions allow."""
     found: set[str] = set()
     for maps in processes.glob("[0-9]*/maps"):
-        with contextlib.suppress(OSError):  # it has ended, or is another user's
+        with contextlib.suppress(OSError):  # it has ended, or belongs to another user
             lines = maps.read_text(errors="replace").splitlines()
             found.update(line[line.index("/") :] for line in lines if "/" in line)
     return found
@@ -50,7 +50,7 @@ def _ports_of_nobody(folder: Path) -> list[str]:
 
 
 def _is_removed(folder: Path, name: str) -> bool:
-    with contextlib.suppress(OSError):  # somebody else's
+    with contextlib.suppress(OSError):  # it belongs to another user
         for file in (name, f"sem.{name}_mutex", f"{name}{LOCK_SUFFIX}"):
             (folder / file).unlink(missing_ok=True)
         return True

@@ -1,4 +1,4 @@
-"""What one sees of a process from outside: whether it computes, waits for a processor, or is stopped."""
+"""State of a process as the kernel reports it: whether it computes, waits for a processor, or is stopped."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
 
 @dataclass(frozen=True)
 class Signs:
-    """Of the main thread, in seconds since it began; `state` is the letter that Linux gives it.
+    """Of the main thread, in seconds since its start; `state` is the letter of proc(5).
 
-    `waited_s` is how long it could have run and got no processor. Other threads do not count: those that wait
-    for the interpreter lock wake up all the time, and on a busy machine seem to wait for a processor.
+    `waited_s` is how long it was runnable without a processor. Other threads do not count: threads that wait
+    for the interpreter lock wake up all the time, which on a busy machine looks like a wait for a processor.
     """
 
     state: str
@@ -33,21 +33,21 @@ class Signs:
 
 
 def look_at(pid: int) -> Signs | None:
-    """Looks at a process; None if it is gone."""
+    """Samples a process; None if it is gone."""
     try:
-        # The name of a program may hold anything, but the last parenthesis is its end.
+        # The name may contain any character; it ends at the last parenthesis.
         fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
     except OSError:
         return None
     try:
         ran_ns, waited_ns, _ = Path(f"/proc/{pid}/schedstat").read_text().split()
-    except (OSError, ValueError):  # this Linux does not count it
+    except (OSError, ValueError):  # this kernel does not count it
         return Signs(fields[0], (int(fields[11]) + int(fields[12])) * _TICK_S, 0.0)
     return Signs(fields[0], int(ran_ns) * 1e-9, int(waited_ns) * 1e-9)
 
 
 class Notes:
-    """The file in which a process that cannot speak any more says where it is, for who watches over it.
+    """The file into which a process that does not respond dumps its stacks.
 
     Args:
         fd: of the file; None makes one.
@@ -60,11 +60,11 @@ class Notes:
         self.fd = fd
 
     def current_uid(self) -> int:
-        """The number of the node that is being ticked; 0 if none is."""
+        """The number of the tree node that is being ticked; 0 if none is."""
         return int.from_bytes(os.pread(self.fd, 4, 0), "little")
 
     async def trace(self, pid: int) -> str:
-        """Asks a process where its threads are; "" if it does not say."""
+        """Returns a dump of a process's stacks; "" if it writes none."""
         before = self._size()
         try:
             os.kill(pid, TRACE_SIGNAL)
@@ -74,13 +74,13 @@ class Notes:
         for _ in range(round(TRACE_S / TRACE_STEP_S)):
             await asyncio.sleep(TRACE_STEP_S)
             if size > before and self._size() == size:
-                break  # nothing more has come
+                break  # no more output
             size = self._size()
         data = os.pread(self.fd, min(size - before, LARGEST_TRACE_BYTES), before)
         return data.decode("utf-8", "replace")
 
     def close(self) -> None:
-        """Lets the file go. May be called twice."""
+        """Closes the file. May be called twice."""
         if self.fd >= 0:
             os.close(self.fd)
             self.fd = -1

@@ -1,4 +1,4 @@
-"""Starts, watches and ends the children of a session, as the state machine's effects ask."""
+"""Starts, supervises and ends the children of a session, as the effects of its state machine say."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import psutil
 
+from executor.child_messages import Frame, decode_from_application, decode_from_world
 from executor.session.events import (
     ChildExited,
     ChildLooked,
@@ -28,7 +29,7 @@ from executor.session.events import (
 )
 from executor.supervision.confine import adopt_orphans
 from executor.supervision.descendants import Descendants
-from executor.supervision.processes import ChildProcess, Program
+from executor.supervision.processes import ChildProcess, Decode, Program, Said
 from executor.supervision.shared_memory import remove_abandoned_segments
 
 if TYPE_CHECKING:
@@ -39,23 +40,27 @@ __all__ = ["Supervisor"]
 _log = logging.getLogger(__name__)
 
 CHECK_INTERVAL_S: Final = 0.25
+_DECODE: Final[dict[Kind, Decode]] = {
+    "world": decode_from_world,
+    "application": decode_from_application,
+}
 
 
 class Supervisor:
     """The children of one session.
 
     Args:
-        programs: what to start for each kind of child.
+        programs: the program of each kind of child.
         report: takes `ChildSaid`, `ChildLooked`, `ChildTraced` and `ChildExited`, on the event loop.
-        on_frame: takes the `frame` messages, which do not concern the state machine.
-        reaps_all: whether every other child of this process is an orphan that a child left behind.
+        on_frame: takes the frames, which bypass the state machine.
+        reaps_all: whether every other child of this process is an orphan of one of the children.
     """
 
     def __init__(
         self,
         programs: Mapping[Kind, Program],
         report: Callable[[Event], None],
-        on_frame: Callable[[dict[str, Any]], None],
+        on_frame: Callable[[Frame], None],
         *,
         reaps_all: bool = False,
     ) -> None:
@@ -71,20 +76,20 @@ class Supervisor:
         adopt_orphans()
 
     def apply(self, effect: Spawn | Tell | Interrupt | Inspect | Retire | Kill) -> None:
-        """Does what an effect asks; results come as events."""
+        """Carries out an effect; results are reported as events."""
         key = (effect.kind, effect.number)
         if isinstance(effect, Spawn):
             self._waiting[key] = []
             self._do(self._live(effect))
         elif key in self._waiting:
-            self._waiting[key].append(effect)  # it is just being started
+            self._waiting[key].append(effect)  # it is being started
         elif (child := self._children.get(key)) is not None:
             self._apply_to(child, effect)
         elif isinstance(effect, Inspect):
             self._report(ChildTraced(effect.kind, effect.number))
 
     async def close(self) -> None:
-        """Kills all children and returns when nothing is left of them."""
+        """Kills all children and waits until nothing of them is left."""
         if self._checker is not None:
             self._checker.cancel()
         while self._tasks:
@@ -118,17 +123,17 @@ class Supervisor:
         task.add_done_callback(self._tasks.discard)
 
     async def _live(self, spawn: Spawn) -> None:
-        """The whole life of a child."""
+        """Runs a child from its start to its exit."""
         key = (spawn.kind, spawn.number)
 
-        def on_message(message: dict[str, Any]) -> None:
-            if message["type"] == "frame":
+        def on_message(message: Said) -> None:
+            if isinstance(message, Frame):
                 self._on_frame(message)
             else:
                 self._report(ChildSaid(spawn.kind, spawn.number, message))
 
         try:
-            child = await ChildProcess.spawn(self._program(spawn), on_message)
+            child = await ChildProcess.spawn(self._program(spawn), on_message, _DECODE.get(spawn.kind))
         except OSError as error:
             self._waiting.pop(key)
             self._report(ChildExited(spawn.kind, spawn.number, f"could not be started: {error}"))
@@ -147,11 +152,11 @@ class Supervisor:
     def _program(self, spawn: Spawn) -> Program:
         if spawn.node is None:
             return self._programs[spawn.kind]
-        # An extra node may use as much as the application itself.
+        # A launch node has the limits of the application.
         application = self._programs["application"]
         command = (sys.executable, "-m", "executor.launching.program", spawn.folder, *spawn.node.command)
         environment = {**application.environment, **dict(spawn.node.environment)}
-        return Program(command, environment, application.limits, has_channel=False)
+        return Program(command, environment, application.limits)
 
     async def _trace(self, child: ChildProcess, effect: Inspect) -> None:
         text, uid = await child.trace()

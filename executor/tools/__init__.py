@@ -1,10 +1,10 @@
-"""What reads one user's files for the editor: the language server, and ruff.
+"""Tools that read one user's files for the editor: the language server, and ruff.
 
-On a team's server this runs in a container of the executor image, without a network and under limits, one a
-user, so that neither the web server nor another user is there to be harmed by what a file does to a parser.
-The web server sends files and bytes and relays what comes back (`backend/language/containers.py`).
+On a team's server they run in a container of the executor image, one a user, without a network and with
+limits: a file that exploits a parser can harm neither the web server nor another user.
+The web server sends files and bytes and relays the answers (`backend/language/containers.py`).
 
-    server      the unix socket, who may use it, and when it ends
+    server      the unix socket, its access rules and its life
     language    one open editor and a language server of its own
     checker     one run of ruff
 """

@@ -1,4 +1,4 @@
-"""`python -m executor.tools`: fetches its socket from the gate, and serves until nobody comes any more."""
+"""`python -m executor.tools`: fetches its socket from the gate, and serves until it has no clients."""
 
 from __future__ import annotations
 

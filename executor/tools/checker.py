@@ -1,4 +1,4 @@
-"""One run of ruff on a text: bounded in time, and with no configuration but its arguments."""
+"""One run of ruff on a text: with a timeout, and no configuration but its arguments."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PROGRAM: Final = str(Path(sys.executable).with_name("ruff"))
 
 
 async def serve_checker(connection: ServerConnection) -> None:
-    """Takes `{arguments, source}`, answers `{status, output}`; a status of null: it took too long."""
+    """Takes `{arguments, source}`, answers `{status, output}`; a null status is a timeout."""
     asked = json.loads(await connection.recv())
     await connection.send(json.dumps(await run_ruff(asked["arguments"], asked["source"])))
 

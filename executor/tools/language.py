@@ -1,14 +1,14 @@
 """One open editor: a folder with its project's Python, and a language server on it.
 
-We begin with `{home, library, python}`, which the web server needs to know for the configuration that it
-writes. Then it sends
+The first message is our `{home, library, python}`, for the configuration that the web server writes. Then it
+sends
 
     {"files": {path: text, or null to remove}}   as text; the first starts the language server
-    what the editor says                         as bytes, handed on as they are
+    messages of the editor                       as bytes, relayed unchanged
 
-and gets the language server's bytes, and now and then `{"memory_bytes": n}` as text. Order is kept: a file
-that was sent before some bytes is there when the language server reads them. The connection ends when either
-side does, with a reason if the folder has no room.
+and gets the language server's bytes, and sometimes `{"memory_bytes": n}` as text. Order is preserved: a file
+that was sent before some bytes exists when the language server reads them. The connection ends when either
+side ends, with a reason if the disk is full.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LIBRARY", "put_files", "serve_editor"]
 
-# What every project can import; made when the image is built.
+# Modules that every project can import; written when the image is built.
 LIBRARY: Final = "/opt/bt-studio/library"
 COMMAND: Final = (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
 STOP_S: Final = 2.0
@@ -116,7 +116,7 @@ def put_files(home: Path, files: Mapping[str, str | None]) -> None:
     """Writes and removes files below a folder.
 
     Raises:
-        OSError: a path leads out of it, or there is no room.
+        OSError: a path is outside of it, or the disk is full.
     """
     for path, text in files.items():
         parts = PurePosixPath(path).parts

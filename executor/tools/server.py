@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["ToolsServer"]
 
-MAX_MESSAGE_BYTES: Final = 300 << 20  # all Python of the largest project, once
+MAX_MESSAGE_BYTES: Final = 300 << 20  # all Python files of the largest project, once
 MAX_CLIENTS: Final = 16
 HEARTBEAT_S: Final = 15.0
 
@@ -46,7 +46,7 @@ class ToolsServer:
         self._timer: asyncio.TimerHandle | None = None
 
     async def run(self) -> None:
-        """Serves until `end`, or until nobody has come for the time of grace."""
+        """Serves until `end`, or until there was no client for the grace period."""
         with tempfile.TemporaryDirectory(prefix="bt-studio-tools-") as folder:
             self._root = Path(folder)
             options = {"process_request": self._check, "max_size": MAX_MESSAGE_BYTES, "compression": None}
@@ -56,7 +56,7 @@ class ToolsServer:
                 await self._ended.wait()
 
     def end(self) -> None:
-        """Has `run` return."""
+        """Ends `run`."""
         self._ended.set()
 
     def _wait_for_clients(self) -> None:

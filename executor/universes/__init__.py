@@ -1,4 +1,4 @@
-"""Universes: the worlds that robots live in, as YAML documents."""
+"""Universes: descriptions of simulated worlds, as YAML documents."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    # The manager reads documents too, and must not wait for pydantic, which takes longer than all its rest.
+    # The manager reads documents too, and must not import pydantic, which takes longer than the rest of it.
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from executor.universes import loader, model  # noqa: PLC0415

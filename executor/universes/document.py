@@ -1,4 +1,4 @@
-"""YAML documents whose every value knows its line; aliases, tags and huge documents are refused."""
+"""YAML documents with the line of every value; aliases, tags and huge documents are refused."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Path = tuple[str | int, ...]
 
 @dataclass(frozen=True)
 class Problem:
-    """Something wrong at a place of a document; lines and columns count from 1."""
+    """An error at a place of a document; lines and columns count from 1."""
 
     message: str
     line: int = 1
@@ -43,13 +43,13 @@ class DocumentError(Exception):
 
 @dataclass(frozen=True)
 class Located:
-    """A document's value and where each part of it stands."""
+    """A document's value, with the place of each part."""
 
     value: Any
     places: dict[Path, tuple[int, int]]
 
     def place(self, path: Path) -> tuple[int, int]:
-        """Returns line and column of a part, or of the nearest part round it that exists."""
+        """Returns line and column of a part, or of the nearest enclosing part that exists."""
         while path not in self.places and path:
             path = path[:-1]
         return self.places.get(path, (1, 1))
@@ -59,7 +59,7 @@ def read_yaml(text: str, file: str = "") -> Located:
     """Reads one YAML document.
 
     Raises:
-        DocumentError: it is not YAML, or uses what such a document never needs.
+        DocumentError: it is not YAML, or uses a feature that is refused.
     """
     if len(text) > MAX_BYTES:
         raise DocumentError([Problem(f"the document is larger than {MAX_BYTES} bytes", code="BTU002")], file)
@@ -79,7 +79,7 @@ def read_yaml(text: str, file: str = "") -> Located:
 
 
 def _measure(text: str, file: str) -> None:
-    """Refuses what is nested too deeply before anything recurses into it."""
+    """Refuses deeply nested documents before anything recurses into them."""
     depth = 0
     for event in yaml.parse(text, Loader=yaml.CSafeLoader):
         if isinstance(event, yaml.CollectionStartEvent):

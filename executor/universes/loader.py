@@ -1,4 +1,4 @@
-"""Reads universe documents; what is wrong with one is said with its line."""
+"""Reads universe documents; errors have their line."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def builtin_path(universe_id: str) -> Path:
     """Returns the file of a universe that we ship.
 
     Raises:
-        UniverseError: there is none of that name.
+        UniverseError: there is no such universe.
     """
     if universe_id not in BUILTIN_IDS:
         near = difflib.get_close_matches(universe_id, BUILTIN_IDS, n=1)
@@ -39,7 +39,7 @@ def builtin_path(universe_id: str) -> Path:
 
 
 def preview_path(universe_id: str) -> Path:
-    """Returns where the picture of a universe that we ship is; `executor.generate.previews` draws it."""
+    """Returns the path of the picture of a universe that we ship; `executor.generate.previews` draws it."""
     return _FOLDER / "previews" / f"{universe_id}.webp"
 
 

@@ -1,4 +1,4 @@
-"""What a universe document may say. SI units; poses are [x, y, z, roll, pitch, yaw] in the world frame."""
+"""The model of a universe document. SI units; poses are [x, y, z, roll, pitch, yaw] in the world frame."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ FILES: Final[dict[str, tuple[str, ...]]] = {
     "urdf": (".urdf", ".xacro"),
     "sdf": (".sdf",),
 }
-"""How the name of the file of a shape ends, where it has one."""
+"""Suffixes of the file of each shape that has one."""
 TEXTURES: Final = ("asphalt", "brick", "carpet", "checker", "grass", "tiles", "wood")
 """The textures that we ship."""
 PICTURES: Final = (".png", ".jpg", ".jpeg")
@@ -43,10 +43,10 @@ class _Strict(BaseModel):
 
 
 class _Painted(_Strict):
-    """Something with a colour, and perhaps a picture on it that repeats.
+    """A thing with a colour, and optionally a repeated texture.
 
-    `texture` is one of ours (`TEXTURES`) or a PNG or JPEG file of the project; `tile` is how wide and high
-    one repetition is in m. The colour tints it, and is white if none is named.
+    `texture` is one of ours (`TEXTURES`) or a PNG or JPEG file of the project; `tile` is the width and
+    height of one repetition in m. The colour tints it; its default is then white.
     """
 
     color: Color = "#ffffff"
@@ -77,17 +77,17 @@ class _Painted(_Strict):
 
 
 class Ground(_Painted):
-    """The endless floor at z = 0."""
+    """The infinite floor at z = 0."""
 
     color: Color = "#d8d4cc"
     friction: float = Field(default=0.9, ge=0, le=10)
 
 
 class Ceiling(_Painted):
-    """What is overhead indoors, `height` m above the floor, over all walls that reach it.
+    """The ceiling indoors, `height` m above the floor, over all walls that reach it.
 
-    Robots' cameras see it. Views of the world do not, from above or from elsewhere, and it throws no shadow.
-    It is only seen: rays and bodies go through it.
+    Robots' cameras see it; views of the world do not, and it casts no shadow. It is visual only: rays and
+    bodies pass through it.
     """
 
     height: float = Field(default=2.5, gt=0, le=1000, allow_inf_nan=False)
@@ -95,18 +95,17 @@ class Ceiling(_Painted):
 
 
 class Model(_Painted):
-    """A thing; without mass it never moves. `size` is in m, `SIZE_MEANING` says of what.
+    """A thing; without mass it never moves. `size` is in m; `SIZE_MEANING` explains its values.
 
-    A mesh is read from `file`, a path in the project; its `size` is a scale. It is solid as it is drawn if it
-    stands, and as its convex hull if it has mass. What is not `solid` is only seen: paint, a carpet, a line
-    on the floor. Robots and rays go through it.
+    A mesh is read from `file`, a path in the project; its `size` is a scale. Without mass its
+    collision shape is the mesh itself, with mass its convex hull. Without `solid` it is visual only (paint, a
+    carpet, a line on the floor): robots and rays pass through it.
 
     A `urdf` or `sdf` is a model of several links from `file`, with its own sizes and colours; its joints move
-    freely. Without mass its root stands fast, with one it weighs that much in all.
+    freely. Without mass its root is fixed; otherwise that is its total mass.
 
-    A wall that goes `to_ceiling` is seen up to the ceiling by robots' cameras, where the universe has one,
-    and in its own height in views of the world: one can look into the rooms. Rays and bodies meet its own
-    height.
+    Robots' cameras see a wall with `to_ceiling` up to the universe's ceiling; views of the world show its own
+    height, so that rooms can be seen. Its own height counts for rays and bodies.
     """
 
     id: Name
@@ -167,7 +166,7 @@ class Model(_Painted):
 
 
 class Actor(_Strict):
-    """A person who walks along `path` whatever happens; robots can bump into them."""
+    """A person who walks along `path`, unaffected by collisions; robots can bump into them."""
 
     id: Name
     model: Literal["person"] = "person"
@@ -179,9 +178,9 @@ class Actor(_Strict):
 
 
 class RobotPlace(_Strict):
-    """A robot and where it starts; `topics` renames what its sensors publish.
+    """A robot and its initial pose; `topics` renames the topics of its sensors.
 
-    With `ground_truth` it says on `/ground_truth/odom` where it truly is.
+    With `ground_truth` it publishes its true pose on `/ground_truth/odom`.
     """
 
     id: Name = "robot"
@@ -194,7 +193,7 @@ class RobotPlace(_Strict):
 
 
 class Light(_Strict):
-    """Sunlight: the direction is the one in which it shines."""
+    """Sunlight, with the direction of its rays."""
 
     direction: tuple[Finite, Finite, Finite] = (0.3, 0.4, -0.8)
     intensity: float = Field(default=1.0, ge=0, le=10)
@@ -208,7 +207,7 @@ class Light(_Strict):
 
 
 class View(_Strict):
-    """From where to look at the world first: eye and target in m."""
+    """Initial view of the world: eye and target in m."""
 
     eye: Point = (-4.5, -5.0, 4.5)
     target: Point = (0.0, 0.0, 0.2)

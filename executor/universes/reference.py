@@ -10,7 +10,7 @@ from executor.universes.model import Universe
 
 _ROOT: Final = Path(__file__).parents[2]
 FOLDER: Final = _ROOT / "docs" / "reference" / "schemas"
-# What the editor checks universes with; beside its other generated sources, so that it builds alone.
+# The editor validates universes with it; kept with its other generated sources, so that it builds alone.
 FOR_THE_EDITOR: Final = _ROOT / "frontend" / "src" / "generated" / "universe.schema.json"
 
 

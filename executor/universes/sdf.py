@@ -1,4 +1,4 @@
-"""Makes a universe of an SDF world: the part that we can honour, and a list of what was left out."""
+"""Makes a universe of an SDF world: the supported part, and a list of what was left out."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lxml import etree
 
 from executor.universes.document import Problem
 from executor.universes.loader import UniverseError, parse_universe
-from executor.world.transforms import Pose, compose, from_xyz_rpy, to_xyz_rpy
+from executor.world.geometry.transforms import Pose, compose, from_xyz_rpy, to_xyz_rpy
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,7 +27,7 @@ _GREY: Final = "#9aa4b0"
 
 @dataclass
 class Imported:
-    """A universe's document, as YAML, and what of the world it does not have."""
+    """A universe's document, as YAML, and the parts of the world that were left out."""
 
     text: str
     left_out: list[Problem] = field(default_factory=list)
@@ -37,7 +37,7 @@ def import_sdf(data: bytes, file: str = "world.sdf") -> Imported:
     """Returns the universe of an SDF world.
 
     Raises:
-        UniverseError: it is no SDF, or nothing in it can be used.
+        UniverseError: it is no SDF, or has no supported part.
     """
     reader = _Reader(file)
     document = reader.world(_parse(data, file))
@@ -94,7 +94,7 @@ class _Reader:
         parts = sum(len(link.findall("visual")) for link in links)
         moves = not is_static and parts == 1
         if not is_static and parts > 1:
-            self._skip(model, f"the model {model.get('name')!r} has several parts: it stands still here")
+            self._skip(model, f"the model {model.get('name')!r} has several parts: it is static here")
         for link in links:
             at = compose(base, self._pose(link))
             for visual in link.findall("visual"):

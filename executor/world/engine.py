@@ -1,4 +1,4 @@
-"""PyBullet without its global state: one physics server, its id filled in at every call."""
+"""PyBullet without its global state: one physics server, whose id is added to every call."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def _silenced() -> Iterator[None]:
-    """PyBullet greets at import on the C level; our stdout may be somebody's JSON."""
+    """Suppresses the greeting that PyBullet prints at import in C: stdout may have to be JSON."""
     sys.stdout.flush()
     saved = [os.dup(1), os.dup(2)]
     null = os.open(os.devnull, os.O_WRONLY)
@@ -34,7 +34,7 @@ with _silenced():
 
 
 class Bullet:
-    """A physics server in this process. Functions and constants are PyBullet's, by their names."""
+    """A physics server in this process. It has PyBullet's functions and constants."""
 
     def __init__(self) -> None:
         self._id: int = pybullet.connect(pybullet.DIRECT)
@@ -45,7 +45,7 @@ class Bullet:
         value = getattr(pybullet, name)
         if callable(value):
             value = functools.partial(value, physicsClientId=self._id)
-        self.__dict__[name] = value  # looked up once: this is on the path of every step
+        self.__dict__[name] = value  # looked up once: every step uses these
         return value
 
     def close(self) -> None:

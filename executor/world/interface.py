@@ -1,4 +1,4 @@
-"""What a world offers, whatever physics is behind it. Times are simulated seconds, frames follow REP-103."""
+"""Interface of a world, whatever its physics engine. Times are simulated seconds, frames follow REP-103."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ if TYPE_CHECKING:
 
     from executor.messages import Scene
     from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
-    from executor.world.battery import BatteryReading
-    from executor.world.bumper import Zone
-    from executor.world.collision import Collision
-    from executor.world.drive import Odometry
-    from executor.world.imu import ImuReading
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
+    from executor.world.physics.collision import Collision
+    from executor.world.physics.drive import Odometry
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.imu import ImuReading
 
 
 class WorldError(Exception):
-    """The world cannot do what was asked of it."""
+    """The world cannot do a request."""
 
 
 @dataclass(frozen=True)
 class LidarReading:
-    """One scan, counter-clockwise from straight ahead; REP-117: +inf nothing in range, -inf too near."""
+    """One scan, counter-clockwise from straight ahead; REP-117: +inf out of range, -inf too near."""
 
     time_s: float
     ranges: NDArray[np.float32]
@@ -43,11 +43,11 @@ class Robot(Protocol):
 
     @property
     def config(self) -> RobotConfig:
-        """What it is made of."""
+        """Its configuration."""
 
     @property
     def odometry(self) -> Odometry:
-        """Where the wheels say that it is."""
+        """Pose and twist by its wheels."""
 
     @property
     def pose(self) -> tuple[float, float, float]:
@@ -55,16 +55,16 @@ class Robot(Protocol):
 
     @property
     def distance_m(self) -> float:
-        """How far the true pose has travelled since the start."""
+        """Distance that the true pose has travelled since the start."""
 
     @property
     def collisions(self) -> int:
-        """How many times the robot has bumped into something."""
+        """Number of collisions since the start."""
 
     def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
-        """Sets the wanted twist in m/s and rad/s; refuses (False) one that is not finite.
+        """Sets the target twist in m/s and rad/s; refuses (False) one that is not finite.
 
-        `at_s` is when it was wanted, in simulated time; now if None. It holds for the drive's timeout.
+        `at_s` is its simulated time; None is now. It is valid for the drive's timeout.
         """
 
     @property
@@ -76,10 +76,10 @@ class Robot(Protocol):
         """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
 
     def stop(self) -> None:
-        """Wants no motion any more."""
+        """Sets the target velocity to zero."""
 
     def command_joint(self, joint: str, position: float) -> bool:
-        """Sets where a joint with a motor is wanted, in rad or m; refuses (False) what is no number."""
+        """Sets the target of a joint with a motor in rad or m; refuses (False) one that is not finite."""
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
         """Position in rad or m and rate of each joint that has a motor, the wheels' first."""
@@ -97,11 +97,11 @@ class Robot(Protocol):
         """Returns the zones of the bumper that are pressed."""
 
     def camera_pose(self, camera: Camera) -> Pose:
-        """Where a camera is in the world; it looks along x, z is up in the picture."""
+        """Pose of a camera in the world; it looks along x, with z up in the image."""
 
 
 class World(Protocol):
-    """A simulated world that stands still until it is stepped."""
+    """A simulated world; time passes only in `step`."""
 
     @property
     def name(self) -> str:
@@ -117,7 +117,7 @@ class World(Protocol):
 
     @property
     def scene(self) -> Scene:
-        """What there is to see; `poses` are of its objects, in their order."""
+        """The scene; `poses` are those of its objects, in the same order."""
 
     @property
     def robots(self) -> Sequence[Robot]:
@@ -127,13 +127,13 @@ class World(Protocol):
         """Simulates `count` steps."""
 
     def reset(self) -> None:
-        """Makes the world anew, as it was at the start."""
+        """Restores the initial state."""
 
     def save(self) -> Any:
-        """Returns the whole state; hand it to `restore` of the same world."""
+        """Returns the full state, for `restore` of the same world."""
 
     def restore(self, state: Any) -> None:
-        """Goes on from a saved state exactly as the world did then."""
+        """Restores a saved state; the simulation continues exactly as it did then."""
 
     def forget(self, state: Any) -> None:
         """Frees a saved state."""
@@ -149,7 +149,7 @@ class World(Protocol):
         """
 
     def take_collisions(self) -> list[tuple[str, Collision]]:
-        """Returns (robot, collision) of those that happened since the last call."""
+        """Returns the (robot, collision) pairs since the last call."""
 
     def close(self) -> None:
-        """Frees the physics. May be called twice."""
+        """Frees the physics engine. May be called twice."""

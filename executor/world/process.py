@@ -1,7 +1,7 @@
 """The world as a process of its own: `python -m executor.world.process --channel-fd N`.
 
-It is told what to do by messages on its channel, and answers by messages; `executor/session/protocol.py`
-is the other end. The process may be started ahead of its use: it warms up, and waits for ``start``.
+It receives and sends messages on its channel (`executor.child_messages`); the other end is the session. It
+may be started as a spare: it loads slow modules, and waits for ``start``.
 """
 
 from __future__ import annotations
@@ -10,15 +10,16 @@ import argparse
 import logging
 import os
 import signal
+import sys
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
-import msgspec
-
-from executor.messages import CameraPose
+from executor import child_messages
+from executor.child_messages import FromWorld, Request, StartWorld, ToWorld, decode_to_world, name_of
+from executor.messages import Error
 from executor.ros.environment import has_tf, ros_environment
-from executor.supervision.channel import Channel, ChannelClosed
+from executor.supervision.channel import Channel, ChannelClosed, ChannelError
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
 from executor.universes.document import DocumentError, Problem
@@ -29,34 +30,37 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
 
+    from executor.child_messages import WorldCommand
     from executor.render.interface import Renderer
-    from executor.world.clockwork import Clockwork
-    from executor.world.outside import Outside
+    from executor.ros.topics import TopicReply
+    from executor.world.simulation.loop import SimulationLoop
+    from executor.world.simulation.outside_graph import OutsideGraph
 
 _log = logging.getLogger(__name__)
 
 LONGEST_WAIT_S: Final = 0.25
+StreamMessage = child_messages.Subscribe | child_messages.Unsubscribe | child_messages.Pace
 
 
 class _Stop(Exception):  # noqa: N818 - the way out, not an error
-    """The manager wants no more."""
+    """The manager stopped the world."""
 
 
 class WorldProcess:
-    """Receives messages and keeps the clockwork going, in one thread."""
+    """Receives messages and runs the loop, in one thread."""
 
-    def __init__(self, channel: Channel, pulse: Pulse) -> None:
+    def __init__(self, channel: Channel[FromWorld, ToWorld], pulse: Pulse) -> None:
         self._channel = channel
         self._pulse = pulse
-        self._clockwork: Clockwork | Outside | None = None
+        self._loop: SimulationLoop | OutsideGraph | None = None
         self._renderer: Renderer | None = None
         self._context: Context | None = None
         self._close: list[Callable[[], None]] = []
         self._request: str | None = None
-        """The token of the question that is being answered."""
+        """The token of the request under way."""
 
     def run(self) -> None:
-        """Works until it is told to stop, or the manager is gone."""
+        """Runs until it is stopped, or the manager is gone."""
         try:
             self._warm_up()
             self._pulse.rests()
@@ -70,26 +74,27 @@ class WorldProcess:
 
     def _turn(self) -> None:
         self._pulse.moved()
-        clockwork = self._clockwork
-        wait_s = LONGEST_WAIT_S if clockwork is None else clockwork.next_due_s(time.monotonic())
+        loop = self._loop
+        wait_s = LONGEST_WAIT_S if loop is None else loop.next_due_s(time.monotonic())
         message = self._channel.receive(min(wait_s, LONGEST_WAIT_S))
         while message is not None:
             self._obey(message)
             message = self._channel.receive(0)
-        if self._clockwork is not None:
-            self._clockwork.run_due(time.monotonic())
+        if self._loop is not None:
+            self._loop.run_due(time.monotonic())
 
     def _warm_up(self) -> None:
-        """Loads now what `start` would otherwise have to wait for."""
+        """Loads modules that `start` would otherwise wait for."""
         from executor.render import make_renderer  # noqa: PLC0415 - slow to load
         from executor.ros import node  # noqa: F401, PLC0415 - ROS reads the environment when it is loaded
-        from executor.world import bullet, clockwork, launch  # noqa: F401, PLC0415
+        from executor.world.physics import bullet  # noqa: F401, PLC0415
+        from executor.world.simulation import launch, loop  # noqa: F401, PLC0415
 
         self._renderer = make_renderer()
         self._context = self._join(int(os.environ.get("ROS_DOMAIN_ID", "0")))
 
     def _join(self, domain_id: int) -> Context:
-        """Enters a ROS graph; the one of the environment is entered ahead of `start`."""
+        """Joins a ROS graph; a spare joins the one of the environment before `start`."""
         if self._context is not None and self._context.get_domain_id() == domain_id:
             return self._context
         import rclpy  # noqa: PLC0415 - ROS reads the environment when it is loaded
@@ -100,103 +105,92 @@ class WorldProcess:
         self._close.append(context.try_shutdown)
         return context
 
-    def _obey(self, message: dict[str, Any]) -> None:
-        self._request = message.get("request")
+    def _obey(self, message: ToWorld) -> None:
+        self._request = message.request if isinstance(message, Request) else None
         try:
             self._dispatch(message)
         except DocumentError as error:
             self._refuse(error.problems[0], error.file, more=len(error.problems) - 1)
         except (WorldError, ValueError, TypeError, KeyError, OSError) as error:
-            _log.warning("%s is refused: %r", message["type"], error)
+            _log.warning("%s is refused: %r", name_of(message), error)
             code = getattr(error, "code", "bad_request")
-            self._say_error(code, str(error) if self._request else f"{message['type']}: {error}")
+            self._say_error(code, str(error) if self._request else f"{name_of(message)}: {error}")
         if self._request:
-            self._say({"type": "answer"})
+            self._answer(child_messages.Answer())
         self._request = None
 
-    def _dispatch(self, message: dict[str, Any]) -> None:
-        kind = message["type"]
-        if kind == "stop":
+    def _dispatch(self, message: ToWorld) -> None:
+        if isinstance(message, child_messages.Stop):
             raise _Stop
-        if kind == "start":
-            self._channel.send({"type": "starting"})
+        if isinstance(message, StartWorld):
+            self._channel.send(child_messages.Starting())
             with self._pulse.busy("building the world"):
                 self._start(message)
             return
-        if self._clockwork is None:
-            self._say_error("not_started", f"The world must be started before {kind!r}.")
+        if self._loop is None:
+            self._say_error("not_started", f"The world must be started before {name_of(message)!r}.")
             return
-        self._command(self._clockwork, kind, message)
+        self._command(self._loop, message)
 
-    def _command(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
-        match kind:
-            case "pause":
-                clockwork.pause()
-            case "resume":
-                clockwork.resume()
-            case "step":
-                clockwork.step(float(message["dt_s"]))
-            case "reset":
+    def _command(self, loop: SimulationLoop | OutsideGraph, message: WorldCommand) -> None:
+        match message:
+            case child_messages.Pause():
+                loop.pause()
+            case child_messages.Resume():
+                loop.resume()
+            case child_messages.StepWorld():
+                loop.step(message.dt_s)
+            case child_messages.Reset():
                 with self._pulse.busy("resetting the world"):
-                    clockwork.reset()
-            case "set_speed":
-                clockwork.set_speed(float(message["speed"]))
-            case "stop_robot":
-                clockwork.stop_robots()
-            case "teleop":
-                goes_on = bool(message.get("goes_on"))
-                clockwork.teleop(float(message["linear"]), float(message["angular"]), goes_on=goes_on)
-            case "move_body":
-                clockwork.move_body(str(message["id"]), message["pose"])
-            case "subscribe" | "unsubscribe" | "pace":
-                self._stream(clockwork, kind, message)
-            case "list_topics" | "echo_topic" | "publish_topic" | "describe_type":
+                    loop.reset()
+            case child_messages.SetSpeed():
+                loop.set_speed(message.speed)
+            case child_messages.StopRobot():
+                loop.stop_robots()
+            case child_messages.Teleop():
+                loop.teleop(message.linear, message.angular, goes_on=message.goes_on)
+            case child_messages.MoveBody():
+                loop.move_body(message.id, message.pose)
+            case child_messages.Subscribe() | child_messages.Unsubscribe() | child_messages.Pace():
+                self._stream(loop, message)
+            case _:
                 self._topics.obey(message)
-            case _:
-                self._say_error("unknown_message", f"The world knows no message {kind!r}.")
 
-    def _stream(self, clockwork: Clockwork | Outside, kind: str, message: dict[str, Any]) -> None:
-        match kind:
-            case "unsubscribe":
-                clockwork.streams.unsubscribe(message.get("client"), str(message["stream"]))
-            case "pace":
-                clockwork.streams.pace(message.get("client"), float(message["lost"]))
-            case _:
-                self._subscribe(clockwork, message)
+    @staticmethod
+    def _stream(loop: SimulationLoop | OutsideGraph, message: StreamMessage) -> None:
+        match message:
+            case child_messages.Subscribe():
+                loop.streams.subscribe(
+                    message.client,
+                    message.stream,
+                    max_hz=message.max_hz,
+                    width=message.width,
+                    camera_pose=message.camera_pose,
+                )
+            case child_messages.Unsubscribe():
+                loop.streams.unsubscribe(message.client, message.stream)
+            case child_messages.Pace():
+                loop.streams.pace(message.client, message.lost)
 
-    def _subscribe(self, clockwork: Clockwork | Outside, message: dict[str, Any]) -> None:
-        pose = message.get("camera_pose")
-        clockwork.streams.subscribe(
-            message.get("client"),
-            message["stream"],
-            max_hz=float(message.get("max_hz") or 30.0),
-            width=message.get("width"),
-            camera_pose=None if pose is None else msgspec.convert(pose, CameraPose),
-        )
-
-    def _start(self, message: dict[str, Any]) -> None:
-        if self._clockwork is not None:
+    def _start(self, message: StartWorld) -> None:
+        if self._loop is not None:
             self._say_error("already_started", "The world is running already.")
             return
-        if message["universe"] == "none":
+        if message.universe == "none":
             self._start_outside(message)
             return
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.node import WorldNode  # noqa: PLC0415
         from executor.ros.outlet import Outlet  # noqa: PLC0415
         from executor.ros.topics import Topics  # noqa: PLC0415
-        from executor.world.clockwork import Clockwork  # noqa: PLC0415
-        from executor.world.launch import make_world  # noqa: PLC0415
-        from executor.world.sensors import Sensors  # noqa: PLC0415
+        from executor.world.sensing.sensors import Sensors  # noqa: PLC0415
+        from executor.world.simulation.launch import make_world  # noqa: PLC0415
+        from executor.world.simulation.loop import SimulationLoop  # noqa: PLC0415
 
         self._progress(0.2, "Building the world")
-        assets = Path(message["assets"]) if message.get("assets") else None
+        assets = Path(message.assets) if message.assets else None
         world = make_world(
-            message["universe"],
-            seed=int(message.get("seed") or 0),
-            robot=message.get("robot"),
-            assets=assets,
-            file=message.get("file") or "",
+            message.universe, seed=message.seed, robot=message.robot, assets=assets, file=message.file
         )
         self._close.append(world.close)
         renderer = self._renderer
@@ -205,42 +199,38 @@ class WorldProcess:
         sensors = Sensors(world, lambda: renderer)
         self._close.append(sensors.close)
         self._progress(0.6, "Joining the ROS graph")
-        context = self._join(int(message.get("domain_id") or 0))
+        context = self._join(message.domain_id)
         renamed = {place.id: place.topics for place in world.universe.robots}
         true_poses = {place.id for place in world.universe.robots if place.ground_truth}
         outlet = Outlet()
         node = WorldNode(world, context, topics=renamed, true_poses=true_poses, outlet=outlet)
         self._close.append(node.close)
-        self._topics = Topics(node.node, self._say, commands=node, outlet=outlet)
-        clockwork = Clockwork(
-            world, sensors, node, self._channel.send, speed=float(message.get("speed", 1.0))
-        )
-        clockwork.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
-        clockwork.moved = self._moved
-        self._clockwork = clockwork
-        self._channel.send(
-            {"type": "ready", "renderer": renderer.name, "tf": has_tf(), "universe": world.name}
-        )
+        self._topics = Topics(node.node, self._answer, commands=node, outlet=outlet)
+        loop = SimulationLoop(world, sensors, node, self._channel.send, speed=message.speed)
+        loop.watchers += [self._topics.poll, Mismatches(node.node, self._channel.send).poll]
+        loop.moved = self._moved
+        self._loop = loop
+        self._channel.send(child_messages.WorldReady(renderer.name, has_tf(), world.name))
 
-    def _start_outside(self, message: dict[str, Any]) -> None:
+    def _start_outside(self, message: StartWorld) -> None:
         from executor.ros.mismatches import Mismatches  # noqa: PLC0415 - ROS reads the environment
         from executor.ros.topics import Topics  # noqa: PLC0415
-        from executor.world.outside import Outside  # noqa: PLC0415
+        from executor.world.simulation.outside_graph import OutsideGraph  # noqa: PLC0415
 
         self._progress(0.6, "Joining the outside ROS graph")
-        outside = Outside(self._join(int(message.get("domain_id") or 0)), self._channel.send)
+        outside = OutsideGraph(self._join(message.domain_id), self._channel.send)
         self._close.append(outside.close)
-        self._topics = Topics(outside.node, self._say)
+        self._topics = Topics(outside.node, self._answer)
         outside.watchers += [self._topics.poll, Mismatches(outside.node, self._channel.send).poll]
-        self._clockwork = outside
-        self._channel.send({"type": "ready", "renderer": "", "tf": has_tf(), "universe": "none"})
+        self._loop = outside
+        self._channel.send(child_messages.WorldReady("", has_tf(), "none"))
 
     def _moved(self, clocks: int) -> None:
         self._pulse.clocks = clocks
         self._pulse.moved()
 
     def _progress(self, fraction: float, text: str) -> None:
-        self._channel.send({"type": "progress", "fraction": fraction, "message": text})
+        self._channel.send(child_messages.Progress(fraction, text))
 
     def _refuse(self, problem: Problem, file: str, *, more: int) -> None:
         text = f"{file}:{problem.line}:{problem.column}: {problem.message}"
@@ -249,13 +239,16 @@ class WorldProcess:
         self._say_error(problem.code, text, problem.hint)
 
     def _say_error(self, code: str, text: str, hint: str = "") -> None:
-        error = {"code": code, "message": text, "hint": hint}
-        self._say({"type": "answer", "error": error} if self._request else {"type": "error", **error})
+        if self._request:
+            self._answer(child_messages.Answer(error=Error(code, text, hint)))
+        else:
+            self._channel.send(child_messages.Failed(code, text, hint))
         self._request = None
 
-    def _say(self, message: dict[str, Any]) -> None:
-        """Sends a message, with the token of the question that it answers."""
-        self._channel.send({**message, "request": self._request} if self._request else message)
+    def _answer(self, message: child_messages.Answer | TopicReply) -> None:
+        """Sends a message with the token of the request that it answers, if there is one."""
+        message.request = self._request
+        self._channel.send(message)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -268,8 +261,11 @@ def main(arguments: list[str] | None = None) -> None:
     for name, value in ros_environment(int(os.environ.get("ROS_DOMAIN_ID", "0"))).items():
         os.environ.setdefault(name, value)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the manager's to handle
-    channel = Channel(options.channel_fd)
-    WorldProcess(channel, Pulse(channel.send)).run()
+    channel: Channel[FromWorld, ToWorld] = Channel(options.channel_fd, decode_to_world)
+    try:
+        WorldProcess(channel, Pulse(channel.send)).run()
+    except ChannelError as error:
+        sys.exit(f"The manager sent a message that cannot be read: {error}")
 
 
 if __name__ == "__main__":

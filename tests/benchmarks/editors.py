@@ -46,6 +46,11 @@ class Editor:
         files = {file["path"]: file for file in self._project["files"]}
         self._revision, self._diagram = files[path]["revision"], json.loads(files[path]["content"])
 
+    async def leave(self) -> None:
+        """Disconnects."""
+        self._writer.close()
+        await self._writer.wait_closed()
+
     def look(self) -> connect:
         """A socket that waits for news of the project."""
         uri = f"ws://127.0.0.1:{self._port}/ws/projects/{self._project['id']}/notices"
@@ -78,6 +83,10 @@ class Editor:
                 await asyncio.sleep(max(0.0, started + pace_s - time.monotonic()))
 
     async def _ask(self, kind: str, method: str, path: str, body: object = None) -> dict:
+        return (await self.asked(kind, method, path, body))[1]
+
+    async def asked(self, kind: str, method: str, path: str, body: object = None) -> tuple[int, dict]:
+        """One request: its status, and the answer as JSON."""
         data = b"" if body is None else json.dumps(body).encode()
         head = f"{method} /api/v1/{path} HTTP/1.1\r\n{self._head}Content-Length: {len(data)}\r\n"
         head += "Content-Type: application/json\r\n\r\n"
@@ -90,7 +99,7 @@ class Editor:
             answer = await self._chunks()
         status = int(lines[0].split()[1])
         self._measured.add(kind, time.perf_counter() - started, status)
-        return json.loads(answer) if answer else {}
+        return status, json.loads(answer) if answer else {}
 
     async def _sent(self, request: bytes) -> bytes:
         """The head of the answer; a connection that was closed while idle is opened again."""

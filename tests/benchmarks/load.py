@@ -1,9 +1,9 @@
 """200 editors who save every 3 s: how long they wait, how many saves there can be, and what one costs.
 
-`python -m tests.benchmarks.load [--editors 200] [--seconds 30] [--local] [--sqlite]`. The server is one for a
-team, with PostgreSQL and Redis, and each editor has an account and is signed in; with `--local` all are the
-one user of a server on localhost. The editors have a core of their own; web server, PostgreSQL and Redis
-share the rest, so that figures are those of one core on a machine with two.
+`python -m tests.benchmarks.load [--editors 200] [--seconds 30] [--local] [--sqlite] [--workers N]`. The
+server is one for a team, with PostgreSQL and Redis, and each editor has an account and is signed in; with
+`--local` all are the one user of a server on localhost. The editors have a core of their own; web server,
+PostgreSQL and Redis share the rest, so that figures are those of one core on a machine with two.
 Each editor saves a diagram, and lists and opens projects now and then; 50 more look at nothing that happens.
 """
 
@@ -127,6 +127,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=30)
     parser.add_argument("--sqlite", action="store_true")
     parser.add_argument("--local", action="store_true")
+    parser.add_argument("--workers", type=int, default=0)
     options, _ = parser.parse_known_args()
     cores = sorted(os.sched_getaffinity(0))
     with ExitStack() as stack:
@@ -138,7 +139,8 @@ def main() -> None:
         elif not options.sqlite:
             settings["BT_STUDIO_DATABASE_URL"] = stack.enter_context(postgresql())
         print("SQLite" if options.sqlite else "PostgreSQL", "on localhost" if options.local else "for a team")
-        served = stack.enter_context(serving(folder, "--port", str(port), **settings))
+        more = ("--workers", str(options.workers)) if options.workers else ()
+        served = stack.enter_context(serving(folder, "--port", str(port), *more, **settings))
         people = [("Authorization", f"Bearer {served.token}")] * options.editors
         if not options.local:
             people = sign_in(folder, settings, options.editors)

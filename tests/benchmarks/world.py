@@ -16,7 +16,7 @@ from executor.render.gl import GlRenderer
 from executor.render.tiny import TinyRenderer
 from executor.ros.environment import ros_environment
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -127,6 +127,8 @@ def lockstep(example: str, duration_s: float) -> None:
 
 def processes() -> None:
     """Starts a world and a plain rclpy program, and counts what arrives."""
+    import msgspec
+
     from executor.supervision.channel import Channel, socket_pair
 
     environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
@@ -134,7 +136,7 @@ def processes() -> None:
     command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
     with subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment) as world:
         theirs.close()
-        channel = Channel(ours.detach())
+        channel = Channel(ours.detach(), msgspec.msgpack.decode)
         ready_s = _start(channel)
         listener = str(ROOT / "tests/executor/ros/camera_listener.py")
         heard = subprocess.Popen(

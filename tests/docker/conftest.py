@@ -9,7 +9,11 @@ from tests.budget import count
 from tests.docker.engine import why_not
 
 REASON = why_not() if count("docker_stack") else "`make test-docker` runs it"
-collect_ignore = ["test_gate.py", "test_local.py", "test_stack.py"] if REASON else []
+HEAVY = [
+    *("test_acme.py", "test_gate.py", "test_hostile.py", "test_local.py"),
+    *("test_stack.py", "test_up.py", "test_upgrade.py"),
+]
+collect_ignore = HEAVY if REASON else []
 
 
 def pytest_terminal_summary(terminalreporter):

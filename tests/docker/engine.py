@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 REPOSITORY = Path(__file__).parents[2]
 DATA = REPOSITORY / "var" / "docker"
 SOCKET = Path("/var/run/docker.sock")
-PACKAGES = ("docker.io", "docker-compose", "debootstrap", "iptables")
+PACKAGES = ("docker.io", "docker-compose", "debootstrap", "iptables", "shellcheck")
 # Debian's program first: what else is called docker on a machine may be another client.
 CANDIDATES = ("/usr/bin/docker", "docker")
 DEADLINE_S = 120
@@ -58,7 +58,7 @@ def why_not() -> str:
 
 
 def _has_programs() -> bool:
-    return all(shutil.which(name) for name in ("dockerd", "docker-compose", "debootstrap"))
+    return all(shutil.which(name) for name in ("dockerd", "docker-compose", "debootstrap", "shellcheck"))
 
 
 @contextmanager

@@ -21,16 +21,25 @@ from tests.docker.engine import REPOSITORY, _run
 from tests.executor.session_client import SessionClient
 
 if TYPE_CHECKING:
+    import ssl
+    from collections.abc import Mapping
     from pathlib import Path
 
     from tests.docker.engine import Engine
 
 COMPOSE = REPOSITORY / "docker" / "compose.yaml"
+PROXY = REPOSITORY / "docker" / "compose.proxy.yaml"
 DEADLINE_S = 240
 
 
 class Stack:
-    """One stack: `up`, `down`, and what is done to its containers."""
+    """One stack: `up`, `down`, and what is done to its containers.
+
+    The web server is asked directly, as by a reverse proxy; `team_server.py` has the stack with Caddy.
+    """
+
+    files: tuple[Path, ...] = (COMPOSE, PROXY)
+    tls: ssl.SSLContext | None = None
 
     def __init__(self, engine: Engine, folder: Path, tag: str, **settings: str) -> None:
         self.engine = engine
@@ -42,6 +51,7 @@ class Stack:
         self._file = folder / f"{self.name}.env"
         values = {
             "BT_STUDIO_VERSION": tag,
+            "BT_STUDIO_DOMAIN": "127.0.0.1",
             "BT_STUDIO_PUBLIC_URL": self.base,
             "BT_STUDIO_PUBLISH": f"127.0.0.1:{self.port}",
             "BT_STUDIO_SECRET_KEY": secrets.token_hex(32),
@@ -57,7 +67,8 @@ class Stack:
 
     @property
     def _command(self) -> tuple[str, ...]:
-        return (*self.engine.compose, "-p", self.name, "-f", str(COMPOSE), "--env-file", str(self._file))
+        files = (word for file in self.files for word in ("-f", str(file)))
+        return (*self.engine.compose, "-p", self.name, *files, "--env-file", str(self._file))
 
     def up(self) -> float:
         """Starts everything; returns after how many seconds the first page came."""
@@ -70,7 +81,7 @@ class Stack:
         deadline = time.monotonic() + DEADLINE_S
         while True:
             try:
-                with urllib.request.urlopen(self.base + "/accounts/login/", timeout=5):
+                with urllib.request.urlopen(self.base + "/accounts/login/", timeout=5, context=self.tls):
                     return
             except OSError as error:
                 if time.monotonic() > deadline:
@@ -78,15 +89,47 @@ class Stack:
                     raise AssertionError(f"there is no page: {error}\n{logs}") from error
                 time.sleep(0.1)
 
+    def await_healthy(self, service: str) -> None:
+        """Returns once the service's health check says so."""
+        self.await_container(self.container(service))
+
+    def await_container(self, name: str) -> None:
+        """Returns once the container's health check says so."""
+        deadline = time.monotonic() + DEADLINE_S
+        format_ = "{{.State.Health.Status}}"
+        while self.engine.run("inspect", "-f", format_, name).stdout.strip() != "healthy":
+            assert time.monotonic() < deadline, self.engine.run("logs", "--tail=40", name).stdout
+            time.sleep(0.5)
+
     def down(self) -> None:
         # First those who start containers.
-        self.compose("stop", "-t", "5", "web", "keeper")
+        self.compose("stop", "-t", "5", "web", "keeper", check=False)
         for name in self.sessions() + self.tools():
             self.engine.run("rm", "-f", name)
         self.compose("down", "-v", "-t", "5")
 
     def container(self, service: str) -> str:
         return self.compose("ps", "-q", service).stdout.strip()
+
+    @property
+    def address(self) -> tuple[str, int]:
+        """Where it listens."""
+        return "127.0.0.1", self.port
+
+    def restarts(self) -> dict[str, str]:
+        """How often each service was started again, and whether one was killed for memory."""
+        found = self.compose("ps", "-q").stdout.split()
+        format_ = "{{.Name}} {{.RestartCount}} {{.State.StartedAt}} {{.State.OOMKilled}}"
+        lines = self.engine.run("inspect", "-f", format_, *found).stdout.strip().splitlines()
+        return {name: rest for name, _, rest in (line.partition(" ") for line in lines)}
+
+    def memory(self) -> str:
+        """What each service uses now."""
+        found = self.compose("ps", "-q").stdout.split()
+        format_ = "{{.Name}} {{.MemUsage}} {{.PIDs}} pids"
+        return "; ".join(
+            self.engine.run("stats", "--no-stream", "--format", format_, *found).stdout.splitlines()
+        )
 
     def gateway(self) -> str:
         """The address of this machine on the network of the web server."""
@@ -139,23 +182,37 @@ class Stack:
 class User:
     """Somebody who has signed in by the page's form."""
 
-    def __init__(self, stack: Stack, name: str, password: str) -> None:
-        self._base = stack.base
-        self._jar = http.cookiejar.CookieJar()
-        self._opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(self._jar))
+    def __init__(
+        self, stack: Stack, name: str, password: str, headers: Mapping[str, str] | None = None
+    ) -> None:
+        self.begin(stack, headers or {})
         self._name, self._password = name, password
         self.sign_in()
 
+    def begin(self, stack: Stack, headers: Mapping[str, str]) -> None:
+        """A browser that nobody signed in with, and what it adds to each request."""
+        self._headers = headers
+        self._base, self._tls = stack.base, stack.tls
+        self._jar = http.cookiejar.CookieJar()
+        handlers = [urllib.request.HTTPCookieProcessor(self._jar)]
+        handlers += [urllib.request.HTTPSHandler(context=self._tls)] if self._tls else []
+        self._opener = urllib.request.build_opener(*handlers)
+
     def sign_in(self) -> None:
-        page = self._open("GET", "/accounts/login/").decode()
+        page = self.open("GET", "/accounts/login/").decode()
         token = re.search(r'name="csrfmiddlewaretoken" value="([^"]+)"', page)
         assert token is not None, page
         form = {"login": self._name, "password": self._password, "csrfmiddlewaretoken": token[1]}
-        self._open("POST", "/accounts/login/", urllib.parse.urlencode(form).encode())
+        self.open("POST", "/accounts/login/", urllib.parse.urlencode(form).encode())
         assert self.get("me")["user"] == self._name
 
-    def _open(self, method: str, path: str, data: bytes | None = None, kind: str = "") -> bytes:
-        headers = {"Origin": self._base, "Referer": self._base + path}
+    def open(self, method: str, path: str, data: bytes | None = None, kind: str = "") -> bytes:
+        """Asks for a page; its body.
+
+        Raises:
+            AssertionError: it was refused, and how.
+        """
+        headers = {"Origin": self._base, "Referer": self._base + path, **self._headers}
         headers |= {"Content-Type": kind} if kind else {}
         request = urllib.request.Request(self._base + path, data, headers, method=method)
         try:
@@ -166,7 +223,7 @@ class User:
 
     def _api(self, method: str, path: str, body: object = None):
         data = None if body is None else json.dumps(body).encode()
-        answer = self._open(method, f"/api/v1/{path}", data, "application/json" if data else "")
+        answer = self.open(method, f"/api/v1/{path}", data, "application/json" if data else "")
         return json.loads(answer) if answer else None
 
     def get(self, path: str):
@@ -191,24 +248,32 @@ class User:
 
     def open_language(self, project: str) -> connect:
         """The socket of an editor of Python."""
+        return self._open_socket(project, "language")
+
+    def open_notices(self, project: str) -> connect:
+        """The socket of a page that waits for news."""
+        return self._open_socket(project, "notices")
+
+    def _open_socket(self, project: str, name: str) -> connect:
         return connect(
-            f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/language",
+            f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/{name}",
             additional_headers={"Cookie": self.cookies},
             origin=self._base,
             proxy=None,
             open_timeout=60,
+            ssl=self._tls,
         )
 
     def client_of(self, session: dict[str, str]) -> RelayedClient:
-        return RelayedClient(self._base, session["id"], self.cookies)
+        return RelayedClient(self._base, session["id"], self.cookies, self._tls)
 
 
 class RelayedClient(SessionClient):
     """A client of a session through the web server, as a browser is one."""
 
-    def __init__(self, base: str, session_id: str, cookies: str) -> None:
+    def __init__(self, base: str, session_id: str, cookies: str, tls: ssl.SSLContext | None = None) -> None:
         super().__init__(0)
-        self._origin = base
+        self._origin, self._tls = base, tls
         self._session_id = session_id
         self._headers = {"Cookie": cookies}
 
@@ -227,4 +292,5 @@ class RelayedClient(SessionClient):
             compression=None,
             proxy=None,
             open_timeout=60,
+            ssl=self._tls,
         )

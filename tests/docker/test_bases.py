@@ -138,4 +138,4 @@ def test_a_digest_that_the_registry_does_not_have_is_not_replaced_by_the_tag(mac
 def test_without_a_registry_the_images_of_this_machine_are_taken(machine):
     assert script(machine, "docker/images.sh", "mine", BT_STUDIO_NO_PULL="1").returncode == 0
     assert calls(machine, "pull") == []
-    assert len(calls(machine, "build")) == 3
+    assert len(calls(machine, "build")) == 4

@@ -13,7 +13,8 @@ from tests.docker.engine import REPOSITORY
 
 DOCKER = REPOSITORY / "docker"
 MANIFESTS = sorted((DOCKER / "kubernetes").glob("*.yaml"))
-COMPOSE = sorted(DOCKER.glob("compose*.yaml"))
+OVERLAY = DOCKER / "compose.proxy.yaml"
+COMPOSE = sorted(set(DOCKER.glob("compose*.yaml")) - {OVERLAY})
 KUBERNETES = "1.31.0"
 
 
@@ -44,8 +45,22 @@ def test_compose_files_start_with_old_and_new_compose(path):
     assert "sockets:" not in mounts["gate"]
 
 
-def test_each_variable_of_the_compose_file_is_explained_in_the_example():
-    asked = set(re.findall(r"\$\{(BT_STUDIO_\w+)", (DOCKER / "compose.yaml").read_text()))
+def test_only_caddy_publishes_ports_unless_a_proxy_takes_its_place():
+    services = yaml.safe_load((DOCKER / "compose.yaml").read_text())["services"]
+    assert [name for name, service in services.items() if "ports" in service] == ["caddy"]
+    assert services["web"]["environment"]["BT_STUDIO_PROXY_HOPS"] == "1"
+    caddy = services["caddy"]
+    assert (caddy["read_only"], caddy["cap_drop"], "cap_add" in caddy) == (True, ["ALL"], False)
+    assert {"mem_limit", "pids_limit", "ulimits"} <= set(caddy)
+    variant = yaml.safe_load(OVERLAY.read_text())["services"]
+    assert set(variant) == {"web", "caddy"}
+    assert variant["web"]["ports"]
+    assert variant["caddy"] == {"profiles": ["without-a-proxy"]}
+
+
+def test_each_variable_of_the_compose_files_is_explained_in_the_example():
+    text = (DOCKER / "compose.yaml").read_text() + OVERLAY.read_text()
+    asked = set(re.findall(r"\$\{(BT_STUDIO_\w+)", text))
     explained = set(re.findall(r"(?m)^#? ?(BT_STUDIO_\w+)=", (DOCKER / ".env.example").read_text()))
     assert asked - explained == set()
 

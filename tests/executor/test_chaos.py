@@ -74,7 +74,7 @@ class Storm:
             os.kill(victim.pid, signal.SIGKILL)
         await self.has_ended(victim.pid)
         if is_used and self.session.state.reaches(State.UNIVERSE_READY):
-            # Whoever looks on is told what died, and of what.
+            # Viewers receive what died, and why.
             await self.client.event("fault", lambda d: "SIGKILL" in d["message"], after=at)
 
     @staticmethod
@@ -110,8 +110,8 @@ class Storm:
         self.took_s.append(time.monotonic() - began_s)
 
     def _is_consistent(self):
-        if self.session.state is State.IDLE or self.session.leaving:
-            return not self.session.leaving
+        if self.session.state is State.IDLE or self.session.children.leaving:
+            return not self.session.children.leaving
         started = {kind for kind, child in self.session.children.items() if child.is_started}
         needed = set()
         if self.session.state.reaches(State.UNIVERSE_READY):

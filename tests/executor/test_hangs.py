@@ -53,7 +53,7 @@ async def test_a_run_takes_another_spare_where_the_first_is_lost(kind, how):
 @pytest.mark.parametrize(
     ("state", "command"), [(State.APPLICATION_RUNNING, "pause"), (State.PAUSED, "resume")]
 )
-async def test_a_world_that_is_stopped_confirms_nothing_and_one_that_comes_back_obeys(state, command):
+async def test_a_stopped_world_answers_nothing_and_a_continued_one_works(state, command):
     async with hanging_session() as session:
         await session.climb(state)
         world = session.child("world")

@@ -45,7 +45,7 @@ async def named_end(client, topic, end):
 
 
 @pytest.mark.simulation
-async def test_the_application_drives_a_robot_that_is_not_ours_and_a_pause_has_it_stand():
+async def test_the_application_drives_an_outside_robot_and_a_pause_stops_it():
     async def told(robot, condition):
         async with asyncio.timeout(60):
             while not condition(float((await robot.readline()).split()[1])):

@@ -77,7 +77,7 @@ async def settled(client):
         await asyncio.sleep(0.3)
         if place is not None and place == client.robot_position():
             return place
-    raise TimeoutError("the robot never stands still")
+    raise TimeoutError("the robot never comes to rest")
 
 
 async def test_topics_are_listed_echoed_published_and_described():
@@ -119,12 +119,12 @@ async def test_topics_are_listed_echoed_published_and_described():
         right = {"topic": "/cmd_vel", "type": twist, "message": {"linear": {"x": 0.3}}}
         assert await client.ask("publish_topic", right) == "ack"
         assert await client.ask("move_body", {"id": "ghost", "pose": [0] * 6}) != "ack"
-        assert await settled(client) == place  # the world stands still
+        assert await settled(client) == place  # the world is paused
         await client.close()
 
 
 @pytest.mark.parametrize(("kind", "state"), [("world", "connected"), ("application", "visualization_ready")])
-async def test_a_killed_process_is_told_and_a_second_run_works(kind, state):
+async def test_a_killed_process_is_reported_and_a_second_run_works(kind, state):
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open()
         await start(client)

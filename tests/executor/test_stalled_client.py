@@ -39,7 +39,7 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
         held = sum(len(data) for data in waiting._frames.values())
         assert len(waiting._frames) <= 2
         assert held < 70_000
-        assert await client.ask("connect") == "ack"  # its other socket goes on
+        assert await client.ask("connect") == "ack"  # its other socket works
 
         client.stream.transport.resume_reading()
         last = FRAMES - 1
@@ -56,7 +56,7 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
         await client.close()
 
 
-async def test_the_share_of_lost_pictures_is_told_twice_a_second():
+async def test_the_share_of_lost_pictures_is_reported_twice_a_second():
     outbox = StreamOutbox()
     outbox.put("poses", pose_of(0, 1))
     assert outbox.lost_share(10.0) is None

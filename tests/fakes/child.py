@@ -11,6 +11,7 @@ import time
 
 import msgspec
 
+from executor.child_messages import Frame
 from executor.messages import View
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
@@ -22,8 +23,9 @@ ANSWERS = {"pause": "paused", "resume": "resumed", "step": "stepped", "set_black
 
 
 def obey(channel, pulse, *, on_start=lambda: None):
-    """Does what it is told until it is told to stop."""
+    """Obeys messages until it is stopped; a child whose start has an `app_dir` is an application."""
     pulse.rests()
+    answers = {}
     while True:
         pulse.moved()
         pulse.clocks += 1
@@ -33,18 +35,12 @@ def obey(channel, pulse, *, on_start=lambda: None):
         match message["type"]:
             case "start":
                 channel.send({"type": "starting"})
+                answers = ANSWERS if "app_dir" in message else {}
                 with pulse.busy("starting"):
                     on_start()
                 channel.send(READY)
             case "subscribe":
-                channel.send(
-                    {
-                        "type": "frame",
-                        "client": message["client"],
-                        "stream": message["stream"],
-                        "data": FRAME,
-                    }
-                )
+                channel.send(Frame(message["client"], message["stream"], FRAME))
             case _ if message.get("request"):
                 channel.send({"type": "answer", "request": message["request"]})
             case "exit":
@@ -53,8 +49,8 @@ def obey(channel, pulse, *, on_start=lambda: None):
                 channel.send(message["message"])
             case "stop":
                 return
-            case type_ if type_ in ANSWERS:
-                channel.send({"type": ANSWERS[type_]})
+            case type_ if type_ in answers:
+                channel.send({"type": answers[type_]})
 
 
 def flood():
@@ -110,7 +106,7 @@ def main():
     parser.add_argument("--channel-fd", type=int, required=True)
     arguments = parser.parse_args()
     die_with_parent()
-    channel = Channel(arguments.channel_fd)
+    channel = Channel(arguments.channel_fd, msgspec.msgpack.decode)
     pulse = Pulse(channel.send)
     habits = {
         "good": lambda: obey(channel, pulse),

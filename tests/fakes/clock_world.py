@@ -6,6 +6,8 @@ import argparse
 import os
 import time
 
+import msgspec
+
 from executor.supervision.channel import Channel, ChannelClosed
 from executor.supervision.confine import die_with_parent
 from executor.supervision.pulse import Pulse
@@ -85,7 +87,7 @@ def main():
     parser.add_argument("--mute-after", type=float, default=float("inf"))
     arguments = parser.parse_args()
     die_with_parent()
-    channel = Channel(arguments.channel_fd)
+    channel = Channel(arguments.channel_fd, msgspec.msgpack.decode)
     try:
         ClockWorld(channel, Pulse(channel.send), arguments.mute_after).run()
     except ChannelClosed:

@@ -81,6 +81,7 @@ def test_dependabot_looks_after_every_kind_of_dependency():
 
 def test_there_are_images_to_look_after():
     assert {name.partition("@")[0].partition(":")[0] for name in images()} == {
+        "caddy",
         "debian",
         "node",
         "postgres",

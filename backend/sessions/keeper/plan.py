@@ -21,6 +21,8 @@ TOOLS_LABEL: Final = "org.bt-studio.tools"
 STACK_LABEL: Final = "org.bt-studio.stack"
 USER: Final = "10001:10001"
 PORT: Final = 7163
+CPU_SHARES: Final = 256
+"""Weight beside the server's own containers, which have 1024 each: answers come before robots."""
 MEBIBYTE: Final = 1024 * 1024
 PROFILE: Final = Path(__file__).with_name("seccomp.json")
 
@@ -154,6 +156,7 @@ class Plan:
                 "Init": True,
                 "Memory": memory,
                 "MemorySwap": memory,
+                "CpuShares": CPU_SHARES,
                 # Docker refuses to give more than the machine has.
                 "NanoCpus": int(min(limits.cpus, os.cpu_count() or 1) * 1e9),
                 "PidsLimit": int(limits.pids),

@@ -27,7 +27,7 @@ class History:
         self._samples: list[Sample] = []
 
     def add(self, sample: Sample) -> bool:
-        """Takes a sample, and forgets those that are too old; tells whether it was new and not too old."""
+        """Adds a sample and removes old ones; returns whether it was new and not too old."""
         if self.is_static:
             self._samples = [sample]
             return True

@@ -89,7 +89,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = None,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002 - as in tf2
     ) -> Any:
-        """Tells whether there is a transform, waiting for it up to `timeout`; why not, if asked for."""
+        """Returns whether there is a transform, after waiting up to `timeout`; optionally with the reason."""
         self._wait(lambda: self.can_transform_core(target_frame, source_frame, time)[0], timeout)
         result = self.can_transform_core(target_frame, source_frame, time)
         return result if return_debug_tuple else result[0]

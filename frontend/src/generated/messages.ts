@@ -23,6 +23,8 @@ export type Role = "driver" | "viewer";
 
 export type LaunchState = "running" | "ended" | "failed";
 
+export type FaultKind = "exception" | "process" | "timeout" | "load";
+
 export type FinishReason = "root_finished" | "action_raised" | "terminated" | "process_died";
 
 /** A command without arguments. */
@@ -92,13 +94,13 @@ export interface MoveBody {
   pose: [number, number, number, number, number, number];
 }
 
-/** Where the server's own view looks from: eye and target in m, world frame. */
+/** Camera of the server's own view: eye and target in m, world frame. */
 export interface CameraPose {
   eye: [number, number, number];
   target: [number, number, number];
 }
 
-/** Asks for a stream on this client's stream socket; again with other values changes them. */
+/** Subscribes to a stream on this client's stream socket, or changes a subscription. */
 export interface Subscribe {
   stream: StreamName;
   max_hz?: number;
@@ -114,7 +116,7 @@ export interface Unsubscribe {
 /**
  * Sends the latest message of a topic as `topic_message`, at most `max_hz`; 0 ends it.
  *
- * Where several clients echo a topic, all get it at the highest rate that one of them asked for.
+ * If several clients echo a topic, all receive it at the highest of their rates.
  */
 export interface EchoTopic {
   topic: string;
@@ -122,10 +124,9 @@ export interface EchoTopic {
 }
 
 /**
- * Publishes one message, `message` as JSON in the fields of `type` (`std_msgs/msg/String`).
+ * Publishes one message; `message` holds the fields of `type` (`std_msgs/msg/String`) as JSON.
  *
- * Fields that are left out keep their default. `"inf"`, `"-inf"` and `"nan"` stand
- * for the numbers that JSON has not.
+ * Missing fields keep their defaults. `"inf"`, `"-inf"` and `"nan"` stand for the numbers that JSON lacks.
  */
 export interface PublishTopic {
   topic: string;
@@ -133,12 +134,12 @@ export interface PublishTopic {
   message: Record<string, unknown>;
 }
 
-/** Asks for the fields of a message type; the answer is a `type_description` to this client alone. */
+/** Requests the fields of a message type; this client alone receives a `type_description`. */
 export interface DescribeType {
   type: string;
 }
 
-/** Starts an extra node of the project's launch files again; `id` as in `launch_nodes`. */
+/** Restarts a node of the project's launch files; `id` as in `launch_nodes`. */
 export interface RestartNode {
   id: string;
 }
@@ -163,12 +164,12 @@ export interface Error {
 /**
  * First message on a connection, sent again when the client's role or what the world can do changes.
  *
- * `renderer` and `tf` are of the world that is up: "" and false before it is ready.
+ * `renderer` and `tf` describe the running world: "" and false before it is ready.
  *
  * `client_id` names this client when it opens the stream socket.
  *
- * With the variables of `ros_environment` a ROS program on the session's host joins its graph; they are
- * empty where the session is closed off.
+ * With the variables of `ros_environment` a ROS program on the session's host joins its graph; empty if the
+ * session is isolated.
  */
 export interface Introspection {
   protocol: string;
@@ -183,13 +184,13 @@ export interface Introspection {
   ros_environment: Record<string, string>;
 }
 
-/** The ladder stands on another rung; `reason` is for people, empty when it was asked for. */
+/** The state of the ladder changed; `reason` is for users, empty if a command asked for it. */
 export interface StateChanged {
   state: State;
   reason: string;
 }
 
-/** A long step goes on: fraction 0 to 1 of this rung, and a sentence. */
+/** Progress of a long step: fraction 0 to 1 of this rung, and a sentence. */
 export interface Progress {
   rung: Rung;
   fraction: number;
@@ -221,7 +222,7 @@ export interface Tick {
   duration_ms: number;
 }
 
-/** One changed entry; large values come as a preview (text), told by `preview`. */
+/** One changed entry; large values are sent as a preview (text), with `preview` set. */
 export interface BlackboardEntry {
   scope: string;
   key: string;
@@ -247,9 +248,9 @@ export interface Log {
   launch_node: string;
 }
 
-/** Something broke: an exception in an action, or a process that died or hangs. */
+/** A failure: an exception in an action, or a process that died or hangs. */
 export interface Fault {
-  kind: "exception" | "load" | "process" | "timeout";
+  kind: FaultKind;
   message: string;
   hint: string;
   node_id: string;
@@ -283,9 +284,9 @@ export interface Sim {
 /**
  * One ROS topic: its rate over the last two seconds, and the nodes at both of its ends.
  *
- * `hz` and `bytes_per_s` are null where nothing was measured: pictures and clouds are measured only while a
- * client echoes them, and the first `list_topics` after a while starts the measuring. `types` has more than
- * `type` where a robot takes several on its topic of commands.
+ * `hz` and `bytes_per_s` are null without a measurement: images and point clouds are measured only while a
+ * client echoes them, and the first `list_topics` after a while starts the measurement. `types` has more
+ * than `type` if a robot accepts several types on its command topic.
  */
 export interface TopicInfo {
   name: string;
@@ -305,7 +306,7 @@ export interface Topics {
 /**
  * One message of a topic that a client echoes.
  *
- * Numbers that JSON has not (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
+ * Numbers that JSON lacks (infinite, not a number) are null. Long arrays and texts are shortened: `cut`
  * names them by their path (`ranges`, `pose.covariance`) with their true length. `bytes` is the size of the
  * message on the wire.
  */
@@ -325,10 +326,10 @@ export interface TypeDescription {
 }
 
 /**
- * Two ends of a topic do not match, so that nothing arrives; told once for as long as both are there.
+ * Two ends of a topic do not match, so no message arrives; reported once while both exist.
  *
- * `publisher` and `subscriber` are nodes; `reason` is what differs: the message type, or the quality of
- * service. `hint` is the remedy.
+ * `publisher` and `subscriber` are nodes; `reason` is the difference: message type or quality of service.
+ * `hint` says how to fix it.
  */
 export interface TopicMismatch {
   topic: string;
@@ -340,9 +341,9 @@ export interface TopicMismatch {
 }
 
 /**
- * An extra process of the project's launch files; `file` and `line` are where it is asked for.
+ * A process of the project's launch files; `file` and `line` are its place there.
  *
- * `end` says how it ended: exit code or signal, or why it could not be started.
+ * `end` says how it ended (exit code or signal), or why it could not be started.
  */
 export interface LaunchNode {
   id: string;
@@ -356,12 +357,12 @@ export interface LaunchNode {
   end: string;
 }
 
-/** All extra nodes of the application, whenever one of them changes. */
+/** All launch nodes of the application, sent when one of them changes. */
 export interface LaunchNodes {
   nodes: LaunchNode[];
 }
 
-/** Everything a client that joins late needs; deltas follow. */
+/** Full state for a client that joins late; deltas follow. */
 export interface Snapshot {
   state: State;
   tree: Tree | null;
@@ -390,13 +391,13 @@ export interface ServerMessage {
  * A visual shape in its object's frame.
  *
  * Args:
- *     shape: what it is. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
+ *     shape: its kind. `size` in m is [x, y, z] for a box, [radius, length] for a cylinder or a
  *         capsule along z, [radius] for a sphere, [x, y] for a plane, [sx, sy, sz] (scale) for a mesh.
  *     pose: [x, y, z, qx, qy, qz, qw] in the object's frame.
  *     color: [r, g, b, a], each 0 to 1, sRGB.
  *     mesh: key in `Scene.meshes` for a mesh, else "".
  *     texture: key in `Scene.textures`, or "" for none; the colour tints it.
- *     ceiling: it is overhead, or a wall's upper part: for robots' cameras, not for views of the world.
+ *     ceiling: overhead, or the upper part of a wall: drawn for robots' cameras, not for views of the world.
  */
 export interface Shape {
   shape: "box" | "capsule" | "cylinder" | "mesh" | "plane" | "sphere";
@@ -421,7 +422,7 @@ export interface SceneObject {
 /**
  * Triangles: positions and normals as little-endian float32 (3 a vertex), indices as uint32.
  *
- * Where the file says which part of a picture belongs where, `uvs` are two float32 a vertex; v points up.
+ * `uvs` are the texture coordinates of the file, if any: two float32 a vertex; v points up.
  */
 export interface Mesh {
   positions: Uint8Array;
@@ -431,23 +432,22 @@ export interface Mesh {
 }
 
 /**
- * A picture that repeats: a JPEG file, and how wide and high one repetition is in m.
+ * A repeated image: a JPEG file, and the width and height of one repetition in m.
  *
- * It lies on shapes as `executor/render/mapping.py` says; on a mesh with `uvs` of its own as they say,
- * whatever the size.
+ * `executor/render/mapping.py` maps it to shapes; on a mesh with `uvs` these do, and the size is unused.
  */
 export interface Texture {
   jpeg: Uint8Array;
   tile: number[];
 }
 
-/** A directional light; the direction is the one in which it shines. */
+/** A directional light, with the direction of its rays. */
 export interface Light {
   direction: number[];
   intensity: number;
 }
 
-/** Where a sensor sits: pose in the frame of object `object_id`; `fov` is horizontal, in rad. */
+/** Pose of a sensor in the frame of object `object_id`; `fov` is horizontal, in rad. */
 export interface SensorPlacement {
   name: string;
   kind: "camera" | "lidar";
@@ -457,7 +457,7 @@ export interface SensorPlacement {
   range: number;
 }
 
-/** The world, once for each client and again when it changes. */
+/** The world, sent once to each client and again when it changes. */
 export interface Scene {
   type: "scene";
   name: string;
@@ -474,8 +474,9 @@ export interface Scene {
 /**
  * Poses that changed: `ids` little-endian uint16, and 16 bytes of `poses` an id.
  *
- * Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 says which of qx, qy, qz, qw is left out (the
- * largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)). Little-endian.
+ * Of these, bytes 0-8 are x, y, z as int24 in 0.1 mm; byte 9 is the index of the omitted one of qx, qy, qz,
+ * qw (the largest, made positive); bytes 10-15 are the others as int16 in 1/(32767 * sqrt(2)).
+ * Little-endian.
  */
 export interface Poses {
   type: "poses";

@@ -92,3 +92,27 @@ def test_a_drain_begins_and_ends_in_the_terminal(person, terminal, capsys):
     assert drain.text().endswith("Back at 15:00.")
     commands.drain(off=True)
     assert drain.text() == ""
+
+
+def test_the_first_administrator_is_made_once_and_has_a_link_until_a_password(person, terminal, capsys):
+    person("olga")
+    commands.create("ada", first=True)
+    made = capsys.readouterr().out
+    assert made.startswith("ada is made.")
+    # Whoever missed the link gets another, whatever name is given, and no second administrator.
+    commands.create("otto", first=True)
+    again = capsys.readouterr().out
+    assert again.startswith("ada is an administrator.")
+    assert "/accounts/password/reset/key/" in again
+    assert not User.objects.filter(username="otto").exists()
+    ada = User.objects.get(username="ada")
+    ada.set_password("a long password")
+    ada.save()
+    commands.create("ada", first=True)
+    assert capsys.readouterr().out == "ada is an administrator.\n"
+
+
+def test_an_administrator_who_was_deactivated_does_not_count(person, terminal, capsys):
+    User.objects.filter(pk=person("ada", is_admin=True).user.pk).update(is_active=False)
+    commands.create("otto", first=True)
+    assert capsys.readouterr().out.startswith("otto is made.")

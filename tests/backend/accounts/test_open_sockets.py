@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from uuid import UUID
 
 import pytest
 from asgiref.sync import sync_to_async
@@ -11,8 +12,8 @@ from django.db import connections
 from django.utils import timezone
 
 from backend.accounts.models import User
-from backend.config.sockets import SIGNED_OUT, Route, serve
-from backend.projects.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, serve_notices
+from backend.config.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
+from backend.projects.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
 from backend.sessions import actions as session_actions
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
@@ -60,6 +61,25 @@ def closed_after(browser, project, deed):
     kind, code = asyncio.run(listen())
     assert kind == "websocket.close"
     return code
+
+
+def test_who_may_not_use_a_socket_is_told_so(person):
+    owner, friend = person("olga"), person("fred")
+    one = shared_project(owner, name="fred", role="viewer")
+
+    async def written(call, receive, send):
+        await sync_to_async(may_write)(UUID(call.address[1]), call.user)
+
+    async def code():
+        heard, said = asyncio.Queue(), asyncio.Queue()
+        said.put_nowait({"type": "websocket.connect"})
+        routes = {ADDRESS: Route(written, may_write)}
+        await serve(routes, scope_of(friend, f"/ws/projects/{one}/notices"), said.get, heard.put)
+        await sync_to_async(connections.close_all)()
+        assert heard.get_nowait()["type"] == "websocket.accept"
+        return heard.get_nowait()["code"]
+
+    assert asyncio.run(code()) == FORBIDDEN
 
 
 def test_whoever_is_taken_out_of_a_project_hears_no_more_of_it(person):

@@ -13,6 +13,7 @@ SOURCES = re.compile(
 ALLOWED = {
     "config/clients.py": "the one place",
     "config/middleware.py": "hands both to clients.address_of, and keeps what it says",
+    "config/owners.py": "hands both to clients.address_of",
     "config/probes.py": "hands both to clients.is_on_this_machine",
     "config/team.py": "words of a setting",
     "accounts/adapters.py": "allauth's question, answered with what the guard kept",

@@ -43,6 +43,28 @@ def test_there_are_never_more_and_nothing_is_left_undone(threads):
     assert {worker for _, worker in done} <= {"test_0", "test_1", "test_2"}
 
 
+def test_one_owner_has_a_share_and_the_others_find_a_free_thread():
+    threads = Threads(4, "test", per_owner=2)
+    gates = {name: threading.Event() for name in ("greedy", "other")}
+
+    async def ask():
+        loop = asyncio.get_running_loop()
+        greedy = [threads.run(loop, gates["greedy"].wait, "greedy") for _ in range(20)]
+        other = [threads.run(loop, gates["other"].wait, "other") for _ in range(2)]
+        assert (threads.full_for_s(), len(threads._waiting)) == (pytest.approx(0, abs=60), 18)
+        gates["other"].set()
+        await asyncio.gather(*other)
+        # Two are free again, and not for the greedy one.
+        assert await asyncio.gather(*(threads.run(loop, lambda n=n: n, f"user {n}") for n in range(9)))
+        assert await threads.run(loop, lambda: "nobody's") == "nobody's"
+        assert (len(threads._waiting), threads.full_for_s()) == (18, 0.0)
+        gates["greedy"].set()
+        return await asyncio.gather(*greedy)
+
+    assert asyncio.run(ask()) == [True] * 20
+    threads.end()
+
+
 def test_an_error_comes_back_and_the_thread_works_on(threads):
     async def ask():
         loop = asyncio.get_running_loop()

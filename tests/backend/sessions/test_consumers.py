@@ -15,7 +15,7 @@ from websockets.sync.client import connect
 from backend.config import guard
 from backend.config.server import _make_server, bind
 from backend.config.sockets import Route, serve
-from backend.config.websocket import READ_BYTES, PatientSocket
+from backend.config.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
 from backend.sessions import actions
 from backend.sessions.consumers import (
     ADDRESS,
@@ -34,7 +34,7 @@ MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"
 
 
 async def application(scope, receive, send):
-    await serve({ADDRESS: Route(relay_socket, may_use)}, scope, receive, send)
+    await serve({ADDRESS: Route(relay_socket, may_use, LARGEST_MESSAGE)}, scope, receive, send)
 
 
 @pytest.fixture

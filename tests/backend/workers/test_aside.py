@@ -37,11 +37,16 @@ def test_one_owner_leaves_threads_to_the_others_and_too_much_is_refused():
     assert begun.wait(60)
     second = aside.ask("a", work)  # waits for the first, though a thread is free
     assert aside.ask("b", lambda: "done").result(60) == "done"
-    third = aside.ask("a", work)
     with pytest.raises(BusyError):
-        aside.ask("c", work)
+        aside.ask("a", work)  # one owner has half of the room at most
+    begun.clear()
+    third = aside.ask("c", work)
+    assert begun.wait(60)
+    fourth = aside.ask("c", work)
+    with pytest.raises(BusyError):
+        aside.ask("d", work)
     go.set()
-    assert all(future.result(60) for future in (first, second, third))
+    assert all(future.result(60) for future in (first, second, third, fourth))
 
 
 def test_a_formatter_that_hangs_holds_no_thread_of_requests(monkeypatch):

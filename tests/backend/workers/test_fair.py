@@ -42,6 +42,18 @@ def test_what_has_no_room_is_refused():
     assert len(queue) == 2
 
 
+def test_one_owner_fills_half_of_the_room_at_most():
+    queue = FairQueue(room=4, per_owner=1)
+    queue.put("a", 1)
+    queue.put("a", 2)
+    with pytest.raises(QueueFullError):
+        queue.put("a", 3)
+    queue.put("b", 1)
+    queue.put("c", 1)
+    with pytest.raises(QueueFullError):
+        queue.put("d", 1)
+
+
 @given(st.lists(st.one_of(st.sampled_from("abc"), st.just("take"), st.just("done")), max_size=60))
 def test_everything_is_worked_on_once_and_in_its_owners_order(events):
     queue = FairQueue(room=1000, per_owner=2)

@@ -120,9 +120,9 @@ def test_more_than_may_wait_is_refused_with_when_to_ask_again(make_pool):
     try:
         going = [pack(pool, 10)]
         until(lambda: pool.waiting == 0)
-        going += [pack(pool, 11), pack(pool, 12)]
+        going += [pack(pool, 11, "owner 1"), pack(pool, 12, "owner 2")]
         with pytest.raises(BusyError) as refused:
-            pack(pool, 13)
+            pack(pool, 13, "owner 3")
         assert (refused.value.status, refused.value.retry_after_s) == (503, 5)
     finally:
         os.kill(pids(pool)[0], signal.SIGCONT)

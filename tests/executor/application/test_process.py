@@ -1,4 +1,4 @@
-"""The application process in a session: what actions may do, and what is heard of it."""
+"""The application process in a session: what actions may do, and how it is reported."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ async def second_run_works(client):
     await client.event("tick", lambda d: d["n"] > 3, after=at)
 
 
-async def test_a_run_is_told_from_tree_to_finish():
+async def test_a_run_is_reported_from_tree_to_finish():
     source = action("""
 def setup(self, **kwargs):
     print("in setup")
@@ -176,7 +176,7 @@ async def test_an_action_that_raises_ends_the_run_with_its_line():
         await second_run_works(client)
 
 
-async def test_on_error_failure_goes_on_and_does_not_flood():
+async def test_on_error_failure_continues_and_does_not_flood():
     source = action("def update(self):\n    raise ValueError('no')")
     async with session() as client:
         assert await client.ask("run", run_data(app(source), on_error="failure", on_finish="repeat")) == "ack"
@@ -200,7 +200,7 @@ async def test_on_error_failure_goes_on_and_does_not_flood():
     ],
     ids=["syntax", "import", "class", "setup", "exit"],
 )
-async def test_an_application_that_does_not_load_says_where(source, line, text):
+async def test_an_application_that_does_not_load_reports_the_place(source, line, text):
     async with session() as client:
         reply = await client.ask("run", run_data(app(source)))
         assert reply["code"] == "load_failed"
@@ -248,7 +248,7 @@ async def test_a_tick_that_hangs_is_named_and_ended(command, source):
         await second_run_works(client)
 
 
-async def test_a_hanging_tick_is_reported_unasked_and_run_replaces_it():
+async def test_a_hanging_tick_is_reported_without_a_command_and_run_replaces_it():
     async with session() as client:
         assert await client.ask("run", run_data(app(HANGING))) == "ack"
         fault = (await client.event("fault"))["data"]
@@ -308,7 +308,7 @@ async def test_a_sleep_that_holds_the_interpreter_is_named_too():
     ],
     ids=["import", "setup"],
 )
-async def test_what_never_loads_is_named_and_ended(source, line):
+async def test_an_action_that_never_loads_is_reported_and_ended(source, line):
     async with session() as client:
         reply = await client.ask("run", run_data(app(source)))
         assert reply["code"] == "process_died"
@@ -318,7 +318,7 @@ async def test_what_never_loads_is_named_and_ended(source, line):
         await second_run_works(client)
 
 
-async def test_what_computes_while_it_loads_is_named_and_may_finish():
+async def test_an_action_that_computes_while_loading_is_reported_and_may_finish():
     body = "import time\nend = time.monotonic() + 12\nwhile time.monotonic() < end: pass\n"
     async with session() as client:
         assert await client.ask("run", run_data(app(body + UPDATE_RUNNING))) == "ack"
@@ -351,7 +351,7 @@ async def test_an_application_that_hears_no_time_is_started_again_once(tmp_path)
         assert len(client.named("fault")) == 1
 
 
-async def test_a_world_that_tells_no_time_is_named_and_ended_in_the_end():
+async def test_a_world_that_publishes_no_time_is_reported_and_finally_ended():
     async with session(mute_after_s=0.5) as client:
         assert await client.ask("run", run_data(app(UPDATE_RUNNING))) == "ack"
         await client.event("state-changed", lambda d: d["state"] == "connected" and d["reason"])
@@ -387,7 +387,7 @@ async def test_actions_that_do_their_worst(body, kind, text):
         await second_run_works(client)
 
 
-async def test_a_callback_that_raises_is_told_with_its_node():
+async def test_a_callback_that_raises_is_reported_with_its_node():
     source = """
 import py_trees
 from rosgraph_msgs.msg import Clock

@@ -9,7 +9,7 @@ from tests.executor.application.test_process import HEAD, action, app, run_data,
 pytestmark = pytest.mark.simulation
 
 
-async def test_rclpy_in_an_action_does_what_tutorials_expect():
+async def test_rclpy_in_an_action_works_as_in_tutorials():
     source = (
         HEAD.replace("import py_trees\n", "import threading\n\nimport py_trees\nimport rclpy\n")
         + """
@@ -55,7 +55,7 @@ async def test_rclpy_in_an_action_does_what_tutorials_expect():
         ("self.node.destroy_node()", "node.destroy_node() would take the node from the whole tree"),
     ],
 )
-async def test_what_would_take_ros_from_the_tree_is_a_fault(call, sentence):
+async def test_shutting_down_the_ros_of_the_tree_is_a_fault(call, sentence):
     source = action(
         'def setup(self, **kwargs):\n    self.node = kwargs["node"]\n'
         f"def update(self):\n    import rclpy\n    {call}"
@@ -69,7 +69,7 @@ async def test_what_would_take_ros_from_the_tree_is_a_fault(call, sentence):
         await second_run_works(client)
 
 
-async def test_invalid_counts_as_failure_and_is_told_once():
+async def test_invalid_counts_as_failure_and_is_reported_once():
     source = action("def update(self):\n    return Status.INVALID")
     async with session() as client:
         assert await client.ask("run", run_data(app(source), on_finish="repeat")) == "ack"
@@ -80,7 +80,7 @@ async def test_invalid_counts_as_failure_and_is_told_once():
         assert client.named("fault") == []
 
 
-async def test_a_run_of_stubs_says_so():
+async def test_a_run_of_stubs_reports_them():
     stub = action(
         '"""bt-studio: to be written."""\ndef update(self):\n    return py_trees.common.Status.FAILURE'
     )

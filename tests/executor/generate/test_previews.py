@@ -17,7 +17,7 @@ COMMITTED = [universe_preview(name) for name in BUILTIN_IDS] + [robot_preview(na
 
 
 @pytest.mark.parametrize("path", COMMITTED, ids=lambda path: f"{path.parent.name}-{path.stem}")
-def test_each_has_a_small_picture_that_shows_something(path: Path) -> None:
+def test_each_has_a_small_picture_that_is_not_empty(path: Path) -> None:
     data = path.read_bytes()
     picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
     assert len(data) <= previews.MOST_BYTES

@@ -9,7 +9,7 @@ from typing import Any
 
 from executor.headless import lockstep
 from executor.headless.lockstep import LockstepOptions, run_lockstep
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 
 def main() -> None:

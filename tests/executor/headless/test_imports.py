@@ -90,7 +90,7 @@ def test_unwritten_stubs_are_named_and_end_with_status_1(tmp_path: Path, how: li
     assert "Traceback" not in done.stderr
 
 
-def test_a_stub_that_no_running_tree_uses_is_nobodys_matter(tmp_path: Path) -> None:
+def test_a_stub_that_no_running_tree_uses_is_not_reported(tmp_path: Path) -> None:
     done = studio("import", write_wanderer(tmp_path / "theirs"), "-o", tmp_path / "imported")
     stub = tmp_path / "imported" / "actions" / "Later.py"
     stub.write_text(

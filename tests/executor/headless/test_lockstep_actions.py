@@ -159,7 +159,7 @@ def update(self):
     assert error["node_path"].startswith("Act")
 
 
-def test_what_tutorials_do_with_rclpy_works(tmp_path: Path) -> None:
+def test_rclpy_works_as_in_tutorials(tmp_path: Path) -> None:
     body = """
 def setup(self, **kwargs):
     rclpy.init()
@@ -227,7 +227,7 @@ def update(self):
         ("self.node.destroy_node()", "node.destroy_node() would take the node from the whole tree"),
     ],
 )
-def test_what_would_take_ros_away_is_a_fault(tmp_path: Path, call: str, sentence: str) -> None:
+def test_shutting_ros_down_is_a_fault(tmp_path: Path, call: str, sentence: str) -> None:
     status, report, said = run(project(tmp_path, SPEAK + f"def update(self):\n    {call}\n"))
     assert status == 1
     assert sentence in said
@@ -255,7 +255,7 @@ def update(self):
     assert "speed 7 found" in said
 
 
-def test_ends_of_a_topic_that_do_not_match_are_told_once(tmp_path: Path) -> None:
+def test_mismatched_ends_of_a_topic_are_reported_once(tmp_path: Path) -> None:
     body = """
 def setup(self, **kwargs):
     node = kwargs["node"]

@@ -109,7 +109,7 @@ def test_the_seed_reaches_the_actions_in_real_time_too(tmp_path: Path) -> None:
     assert drawn[1:4] == first.split()[1:4]
 
 
-def test_what_the_default_robot_measures_depends_on_the_seed(tmp_path: Path) -> None:
+def test_measurements_of_the_default_robot_depend_on_the_seed(tmp_path: Path) -> None:
     folder = project(tmp_path / "scan", "Scan", SCAN)
     first, report = run(folder, 1, "1")
     assert "heard [" in first
@@ -118,7 +118,7 @@ def test_what_the_default_robot_measures_depends_on_the_seed(tmp_path: Path) -> 
     assert other != first
 
 
-def test_a_run_without_anything_random_says_so_once(tmp_path: Path) -> None:
+def test_a_run_without_randomness_reports_that_once(tmp_path: Path) -> None:
     folder = project(tmp_path / "idle", "Idle", IDLE, robot="quiet")
     shutil.copytree(ROBOT, folder / "robots" / "quiet")
     model = folder / "robots" / "quiet" / "robot.yaml"

@@ -51,7 +51,7 @@ def project(tmp_path):
     return write
 
 
-def test_a_project_without_launch_files_asks_for_nothing(tmp_path):
+def test_a_project_without_launch_files_has_no_launch_nodes(tmp_path):
     assert read_launch_files(tmp_path).nodes == ()
 
 
@@ -114,7 +114,7 @@ def test_a_python_launch_file_is_listed_with_the_reason_why_it_is_not_started(pr
         ("launch:\n" + "  - node: {exec: x}\n" * (MOST_NODES + 1), (MOST_NODES + 2, 11), "more than"),
     ],
 )
-def test_what_is_wrong_is_refused_with_its_place(project, text, place, message):
+def test_errors_are_refused_with_their_place(project, text, place, message):
     if place is None:
         assert len(project(text).nodes) == 2
         return

@@ -38,13 +38,13 @@ def test_with_the_right_token_every_host_is_answered(host):
 
 
 @pytest.mark.parametrize("given", ["", "secret", "Bearer", "Bearer Secret", "Bearer sécret", "Basic secret"])
-def test_without_the_token_nothing_but_health_is_told(given):
+def test_without_the_token_only_health_is_answered(given):
     for path in ("/control", "/stream", "/metrics", "/x", "/control?token=wrong", "/control?token="):
         assert judged(WITH, path, Authorization=given) == 401
     assert judged(WITH, "/health", Authorization=given) is None
 
 
-def test_health_is_told_to_probes_by_address_and_to_no_rebound_name():
+def test_health_is_answered_to_probes_by_address_and_to_no_rebound_name():
     for host in ("localhost:7163", "[::1]:7163", "10.0.0.5:7163"):
         assert judged(WITH, "/health", Host=host) is None
     for host in ("evil.example:7163", "localhost.evil.example", "127.0.0.1.evil.example", "", "[::1"):
@@ -114,7 +114,7 @@ async def line_with(process, word):
     return line.strip()
 
 
-async def test_a_manager_prints_the_token_that_it_asks_for():
+async def test_a_manager_prints_the_token_that_it_requires():
     async with typed("--allow-origin", "https://studio.example") as process:
         bearer = (await line_with(process, "Bearer")).rpartition(" ")[2]
         url = (await line_with(process, "ws://")).rpartition(" ")[2]
@@ -137,7 +137,7 @@ async def test_a_manager_prints_the_token_that_it_asks_for():
         (("--no-token", "--token-env", "HOME"), "exclude"),
     ],
 )
-async def test_what_would_leave_it_open_is_refused_in_one_line(arguments, reason):
+async def test_insecure_options_are_refused_in_one_line(arguments, reason):
     async with typed(*arguments) as process:
         _, said = await process.communicate()
         assert (process.returncode, said.decode().count("\n")) == (2, 1)

@@ -49,7 +49,7 @@ def test_links_and_devices_are_refused(tmp_path, kind):
         unpack(packed((entry, "/etc/passwd")), tmp_path)
 
 
-def test_a_bomb_is_stopped_by_what_comes_out(tmp_path, monkeypatch):
+def test_a_zip_bomb_is_stopped_by_its_unpacked_size(tmp_path, monkeypatch):
     monkeypatch.setattr(archive, "MAX_FILE_BYTES", 1000)
     with pytest.raises(ArchiveError, match="too large"):
         unpack(packed(("bomb", b"0" * 10_000_000)), tmp_path)
@@ -103,7 +103,7 @@ def test_a_directory_of_millions_is_refused_before_it_is_read(tmp_path):
             unpack(base64.b64encode(bytes(whole)).decode(), tmp_path)
 
 
-def test_entries_that_overlap_count_by_what_comes_out(tmp_path, monkeypatch):
+def test_overlapping_entries_count_by_their_unpacked_size(tmp_path, monkeypatch):
     """A bomb of the kind in which all entries of the directory point at the same data."""
     monkeypatch.setattr(archive, "MAX_TOTAL_BYTES", 50_000)
     whole = base64.b64decode(packed(("aaaa", b"0" * 20_000)))

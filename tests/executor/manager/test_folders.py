@@ -36,7 +36,7 @@ def disk(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_in_a_container_what_a_run_left_makes_room_for_the_next(disk):
+def test_in_a_container_files_of_earlier_runs_are_removed_for_space(disk):
     made = Folders(is_alone=True)
     done = made.unpack(Unpack(1, app_zip()))
     assert not done.error
@@ -56,13 +56,13 @@ def test_a_disk_that_is_nearly_full_is_swept_before_the_world_lacks_room(tmp_pat
     assert not (tmp_path / "hoard").exists()
 
 
-def test_elsewhere_nothing_is_removed_and_the_reason_told(disk):
+def test_elsewhere_nothing_is_removed_and_the_reason_is_reported(disk):
     done = Folders(is_alone=False).unpack(Unpack(1, app_zip()))
     assert "No space left" in done.error
     assert (disk / "hoard" / "big").exists()
 
 
-def test_a_folder_that_cannot_be_made_is_told(disk):
+def test_a_folder_that_cannot_be_created_is_reported(disk):
     made = Folders(is_alone=False)
     made.remove()
     assert "cannot be unpacked" in made.unpack(Unpack(1, app_zip())).error

@@ -23,7 +23,7 @@ FLOOD = 20_000
 TURNS = 40
 
 
-def test_an_allowance_is_spent_and_comes_back():
+def test_an_allowance_is_spent_and_refilled():
     allowance = Allowance(10.0, rate_hz=64.0, burst=5.0)
     assert [allowance.take("teleop", 10.0) for _ in range(5)] == [0.0] * 5
     assert allowance.take("teleop", 10.0) == 1 / 64
@@ -33,7 +33,7 @@ def test_an_allowance_is_spent_and_comes_back():
     assert [allowance.take("teleop", 99.0) for _ in range(6)][-1] > 0, "it never holds more than the burst"
 
 
-def test_what_costs_the_world_costs_more():
+def test_expensive_commands_cost_more():
     allowance = Allowance(0.0, rate_hz=10.0, burst=COSTS["list_topics"])
     assert allowance.take("list_topics", 0.0) == 0.0
     assert allowance.take("list_topics", 0.0) == pytest.approx(COSTS["list_topics"] / 10.0)
@@ -47,7 +47,7 @@ def test_driving_dragging_and_looking_at_once_are_within_the_limit():
         assert all(allowance.take(command, n / 60) == 0.0 for command in sent)
 
 
-def test_a_page_that_comes_back_asks_for_all_that_it_showed_at_once():
+def test_a_page_that_reconnects_requests_everything_at_once():
     allowance = Allowance(0.0)
     wanted = ["subscribe"] * 4 + ["echo_topic"] * 24 + ["list_topics", "describe_type", "run"]
     assert all(allowance.take(command, 0.0) == 0.0 for command in wanted)
@@ -135,7 +135,7 @@ async def test_a_viewer_leaves_topics_to_echo_for_the_driver():
         await viewer.close()
 
 
-async def test_who_reads_no_answers_gets_nothing_more_done(monkeypatch):
+async def test_commands_of_a_client_that_reads_no_answers_are_not_handled(monkeypatch):
     monkeypatch.setattr(outboxes, "MAX_REPLIES", 500)
     async with manager() as it:
         client = await SessionClient(it.port).open()

@@ -84,7 +84,7 @@ async def test_a_whole_session_with_obedient_children():
 
 @pytest.mark.parametrize("habit", ["dies_at_start", "dies_when_started", "talks_rubbish", "closes_pipe"])
 @pytest.mark.parametrize("kind", ["world", "application"])
-async def test_bad_children_are_told_and_the_session_stays(kind, habit):
+async def test_bad_children_are_reported_and_the_session_stays(kind, habit):
     async with session(**{kind: habit}) as client:
         reply = await client.ask("run", RUN)
         assert reply["code"] == "process_died"
@@ -155,7 +155,7 @@ async def test_random_frames_are_all_answered(monkeypatch):
 
 
 @pytest.mark.parametrize("header", [None, "Bearer wrong", TOKEN])
-async def test_without_the_token_nobody_gets_in(header):
+async def test_without_the_token_access_is_refused(header):
     async with manager() as it:
         client = SessionClient(it.port)
         client._headers = {"Authorization": header} if header else {}
@@ -164,7 +164,7 @@ async def test_without_the_token_nobody_gets_in(header):
         assert caught.value.response.status_code == 401
 
 
-async def test_health_is_told_without_a_token_and_other_paths_are_not_there():
+async def test_health_is_answered_without_a_token_and_other_paths_do_not_exist():
     async with manager() as it:
 
         def get(path, token=""):
@@ -183,7 +183,7 @@ async def test_health_is_told_without_a_token_and_other_paths_are_not_there():
         assert (await asyncio.to_thread(get, "/elsewhere", TOKEN))[0] == 404
 
 
-async def test_metrics_are_told_in_the_text_format():
+async def test_metrics_have_the_text_format():
     async with session() as client:
         await client.ask("run", RUN)
         await client.ask("subscribe", {"stream": "poses"})
@@ -238,7 +238,7 @@ async def test_a_viewer_sees_all_and_drives_nothing():
         await viewer.close()
 
 
-async def test_a_client_comes_back_before_its_lost_connection_is_heard_of():
+async def test_a_client_reconnects_before_its_lost_connection_is_noticed():
     async with manager() as it:
         lost = await SessionClient(it.port).open()
         await lost.ask("run", RUN)
@@ -255,7 +255,7 @@ async def test_a_client_comes_back_before_its_lost_connection_is_heard_of():
         await viewer.close()
 
 
-async def test_a_session_that_nobody_comes_back_to_ends():
+async def test_a_session_without_clients_ends():
     async with manager(grace_s=0.3) as it:
         client = await SessionClient(it.port).open()
         await client.close()

@@ -108,7 +108,7 @@ async def test_what_is_wrong_has_the_text_of_the_dialect_and_the_socket_stays(co
         assert (await raw.ask("connect"))[-1] == ("ack", None)
 
 
-async def test_a_second_client_is_told_why_it_is_refused_and_a_later_one_begins_anew():
+async def test_a_second_client_learns_why_it_is_refused_and_a_later_one_gets_a_new_session():
     async with ram() as (it, raw):
         await raw.ask("connect")
         await raw.ask("launch_world", {"name": "empty"})

@@ -12,7 +12,7 @@ from executor.render import GROUND, NOTHING, Renderer, Viewpoint
 from executor.render.gl import GlRenderer
 from executor.render.tiny import TinyRenderer
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 IDENTITY = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
 SIZE = (320, 240)

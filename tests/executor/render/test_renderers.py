@@ -12,7 +12,7 @@ from executor.render import Renderer, RenderError, Viewpoint, look_at, make_rend
 from executor.render.gl import GlRenderer
 from executor.render.tiny import TinyRenderer
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 IDENTITY = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
 SIZE = (320, 240)
@@ -39,7 +39,7 @@ def greens(picture: NDArray[np.uint8]) -> NDArray[np.bool_]:
     return (g > 1.6 * r) & (g > 1.6 * b) & (g > 40)
 
 
-def test_known_points_are_drawn_where_the_lens_says(renderer: Renderer) -> None:
+def test_known_points_are_drawn_where_the_camera_model_says(renderer: Renderer) -> None:
     renderer.load(scene_of(Shape("sphere", [0.05], IDENTITY, [0, 1, 0, 1])))
     view = Viewpoint((0, 0, 1), (1, 0, 0), (0, 0, 1), math.radians(60))
     width, height = 640, 480

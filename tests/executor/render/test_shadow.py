@@ -1,4 +1,4 @@
-"""The shadow map is drawn anew only where something moved."""
+"""The shadow map is redrawn only where something moved."""
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def plan_of(poses: NDArray[np.float32]) -> ShadowPlan:
     return ShadowPlan(Pieces(scene_of(len(poses))), matrices(poses), SUN)
 
 
-def test_first_everything_then_nothing_then_what_moved() -> None:
+def test_first_everything_is_drawn_then_nothing_then_changes() -> None:
     poses = at((-3, 0), (0, 0), (3, 0))
     plan = plan_of(poses)
     placed = matrices(poses)
@@ -50,7 +50,7 @@ def test_a_slow_drift_adds_up() -> None:
     assert [bool(work) for work in drawn] == [False, False, True, False, False]
 
 
-def test_who_leaves_the_map_takes_it_along() -> None:
+def test_a_viewer_that_leaves_the_map_moves_it() -> None:
     plan = plan_of(at((-1, 0), (1, 0)))
     plan.dirty(matrices(at((-1, 0), (1, 0))), VIEW)
     before = plan.reach_m

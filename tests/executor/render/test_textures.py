@@ -18,9 +18,9 @@ from executor.render.pieces import Pieces
 from executor.render.tiny import TinyRenderer
 from executor.universes import UniverseError, parse_universe
 from executor.universes.model import TEXTURES
-from executor.world.bullet import BulletWorld
 from executor.world.interface import WorldError
-from executor.world.paint import PaintError, image_size, textures_of
+from executor.world.physics.bullet import BulletWorld
+from executor.world.physics.paint import PaintError, image_size, textures_of
 
 HEAD = (
     "format: bt-studio/universe\nversion: 1\nname: test\nrobots: []\nlights: [{direction: [0, 0.7, -0.7]}]\n"
@@ -135,7 +135,7 @@ def test_what_we_ship_is_small_and_neither_black_nor_white() -> None:
         assert len(texture.jpeg) < 20_000
         picture = cv2.imdecode(np.frombuffer(texture.jpeg, np.uint8), cv2.IMREAD_COLOR)
         assert 40 < picture.mean() < 240
-    for name in ("asphalt", "carpet", "grass"):  # these go on at their edges as they do inside
+    for name in ("asphalt", "carpet", "grass"):  # these are continuous at their edges
         data = np.frombuffer(textures[name].jpeg, np.uint8)
         picture = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE).astype(int)
         for axis in (0, 1):

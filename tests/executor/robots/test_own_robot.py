@@ -8,7 +8,7 @@ import pytest
 
 from executor.robots import RobotError, load_robot
 from executor.universes import parse_universe
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 YAML = """\
 format: bt-studio/robot

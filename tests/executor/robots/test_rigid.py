@@ -16,14 +16,14 @@ from executor.robots.prepare import physical_urdf
 from executor.robots.rigid import merge_fixed_links
 from executor.robots.urdf import UrdfError, parse_urdf, read_inertial
 from executor.world.engine import Bullet
-from executor.world.transforms import compose, from_xyz_rpy, rotation
+from executor.world.geometry.transforms import compose, from_xyz_rpy, rotation
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from executor.world.transforms import Pose
+    from executor.world.geometry.transforms import Pose
 
 coordinates = st.floats(-2, 2)
 poses = st.tuples(*[coordinates] * 3, *[st.floats(-3, 3)] * 3).map(from_xyz_rpy)

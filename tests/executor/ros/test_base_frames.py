@@ -15,9 +15,9 @@ from executor.robots import load_robot, robot_ids
 from executor.ros import base_frames, messages
 from executor.ros.node import WorldNode, take
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
-from executor.world.drive import DifferentialDrive
-from executor.world.sensors import Sensors
+from executor.world.physics.bullet import BulletWorld
+from executor.world.physics.drive import DifferentialDrive
+from executor.world.sensing.sensors import Sensors
 
 OWN = """<robot name="own"><link name="{root}"/>{more}
   <link name="left"/><link name="right"/>
@@ -119,7 +119,7 @@ def _square(told: Any) -> Any:
     return np.array([[xx, xy, xt], [xy, yy, yt], [xt, yt, tt]])
 
 
-def test_the_message_has_it_where_filters_look() -> None:
+def test_the_message_has_the_covariance_that_filters_read() -> None:
     drive = DifferentialDrive(load_robot("burger").drive, np.random.default_rng(1))
     drive.observe(0.0, 0.0, 0.0)
     state = drive.observe(20.0, 25.0, 1.0)
@@ -140,7 +140,7 @@ def world() -> Iterator[BulletWorld]:
     made.close()
 
 
-def test_the_truth_is_said_if_asked_for_alone(world: BulletWorld, context: Context) -> None:
+def test_the_true_pose_is_published_only_on_request(world: BulletWorld, context: Context) -> None:
     for asked in ((), ("robot",)):
         sensors = Sensors(world, lambda: pytest.fail("nothing is drawn"))
         node, listener = WorldNode(world, context, true_poses=asked), Node("listener", context=context)

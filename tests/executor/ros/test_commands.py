@@ -8,16 +8,18 @@ from typing import Any
 import pytest
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
+from msgspec import convert, to_builtins
 from rclpy.context import Context
 from rclpy.node import Node
 
+from executor.child_messages import ListTopics
 from executor.robots import load_robot
 from executor.ros.commands import Commands
 from executor.ros.node import WorldNode
 from executor.ros.shared_topics import share_commands
-from executor.ros.topics import TopicError, Topics
+from executor.ros.topics import TopicError, TopicRequest, Topics
 from executor.universes import load_builtin
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 from tests.executor.ros.conftest import DOMAIN_ID
 
 WAIT_S = 30
@@ -72,7 +74,7 @@ def test_both_kinds_of_command_move_a_built_in_robot(
     other.destroy_node()
 
 
-def test_who_takes_twist_alone_never_makes_a_second_participant(
+def test_a_robot_for_twist_alone_never_creates_a_second_participant(
     world: BulletWorld, context: Context, outside: Context
 ) -> None:
     node, other = Node("world", context=context), Node("driver", context=outside)
@@ -88,7 +90,7 @@ def test_who_takes_twist_alone_never_makes_a_second_participant(
         each.destroy_node()
 
 
-def test_who_takes_twist_stamped_alone_hears_it_by_its_own_participant(context: Context) -> None:
+def test_a_robot_for_twist_stamped_alone_uses_the_first_participant(context: Context) -> None:
     node = Node("world", context=context)
     commands = Commands(node, "/own/cmd_vel", "twist_stamped", 0.6, lambda: pytest.fail("not needed"))
     publisher = node.create_publisher(TwistStamped, "/own/cmd_vel", 10)
@@ -104,7 +106,7 @@ def test_who_takes_twist_stamped_alone_hears_it_by_its_own_participant(context: 
     [(0.0, 5.0, 5.0), (4.7, 5.0, 4.7), (1_700_000_000.0, 5.0, 5.0), (4.3, 5.0, None)],
     ids=["no stamp is now", "a stamp counts", "wall time is now", "too old"],
 )
-def test_a_stamp_says_since_when_a_command_holds(
+def test_a_command_is_valid_from_its_stamp(
     context: Context, stamp_s: float, now_s: float, wanted_at_s: float | None
 ) -> None:
     node = Node("world", context=context)
@@ -130,7 +132,7 @@ def test_a_stamped_command_ends_with_its_timeout_from_the_stamp(world: BulletWor
     assert robot.odometry.linear == pytest.approx(0.0, abs=1e-3)
 
 
-def test_in_one_participant_the_robot_takes_what_the_application_publishes(
+def test_in_one_participant_the_robot_uses_the_type_of_the_application(
     world: BulletWorld, context: Context
 ) -> None:
     """As in lock-step: a participant holds one type for a topic, and the first command counts."""
@@ -153,8 +155,8 @@ def test_in_one_participant_the_robot_takes_what_the_application_publishes(
 def test_the_page_sees_both_types_and_publishes_either(world: BulletWorld, context: Context) -> None:
     node = WorldNode(world, context)
     sent: list[dict[str, Any]] = []
-    topics = Topics(node.node, sent.append, commands=node)
-    topics.obey({"type": "list_topics"})
+    topics = Topics(node.node, lambda message: sent.append(to_builtins(message)), commands=node)
+    topics.obey(ListTopics())
     [row] = [each for each in sent[-1]["topics"] if each["name"] == "/cmd_vel"]
     names = ["geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"]
     assert (row["type"], row["types"]) == (names[0], names)
@@ -162,18 +164,20 @@ def test_the_page_sees_both_types_and_publishes_either(world: BulletWorld, conte
     say = {"type": "publish_topic", "topic": "/cmd_vel", "message_type": names[1], "message": message}
     end_s = time.monotonic() + WAIT_S
     while world.robots[0].distance_m < 0.02 and time.monotonic() < end_s:
-        topics.obey(say)
+        topics.obey(convert(say, TopicRequest))
         topics.poll(time.monotonic())
         node.poll()
         world.step(4)
         time.sleep(0.002)
     assert world.robots[0].distance_m >= 0.02
     with pytest.raises(TopicError, match="is of the type geometry_msgs/msg/Twist, not std_msgs"):
-        topics.obey({**say, "message_type": "std_msgs/msg/String", "message": {"data": "x"}})
+        topics.obey(
+            convert({**say, "message_type": "std_msgs/msg/String", "message": {"data": "x"}}, TopicRequest)
+        )
     node.close()
 
 
-def test_a_robot_says_what_it_takes() -> None:
+def test_a_robot_names_its_command_type() -> None:
     config = load_robot("turtle2")
     assert config.command_type == "both"
     assert replace(config, command_type="twist").command_type == "twist"

@@ -8,6 +8,7 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from executor.ros.environment import ros_environment
@@ -32,7 +33,7 @@ def test_no_picture_is_lost_between_processes() -> None:
         env=environment,
     )
     theirs.close()
-    channel = Channel(ours.detach())
+    channel = Channel(ours.detach(), msgspec.msgpack.decode)
     listener = subprocess.Popen(
         [sys.executable, str(Path(__file__).with_name("camera_listener.py")), str(PICTURES)],
         env=environment,
@@ -63,7 +64,7 @@ def test_no_picture_is_lost_between_processes() -> None:
     assert world.returncode == 0
 
 
-def smallest_share(channel: Channel) -> float:
+def smallest_share(channel: Channel[object, object]) -> float:
     """Of their rates at which cameras drew at worst."""
     shares = [1.0]
     while (message := channel.receive(0)) is not None:

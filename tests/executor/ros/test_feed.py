@@ -17,7 +17,7 @@ class Publisher:
         self.sent.append(message)
 
 
-def test_it_measures_when_due_and_only_for_who_listens() -> None:
+def test_it_measures_when_due_and_only_for_subscribers() -> None:
     heard, unheard = Publisher(1), Publisher(0)
     measured: list[float] = []
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from executor.ros.environment import has_tf, ros_environment
@@ -46,7 +47,7 @@ robots:
 """
 
 
-def least_camera_share(channel: Channel) -> float:
+def least_camera_share(channel: Channel[Any, Any]) -> float:
     """The least share of their rates at which cameras drew, by the world's own word: they yield to time."""
     shares = [1.0]
     while message := channel.receive(0):
@@ -66,7 +67,7 @@ def heard() -> Iterator[dict[str, Any]]:
         env=environment,
     )
     theirs.close()
-    channel = Channel(ours.detach())
+    channel = Channel(ours.detach(), msgspec.msgpack.decode)
     script = str(Path(__file__).with_name("graph_listener.py"))
     listener = subprocess.Popen(
         [sys.executable, script, str(HEARD_S), ",".join(TOPICS)],
@@ -99,7 +100,7 @@ def test_a_topic_is_as_declared(heard: dict[str, Any], topic: str) -> None:
         assert heard["frames"][topic] == frame
     stamps = heard["stamps"][topic]
     if topic == "/clock":
-        stamps = [stamp for stamp in stamps if stamp > 0]  # it goes on telling 0 while the world is paused
+        stamps = [stamp for stamp in stamps if stamp > 0]  # it is 0 while the world is paused
     least = rate * heard["camera_share"] if "camera" in topic else rate
     assert len(stamps) >= least * HEARD_S - 1
     assert len(stamps) <= rate * HEARD_S + 2

@@ -79,7 +79,7 @@ def test_constants_and_defaults_are_there() -> None:
     assert not math.isnan(FollowObject.Result().error_code)
 
 
-def test_each_package_says_where_it_is_from() -> None:
+def test_each_package_names_its_source() -> None:
     notice = (FOLDER / "NOTICE").read_text(encoding="utf-8")
     for package in PACKAGES:
         version = (FOLDER / f"{package}.txt").read_text(encoding="utf-8").splitlines()[0].split()[-1]
@@ -89,7 +89,7 @@ def test_each_package_says_where_it_is_from() -> None:
 
 
 @pytest.mark.parametrize("lacking", ["cc", "Python.h"])
-def test_without_a_compiler_one_sentence_says_what_to_do(
+def test_without_a_compiler_a_sentence_explains_what_to_do(
     lacking: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(build_interfaces, "missing", lambda: ["tf2_msgs", "nav2_msgs"])
@@ -107,7 +107,7 @@ def test_without_a_compiler_one_sentence_says_what_to_do(
     assert not (tmp_path / "complete").exists(), "so that set-up tries again"
 
 
-def test_what_changes_is_built_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_changed_packages_are_built_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     for path in FOLDER.glob("*.txt"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     monkeypatch.setattr(build_interfaces, "FOLDER", tmp_path)

@@ -1,10 +1,11 @@
-"""Topics whose ends do not match: told once, with both ends, the reason and the remedy."""
+"""Topics whose ends do not match: reported once, with both ends, the reason and a hint."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from msgspec import to_builtins
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,12 +21,12 @@ def graph(context: Context) -> Iterator[tuple[Any, Any, list[dict[str, Any]], An
 
     world, application = Node("world", context=context), Node("bt_application", context=context)
     told: list[dict[str, Any]] = []
-    yield world, application, told, Mismatches(world, told.append)
+    yield world, application, told, Mismatches(world, lambda message: told.append(to_builtins(message)))
     application.destroy_node()
     world.destroy_node()
 
 
-def test_best_effort_said_and_reliable_wanted(graph: Any) -> None:
+def test_best_effort_published_and_reliable_requested(graph: Any) -> None:
     from rclpy.qos import qos_profile_sensor_data
     from sensor_msgs.msg import LaserScan
 
@@ -53,14 +54,14 @@ def test_best_effort_said_and_reliable_wanted(graph: Any) -> None:
     assert len(told) == 2  # it was gone meanwhile: another run, say
 
 
-def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
+def test_topics_of_the_world_match_both_kinds_of_subscribers(context: Context) -> None:
     from rclpy.node import Node
     from rclpy.qos import qos_profile_sensor_data
 
     from executor.ros.mismatches import Mismatches
     from executor.ros.node import WorldNode
     from executor.ros.values import message_type
-    from executor.world.launch import make_world
+    from executor.world.simulation.launch import make_world
 
     world = make_world("walled_room")
     ours, theirs = WorldNode(world, context), Node("theirs", context=context)
@@ -69,7 +70,7 @@ def test_what_the_world_publishes_matches_both_kinds(context: Context) -> None:
     for topic, types in said:
         for qos in (10, qos_profile_sensor_data):
             theirs.create_subscription(message_type(types[0]), topic, print, qos)
-    Mismatches(theirs, told.append).look()
+    Mismatches(theirs, lambda message: told.append(to_builtins(message))).look()
     assert told == []
     assert {"/clock", "/scan", "/camera/image_raw", "/odom", "/imu", "/bumper"} <= {
         topic for topic, _ in said
@@ -112,7 +113,7 @@ class Graph:
         ([("world", "Odom")], [("mine", "Text")], [("/world", "/mine")]),
         ([("world", "Odom")], [("mine", "Text"), ("other", "Odom")], [("/world", "/mine")]),
         ([("world", "Odom")], [("other", "Odom")], []),
-        # The world may take commands in two types; whoever publishes one of them is heard.
+        # The world may accept commands of two types; a publisher of either is connected.
         ([("mine", "Twist")], [("world", "Twist"), ("world_stamped", "Stamped")], []),
         ([("mine", "Text")], [("world", "Twist")], [("/mine", "/world")]),
     ],
@@ -124,7 +125,7 @@ def test_types_that_differ(
 
     told: list[dict[str, Any]] = []
     ends = [[End(*end) for end in side] for side in (publishers, subscribers)]
-    mismatches = Mismatches(Graph(*ends), told.append)
+    mismatches = Mismatches(Graph(*ends), lambda message: told.append(to_builtins(message)))
     mismatches.look()
     # A robot may be about to hear a second type: what it does not hear is reported at the second look.
     assert not any(found["subscriber"] == "/world" for found in told)

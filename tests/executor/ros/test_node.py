@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from geometry_msgs.msg import Twist
+from msgspec import to_builtins
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
 from rclpy.node import Node
@@ -20,10 +21,10 @@ from executor.render import make_renderer
 from executor.ros.environment import has_tf
 from executor.ros.node import Due, WorldNode, take
 from executor.universes import load_builtin
-from executor.world.adaptation import FIRST_PATIENCE
-from executor.world.bullet import BulletWorld
-from executor.world.clockwork import SLOW_CAMERAS, Clockwork
-from executor.world.sensors import Sensors
+from executor.world.physics.bullet import BulletWorld
+from executor.world.sensing.sensors import Sensors
+from executor.world.simulation.adaptation import FIRST_PATIENCE
+from executor.world.simulation.loop import SLOW_CAMERAS, SimulationLoop
 
 
 class Rig:
@@ -92,7 +93,7 @@ def test_rates_types_and_frames(rig: Rig) -> None:
     assert stamps == pytest.approx([i / 60 for i in range(61)])
 
 
-def test_a_picture_is_what_it_says(rig: Rig) -> None:
+def test_an_image_matches_its_description(rig: Rig) -> None:
     rig.listen(Image, "/camera/image_raw")
     picture = rig.run(0.0)["/camera/image_raw"][0]
     assert (picture.width, picture.height, picture.encoding, picture.step) == (640, 480, "rgb8", 1920)
@@ -100,7 +101,7 @@ def test_a_picture_is_what_it_says(rig: Rig) -> None:
     assert np.frombuffer(picture.data, np.uint8).std() > 10
 
 
-def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
+def test_without_subscribers_nothing_is_drawn(rig: Rig) -> None:
     rig.run(0.5)
     assert rig.drawn == 0
     assert not rig.node.wants_pictures()
@@ -108,8 +109,8 @@ def test_nobody_listens_nothing_is_drawn(rig: Rig) -> None:
 
 def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None:
     said: list[dict[str, Any]] = []
-    clockwork = Clockwork(rig.world, rig.sensors, rig.node, said.append)
-    clockwork.resume()
+    loop = SimulationLoop(rig.world, rig.sensors, rig.node, lambda message: said.append(to_builtins(message)))
+    loop.resume()
     rig.listen(CameraInfo, "/camera/camera_info")
     rig.listen(Image, "/camera/image_raw")
     now_s = 100.0
@@ -118,7 +119,7 @@ def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None
         nonlocal now_s
         for _ in range(round(seconds / period_s)):
             now_s += period_s
-            clockwork.run_due(now_s)
+            loop.run_due(now_s)
             for ear in rig.ears.values():
                 while take(ear) is not None:
                     pass
@@ -151,7 +152,7 @@ def test_a_scan_starts_ahead_and_turns_left(rig: Rig) -> None:
     assert scan.range_min < min(scan.ranges)
 
 
-def test_commands_drive_and_odometry_tells(rig: Rig) -> None:
+def test_commands_drive_and_odometry_follows(rig: Rig) -> None:
     rig.listen(Odometry, "/odom")
     publisher = rig.listener.create_publisher(Twist, "/cmd_vel", 10)
     twist = Twist()
@@ -201,7 +202,7 @@ def test_tf_is_published_where_its_messages_are_installed(rig: Rig) -> None:
         assert (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
 
 
-def test_a_joint_goes_where_its_topic_says_and_tf_follows(context: Context) -> None:
+def test_a_joint_moves_to_its_target_and_tf_follows(context: Context) -> None:
     rig = Rig(context, "lookout")
     rig.listen(JointState, "/joint_states")
     if has_tf():

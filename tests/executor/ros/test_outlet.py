@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import pytest
 
 from executor.manager.manager import free_domain_id
@@ -42,7 +43,7 @@ def until(condition: Callable[[], bool], limit_s: float = 20.0) -> None:
         time.sleep(0.005)
 
 
-def test_a_message_is_heard_as_rclpy_would_send_it(context: Context) -> None:
+def test_a_message_arrives_as_rclpy_would_send_it(context: Context) -> None:
     from rclpy.node import Node
     from std_msgs.msg import String
 
@@ -71,7 +72,7 @@ def test_a_message_is_heard_as_rclpy_would_send_it(context: Context) -> None:
     node.destroy_node()
 
 
-def test_who_publishes_does_not_wait_and_the_newest_is_kept() -> None:
+def test_publishing_does_not_block_and_the_newest_message_is_kept() -> None:
     from executor.ros.outlet import DEPTH, Outlet
 
     may_send, sent = threading.Event(), []
@@ -122,7 +123,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
     command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
     world = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
     theirs.close()
-    channel = Channel(ours.detach())
+    channel = Channel(ours.detach(), msgspec.msgpack.decode)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER], env=environment, stdout=subprocess.PIPE, text=True
     )
@@ -137,7 +138,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
             listener.send_signal(signal.SIGSTOP)
             asked_s = []
             for _ in range(12):
-                channel.send({"type": "move_body", "id": "?", "pose": [0, 0, 0], "request": "r"})
+                channel.send({"type": "move_body", "id": "?", "pose": [0] * 6, "request": "r"})
                 begun_s = time.monotonic()
                 answered(channel)
                 asked_s.append(time.monotonic() - begun_s)
@@ -155,7 +156,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
     assert world.returncode == 0
 
 
-def answered(channel: Channel) -> None:
+def answered(channel: Channel[Any, Any]) -> None:
     while True:
         message = channel.receive(20)
         assert message is not None

@@ -13,7 +13,7 @@ from std_srvs.srv import Trigger
 
 from executor.ros.spin import LOOK_EVERY, PatientExecutor
 
-LONG_S = 20.0  # whoever is not woken fails by the test's time-out
+LONG_S = 20.0  # a missing wake-up fails by the test's time-out
 
 
 @pytest.fixture
@@ -78,7 +78,7 @@ def test_a_guard_condition_is_called(node: Node, executor: PatientExecutor) -> N
     spin_until(executor, lambda: heard == ["guard"])
 
 
-def test_an_exception_of_a_callback_is_raised_and_spinning_goes_on(
+def test_an_exception_of_a_callback_is_raised_and_spinning_continues(
     node: Node, executor: PatientExecutor
 ) -> None:
     heard: list[int] = []
@@ -96,7 +96,7 @@ def test_an_exception_of_a_callback_is_raised_and_spinning_goes_on(
     assert heard == [0, 1, 2]
 
 
-def test_who_spins_within_a_callback_is_not_called_again_in_it(node: Node, executor: PatientExecutor) -> None:
+def test_a_callback_that_spins_is_not_reentered(node: Node, executor: PatientExecutor) -> None:
     heard: list[int] = []
 
     def nested(message: Int32) -> None:

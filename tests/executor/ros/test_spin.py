@@ -42,7 +42,7 @@ def test_messages_come_in_their_order_and_all_of_them(node: Node, executor: Drai
     assert executor.drain() == 0
 
 
-def test_what_a_callback_publishes_is_called_back_too(node: Node, executor: DrainingExecutor) -> None:
+def test_messages_published_in_a_callback_are_delivered_too(node: Node, executor: DrainingExecutor) -> None:
     heard: list[int] = []
     further = node.create_publisher(Int32, "second", 10)
     node.create_subscription(Int32, "second", lambda message: heard.append(message.data), 10)
@@ -125,7 +125,7 @@ def test_a_subscription_that_another_callback_destroys_is_left_out(
     assert heard == []
 
 
-def test_the_middleware_is_looked_at_now_and_then(node: Node, executor: DrainingExecutor) -> None:
+def test_events_of_the_middleware_are_polled_sometimes(node: Node, executor: DrainingExecutor) -> None:
     waits: list[float] = []
     wait = executor.wait_for_ready_callbacks
 

@@ -18,7 +18,7 @@ KINDS = [
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_what_comes_out_goes_in_again(kind: Any) -> None:
+def test_values_survive_a_round_trip(kind: Any) -> None:
     message = kind()
     fill(message, flatten(kind()).value)
     assert message == kind()
@@ -59,12 +59,12 @@ def test_lists_of_messages_and_numbers_are_filled() -> None:
         (Path, {"poses": [{}, {"pose": {"position": {"w": 1}}}]}, r"poses\[1\].pose.position.w: Point has"),
     ],
 )
-def test_what_does_not_fit_is_refused_with_its_place(kind: Any, values: Any, text: str) -> None:
+def test_misfits_are_refused_with_their_place(kind: Any, values: Any, text: str) -> None:
     with pytest.raises(FieldError, match=f"^{text}"):
         fill(kind(), values)
 
 
-def test_what_is_long_is_cut_and_said_so() -> None:
+def test_long_values_are_shortened_and_marked() -> None:
     flat = flatten(Image(data=bytes(5000), encoding="x" * 9000))
     assert len(flat.value["data"]) == LARGEST_LIST
     assert len(flat.value["encoding"]) == LARGEST_TEXT

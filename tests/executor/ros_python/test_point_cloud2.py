@@ -67,7 +67,7 @@ def test_rows_with_padding_and_the_other_order_of_bytes() -> None:
     assert read_points_list(cloud) == [(1.0,), (2.0,), (3.0,), (4.0,)]
 
 
-def test_what_does_not_fit_says_so() -> None:
+def test_values_that_do_not_fit_are_reported() -> None:
     from sensor_msgs_py.point_cloud2 import create_cloud, dtype_from_fields, read_points, read_points_numpy
 
     cloud = create_cloud(HEADER, [field("x", 0), field("n", 4, PointField.UINT32)], [(1.0, 2)])

@@ -170,7 +170,7 @@ def test_from_one_time_to_another_by_a_fixed_frame() -> None:
 # --- what is wrong ---
 
 
-def test_an_unknown_frame_and_a_split_tree_are_told_apart() -> None:
+def test_an_unknown_frame_and_a_split_tree_are_distinguished() -> None:
     from tf2_ros import ConnectivityException, InvalidArgumentException, LookupException
 
     buffer = buffer_of([stamped("map", "base", plain(1)), stamped("other", "thing", plain(1))])
@@ -193,7 +193,7 @@ def test_a_loop_ends_with_an_error() -> None:
 
 
 @pytest.mark.parametrize("spoil", ["nan", "long", "self", "nameless"])
-def test_what_is_no_transform_is_left_out(spoil: str) -> None:
+def test_invalid_transforms_are_ignored(spoil: str) -> None:
     message = stamped("map", "base", plain(1))
     if spoil == "nan":
         message.transform.translation.x = math.nan
@@ -206,7 +206,7 @@ def test_what_is_no_transform_is_left_out(spoil: str) -> None:
     assert buffer_of([message])._getFrameStrings() == []
 
 
-def test_a_jump_back_in_time_forgets_what_moved() -> None:
+def test_a_jump_back_in_time_clears_dynamic_transforms() -> None:
     buffer = buffer_of([stamped("map", "base", plain(1))])
     buffer.set_transform_static(stamped("base", "laser", plain(0.1)), "test")
     buffer.time_jump_callback(None)
@@ -256,7 +256,7 @@ def test_a_covariance_keeps_its_size_when_it_is_turned(turn: Any) -> None:
     assert found[3:, 3:] == pytest.approx(rotation @ spread[3:, 3:] @ rotation.T)
 
 
-def test_an_unregistered_type_says_so() -> None:
+def test_an_unregistered_type_is_reported() -> None:
     from tf2_ros import TypeException
 
     buffer = buffer_of([stamped("map", "base", plain(1))])

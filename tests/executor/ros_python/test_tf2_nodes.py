@@ -22,7 +22,7 @@ def node(context: Context) -> Any:
     made.destroy_node()
 
 
-def test_what_is_broadcast_is_heard_in_a_callback_that_waits(node: Node, context: Context) -> None:
+def test_a_broadcast_is_received_in_a_callback_that_waits(node: Node, context: Context) -> None:
     """One thread spins the node: while its callback waits, no other callback runs."""
     from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
 
@@ -71,7 +71,7 @@ def test_in_lockstep_it_does_not_wait_for_a_time_that_cannot_come(
     executor.shutdown()
 
 
-def test_a_listener_with_a_thread_needs_nobody_to_spin(node: Node, context: Context) -> None:
+def test_a_listener_with_a_thread_needs_no_spinning(node: Node, context: Context) -> None:
     from tf2_ros import Buffer, TransformBroadcaster, TransformListener
 
     buffer = Buffer()
@@ -94,7 +94,7 @@ def test_a_future_gets_the_transform_once_it_is_there(node: Node) -> None:
     assert future.result().transform.translation.x == pytest.approx(2.0)
 
 
-def test_frames_are_told_by_a_service(node: Node, context: Context) -> None:
+def test_frames_are_reported_by_a_service(node: Node, context: Context) -> None:
     from tf2_msgs.srv import FrameGraph
     from tf2_ros import Buffer
 

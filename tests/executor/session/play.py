@@ -6,6 +6,8 @@ from typing import Any
 
 from msgspec import convert
 
+from executor import child_messages
+from executor.child_messages import FromApplication, FromWorld, name_of
 from executor.messages import COMMANDS
 from executor.session.events import (
     ChildExited,
@@ -26,7 +28,8 @@ from executor.session.events import (
     Unpacked,
 )
 from executor.session.ladder import State
-from executor.session.protocol import About, Session
+from executor.session.protocol import Session
+from executor.session.stage import About
 
 UNIVERSE: dict[str, Any] = {"universe": "walled_room", "seed": 1}
 APPLICATION: dict[str, Any] = {"app_zip_base64": "eA==", "tick_hz": 20.0}
@@ -46,6 +49,19 @@ DATA: dict[str, dict[str, Any]] = {
     "describe_type": {"type": "std_msgs/msg/String"},
     "restart_node": {"id": "launch/extra.launch.yaml:talker"},
 }
+
+
+ANSWERS = {
+    child_messages.Pause: "paused",
+    child_messages.Resume: "resumed",
+    child_messages.StepTick: "stepped",
+    child_messages.SetBlackboard: "blackboard_set",
+}
+
+
+def child_message(child: Kind, type_: str, /, **fields: Any) -> Any:
+    """The message of a child, as its channel would decode it."""
+    return convert({"type": type_, **fields}, FromApplication if child == "application" else FromWorld)
 
 
 class Play:
@@ -76,22 +92,16 @@ class Play:
     def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
         """What obedient children and the manager do about an effect."""
         match effect:
-            case Tell(message={"request": token}):
-                return [self._said(effect, "answer", request=token)]
-            case Tell(kind="world", message={"type": "start"}):
+            case Tell(message=child_messages.StartWorld()):
                 return [self._said(effect, "ready", renderer="egl", tf=True, universe="Walled room")]
-            case Tell(kind="application", message={"type": "start"}):
+            case Tell(message=child_messages.StartApplication()):
                 return [self._said(effect, "ready")]
-            case Tell(kind="application", message={"type": "pause"}):
-                return [self._said(effect, "paused")]
-            case Tell(kind="application", message={"type": "resume"}):
-                return [self._said(effect, "resumed")]
-            case Tell(kind="application", message={"type": "step"}):
-                return [self._said(effect, "stepped")]
-            case Tell(kind="application", message={"type": "set_blackboard"}):
-                return [self._said(effect, "blackboard_set")]
-            case Tell(kind="application", message={"type": "stop"}):
+            case Tell(kind="application", message=child_messages.Stop()):
                 return [ChildExited(effect.kind, effect.number, "ended with exit code 0")]
+            case Tell(message=message) if getattr(message, "request", None):
+                return [self._said(effect, "answer", request=message.request)]
+            case Tell(kind="application", message=message) if type(message) in ANSWERS:
+                return [self._said(effect, ANSWERS[type(message)])]
             case Retire() | Kill():
                 return [ChildExited(effect.kind, effect.number, "was killed")]
             case Unpack():
@@ -100,8 +110,8 @@ class Play:
                 return []
 
     @staticmethod
-    def _said(effect: Tell, type_: str, **fields: Any) -> ChildSaid:
-        return ChildSaid(effect.kind, effect.number, {"type": type_, **fields})
+    def _said(effect: Tell, type_: str, /, **fields: Any) -> ChildSaid:
+        return ChildSaid(effect.kind, effect.number, child_message(effect.kind, type_, **fields))
 
     def command(self, name: str, client: str = "d", **data: Any) -> str:
         """Sends a command; returns the id of the request."""
@@ -111,12 +121,12 @@ class Play:
         self.happens(CommandCame(client, request, name, payload))
         return request
 
-    def child_says(self, child: Kind, type_: str, **fields: Any) -> None:
-        number = self.session.children[child].number
-        self.happens(ChildSaid(child, number, {"type": type_, **fields}))
+    def child_says(self, child: Kind, type_: str, /, **fields: Any) -> None:
+        number = self.session.children.living[child].number
+        self.happens(ChildSaid(child, number, child_message(child, type_, **fields)))
 
     def child_dies(self, kind: Kind, reason: str = "was killed by SIGKILL", *lines: str) -> None:
-        self.happens(ChildExited(kind, self.session.children[kind].number, reason, lines))
+        self.happens(ChildExited(kind, self.session.children.living[kind].number, reason, lines))
 
     def later(self, seconds: float) -> None:
         self.now += seconds
@@ -137,7 +147,7 @@ class Play:
 
     def told(self, kind: Kind) -> list[str]:
         """The types of messages that a kind of child was sent."""
-        return [e.message["type"] for e in self.effects if isinstance(e, Tell) and e.kind == kind]
+        return [name_of(e.message) for e in self.effects if isinstance(e, Tell) and e.kind == kind]
 
     def did(self, effect_type: type[Spawn | Kill | Retire | Interrupt]) -> list[str]:
         """Which kinds of children were spawned, killed, …"""

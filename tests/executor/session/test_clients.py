@@ -1,9 +1,10 @@
-"""Who drives and who watches, and what each is told: joining, leaving, coming back, the mirror."""
+"""Drivers and viewers, and their events: joining, leaving, reconnecting, the mirror."""
 
 from __future__ import annotations
 
 import msgspec
 
+from executor.child_messages import EchoTopic, Pace, Subscribe
 from executor.session.events import (
     ClientJoined,
     ClientLeft,
@@ -69,7 +70,7 @@ def test_a_viewer_takes_over_and_the_driver_takes_it_back():
     assert play.state is State.APPLICATION_RUNNING
 
 
-def test_a_step_goes_on_while_another_takes_over_and_is_the_others_to_cancel():
+def test_a_step_continues_after_a_take_over_and_the_new_driver_may_cancel_it():
     play = Play(obedient=False)
     play.happens(ClientJoined("v"))
     run = play.command("run")
@@ -80,7 +81,7 @@ def test_a_step_goes_on_while_another_takes_over_and_is_the_others_to_cancel():
     assert play.reply(run) == "cancelled"
 
 
-def test_taking_over_from_nobody_tells_only_who_takes_over():
+def test_taking_over_without_a_driver_notifies_only_the_new_driver():
     play = Play()
     play.command("take_over")
     assert len(play.sent("introspection", "d")) == 1, "the driver drives already"
@@ -93,7 +94,7 @@ def test_taking_over_from_nobody_tells_only_who_takes_over():
     assert play.sent("introspection", "d")[-1].role == "viewer", "the other drives as long as it is there"
 
 
-def test_the_session_ends_when_nobody_comes_back():
+def test_the_session_ends_when_no_client_reconnects():
     play = Play()
     play.command("run")
     play.happens(ClientLeft("d"))
@@ -122,31 +123,24 @@ def test_streams_flow_between_prepare_and_terminate_visualization():
     play.climb(State.UNIVERSE_READY)
     assert "subscribe" not in play.told("world")
     play.command("prepare_visualization")
-    (subscribe,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "subscribe")
-    assert subscribe.message == {
-        "type": "subscribe",
-        "client": "d",
-        "stream": "camera",
-        "max_hz": 10.0,
-        "width": 320,
-        "camera_pose": None,
-    }
+    (subscribe,) = (e for e in play.effects if isinstance(e, Tell) and isinstance(e.message, Subscribe))
+    assert subscribe.message == Subscribe("d", "camera", 10.0, 320, None)
     play.command("terminate_visualization")
     assert play.told("world")[-1] == "unsubscribe"
 
 
-def test_the_world_hears_which_client_is_slow():
+def test_the_world_is_notified_of_slow_clients():
     play = Play()
     play.happens(StreamOpened("d"))
     play.happens(StreamPaced("d", 0.5))
     assert "pace" not in play.told("world")
     play.climb(State.VISUALIZATION_READY)
     play.happens(StreamPaced("d", 0.5))
-    (told,) = (e for e in play.effects if isinstance(e, Tell) and e.message["type"] == "pace")
-    assert told.message == {"type": "pace", "client": "d", "lost": 0.5}
+    (told,) = (e for e in play.effects if isinstance(e, Tell) and isinstance(e.message, Pace))
+    assert told.message == Pace("d", 0.5)
 
 
-def test_a_stream_socket_that_opens_again_is_served_whole():
+def test_a_stream_socket_that_reopens_gets_everything_again():
     play = Play()
     play.command("run")
     play.command("subscribe")
@@ -157,7 +151,7 @@ def test_a_stream_socket_that_opens_again_is_served_whole():
     assert [t for t in play.told("world") if "subscribe" in t] == ["subscribe", "unsubscribe", "subscribe"]
 
 
-def test_topic_messages_go_to_those_who_listen():
+def test_topic_messages_are_sent_to_their_subscribers():
     play = Play()
     play.command("run")
     play.happens(ClientJoined("v"))
@@ -169,7 +163,7 @@ def test_topic_messages_go_to_those_who_listen():
     assert play.sent("topic_message", "d") == []
     play.happens(ClientLeft("v"))
     last = [e.message for e in play.effects if isinstance(e, Tell) and e.kind == "world"][-1]
-    assert last == {"type": "echo_topic", "topic": "/scan", "max_hz": 0.0}
+    assert last == EchoTopic("/scan", 0.0)
 
 
 def test_deltas_applied_to_a_snapshot_equal_a_new_snapshot():

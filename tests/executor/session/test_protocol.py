@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from executor.child_messages import Beat, Log, Place, StepWorld, Tick
 from executor.messages import COMMANDS
-from executor.session.actions import ACTIONS
 from executor.session.events import (
     ChildExited,
     ChildSaid,
@@ -18,8 +18,10 @@ from executor.session.events import (
     Unpack,
     Unpacked,
 )
+from executor.session.immediate import IMMEDIATE
 from executor.session.ladder import TABLE, State, is_legal
-from executor.session.protocol import About, Session
+from executor.session.protocol import Session
+from executor.session.stage import About
 from executor.session.steps import STEPS
 from tests.executor.session.play import DATA, Play
 
@@ -29,7 +31,7 @@ PAIRS = [(state, command) for state in State for command in TABLE]
 def test_the_table_knows_every_command_and_each_is_done_somewhere():
     assert set(TABLE) == set(COMMANDS)
     assert set(STEPS) == {name for name, row in TABLE.items() if row.is_step}
-    assert set(ACTIONS) == set(TABLE) - set(STEPS) - {"cancel"}
+    assert set(IMMEDIATE) == set(TABLE) - set(STEPS) - {"cancel"}
 
 
 @pytest.mark.parametrize(("state", "command"), PAIRS)
@@ -69,7 +71,7 @@ def test_a_viewer_may_look_only(state, command):
 def test_every_state_when_a_child_dies(state, kind):
     play = Play()
     play.climb(state)
-    if kind not in play.session.children:
+    if kind not in play.session.children.living:
         assert state is State.IDLE
         return
     play.child_dies(kind, "was killed by SIGKILL", "last words")
@@ -167,11 +169,11 @@ def test_cancelling_a_launch_ends_its_world_and_a_new_one_stands_by():
     play = Play(obedient=False)
     play.command("connect")
     launch = play.command("launch_universe")
-    first = play.session.children["world"].number
+    first = play.session.children.living["world"].number
     play.command("cancel")
     assert play.reply(launch) == "cancelled"
     assert play.did(Kill) == ["world"]
-    assert play.session.children["world"].number > first
+    assert play.session.children.living["world"].number > first
 
 
 def test_cancel_without_a_step_is_harmless():
@@ -190,7 +192,7 @@ def test_a_world_that_is_never_ready_fails_in_bounded_time():
     assert play.state is State.CONNECTED
 
 
-def test_a_world_that_refuses_its_universe_says_why():
+def test_a_world_that_refuses_its_universe_reports_why():
     play = Play(obedient=False)
     play.command("connect")
     launch = play.command("launch_universe")
@@ -205,7 +207,7 @@ def test_an_application_that_does_not_load_leaves_the_world_up():
     play.climb(State.VISUALIZATION_READY)
     play.obedient = False
     run = play.command("run_application")
-    play.happens(Unpacked(play.session._count.archive, "/app"))
+    play.happens(Unpacked(play.session._archives, "/app"))
     play.child_says("application", "fault", kind="load", message="bad syntax", file="actions/A.py", line=3)
     assert play.reply(run) == "load_failed"
     assert play.sent("fault")[-1].file == "actions/A.py"
@@ -273,12 +275,12 @@ def test_a_hanging_tick_is_interrupted_and_named(command):
 @pytest.mark.parametrize("command", ["pause", "step", "terminate_application"])
 def test_a_tick_that_cannot_be_interrupted_is_killed(command):
     play, request = hang(command)
-    number = play.session.children["application"].number
+    number = play.session.children.living["application"].number
     play.happens(
         ChildSaid(
             "application",
             number,
-            {"type": "beat", "turns": 9, "place": {"node_path": "main/Stuck", "text": "Act 'main/Stuck'"}},
+            Beat(turns=9, place=Place(node_path="main/Stuck", text="Act 'main/Stuck'")),
         )
     )
     play.later(1)
@@ -312,7 +314,7 @@ def test_the_world_dies_while_the_application_loads():
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_a_tick_that_takes_long_stops_the_robot_and_goes_on():
+def test_a_slow_tick_stops_the_robot_and_continues():
     play = Play()
     play.command("run")
     play.effects.clear()
@@ -327,7 +329,8 @@ def test_a_step_is_one_tick_and_one_period():
     play.effects.clear()
     play.command("step")
     (world_step,) = (e for e in play.effects if isinstance(e, Tell) and e.kind == "world")
-    assert world_step.message | {"request": ""} == {"type": "step", "dt_s": 0.05, "request": ""}
+    assert isinstance(world_step.message, StepWorld)
+    assert world_step.message.dt_s == 0.05
 
 
 @pytest.mark.parametrize("state", list(State))
@@ -336,51 +339,39 @@ def test_disconnect_ends_everything_and_may_be_repeated(state):
     play.climb(state)
     assert play.reply(play.command("disconnect")) == "ack"
     assert play.state is State.IDLE
-    assert play.session.children == {}
-    assert play.session.leaving == set()
+    assert play.session.children.living == {}
+    assert play.session.children.leaving == set()
     assert play.reply(play.command("disconnect")) == "ack"
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_disconnect_breaks_off_a_long_step_and_waits_for_the_processes():
+def test_disconnect_interrupts_a_long_step_and_waits_for_the_processes():
     play = Play(obedient=False)
     run = play.command("run")
     first, second = play.command("disconnect"), play.command("disconnect")
     assert play.reply(run) == "cancelled"
     assert play.reply(first) is None
-    for kind, number in list(play.session.leaving):
+    for kind, number in list(play.session.children.leaving):
         play.happens(ChildExited(kind, number, "was killed"))
     assert (play.reply(first), play.reply(second)) == ("ack", "ack")
     assert play.state is State.IDLE
 
 
-def test_words_of_a_child_that_was_let_go_are_only_heard_as_log():
+def test_of_a_dropped_child_only_log_lines_are_forwarded():
     play = Play()
     play.command("run")
-    old = play.session.children["application"].number
+    old = play.session.children.living["application"].number
     play.command("run")
     play.effects.clear()
-    play.happens(ChildSaid("application", old, {"type": "tick", "n": 9, "changed": [], "flashed": []}))
-    play.happens(ChildSaid("application", old, {"type": "log", "level": "info", "text": "bye"}))
+    play.happens(ChildSaid("application", old, Tick(n=9, changed=[], flashed=[], duration_ms=1.0, t=0.0)))
+    play.happens(ChildSaid("application", old, Log("info", "bye")))
     play.happens(ChildExited("application", old, "was killed"))
     assert play.sent("tick") == []
     assert play.sent("log")[0].text == "bye"
     assert play.state is State.APPLICATION_RUNNING
 
 
-@pytest.mark.parametrize(
-    "message",
-    [{"type": "tick"}, {"type": "tick", "n": "x"}, {"type": "nonsense"}, {"type": "log", "level": 3}],
-)
-def test_rubbish_from_a_child_is_dropped(message):
-    play = Play()
-    play.command("run")
-    play.effects.clear()
-    play.happens(ChildSaid("application", play.session.children["application"].number, message))
-    assert play.effects == []
-
-
-def test_both_processes_can_be_started_ahead():
+def test_both_spares_can_be_started():
     session = Session(About(version="test"))
     assert [e.kind for e in session.prestart()] == ["world", "application"]
     assert session.prestart() == []

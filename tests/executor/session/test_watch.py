@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from executor.child_messages import name_of
 from executor.session.events import ChildLooked, ChildTraced, Inspect, Interrupt, Kill, Spawn, Tell
 from executor.session.ladder import State
 from tests.executor.session.play import Play
@@ -36,7 +37,7 @@ class Watched(Play):
         for _ in range(round(seconds / step_s)):
             self.now += step_s
             self.turns += 1
-            for kind in list(self.session.children):
+            for kind in list(self.session.children.living):
                 self._beats(kind)
                 self._is_looked_at(kind)
 
@@ -72,10 +73,10 @@ CASES = [(s, k) for s in State if s is not State.IDLE for k in ("world", "applic
 
 
 @pytest.mark.parametrize(("state", "kind"), CASES)
-def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
+def test_a_stopped_process_is_reported_after_2_s_and_ended_after_8(state, kind):
     play = play_in(state)
-    number = play.session.children[kind].number
-    is_used = play.session.children[kind].is_in_use
+    number = play.session.children.living[kind].number
+    is_used = play.session.children.living[kind].is_in_use
     play.quiet.add(kind)
     play.state_of[kind] = "T"
     play.goes_on(1.5)
@@ -89,7 +90,7 @@ def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
     play.goes_on(4)
     assert play.did(Kill) == []
     play.goes_on(2)
-    assert play.session.children[kind].number > number, "another one waits"
+    assert play.session.children.living[kind].number > number, "another one waits"
     expected = state
     if is_used:
         expected = State.CONNECTED if kind == "world" else State.VISUALIZATION_READY
@@ -101,7 +102,7 @@ def test_a_stopped_process_is_told_after_2_s_and_ended_after_8(state, kind):
     assert play.reply(play.command("run")) == "ack"
 
 
-def test_who_answers_again_in_time_is_left_alone():
+def test_a_child_that_recovers_in_time_is_kept():
     play = play_in(State.PAUSED)
     play.quiet.add("world")
     play.goes_on(5)
@@ -120,7 +121,7 @@ def test_a_pause_may_last():
     assert (play.faults, play.did(Kill), play.state) == ([], [], State.PAUSED)
 
 
-def test_a_manager_that_was_late_itself_blames_nobody():
+def test_delays_of_the_manager_itself_do_not_count():
     play = play_in(State.APPLICATION_RUNNING)
     for _ in range(20):
         play.goes_on(30, step_s=30)  # it was stopped for half a minute; all was queued meanwhile
@@ -129,7 +130,7 @@ def test_a_manager_that_was_late_itself_blames_nobody():
     assert play.faults == []
 
 
-def test_who_gets_no_processor_does_not_hang():
+def test_waiting_for_a_processor_is_no_hang():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet |= {"world", "application"}
     play.waited |= {"world": 0.2, "application": 0.25}
@@ -139,20 +140,20 @@ def test_who_gets_no_processor_does_not_hang():
     assert len(play.faults) == 2, "but not even that is waited for without end"
 
 
-def test_a_world_whose_loop_hangs_is_told_with_its_line_and_ended():
+def test_a_world_whose_loop_hangs_is_reported_with_its_line_and_ended():
     play = play_in(State.APPLICATION_RUNNING)
     play.stuck.add("world")
     play.ran["world"] = LOOK_S
-    play.place["world"] = {"text": "executor/world/bullet.py:120"}
+    play.place["world"] = {"text": "executor/world/physics/bullet.py:120"}
     play.goes_on(2.5)
     (fault,) = play.faults
-    assert "executor/world/bullet.py:120" in fault.message
+    assert "executor/world/physics/bullet.py:120" in fault.message
     play.goes_on(6)
     assert play.state is State.CONNECTED
     assert play.sent("finished")[0].reason == "process_died"
 
 
-def test_a_tick_that_takes_long_is_told_with_its_node_and_goes_on():
+def test_a_slow_tick_is_reported_with_its_node_and_continues():
     play = play_in(State.APPLICATION_RUNNING)
     play.stuck.add("application")
     play.place["application"] = ACTION
@@ -167,7 +168,7 @@ def test_a_tick_that_takes_long_is_told_with_its_node_and_goes_on():
 
 
 @pytest.mark.parametrize("uid", [2, 0])
-def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
+def test_code_that_holds_the_interpreter_lock_is_found_by_a_signal(uid):
     play = play_in(State.APPLICATION_RUNNING)
     nodes = [NODE | {"uid": 1, "type": "B", "tree_id": "t"}, NODE | {"uid": 2, "tree_id": "t"}]
     play.child_says("application", "tree", nodes=nodes)
@@ -176,7 +177,7 @@ def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
     play.goes_on(2.25)
     assert play.faults == []
     assert play.did(Inspect) == ["application"]
-    play.happens(ChildTraced("application", play.session.children["application"].number, REGEX, uid))
+    play.happens(ChildTraced("application", play.session.children.living["application"].number, REGEX, uid))
     (fault,) = play.faults
     assert (fault.kind, fault.node_id, fault.file, fault.line) == ("timeout", "n1", "actions/A.py", 9)
     assert "main/A" in fault.message
@@ -185,7 +186,7 @@ def test_who_holds_the_interpreter_is_asked_by_a_signal_and_named(uid):
     assert len(play.faults) == 1
 
 
-def test_who_does_not_answer_the_signal_either_is_told_all_the_same():
+def test_a_child_that_ignores_the_signal_is_reported_too():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet.add("application")
     play.goes_on(4)
@@ -222,7 +223,7 @@ def test_a_setup_that_sleeps_is_named_after_2_s_and_ended_after_8():
     assert len(play.faults) == 1
 
 
-def test_a_setup_that_computes_is_named_and_has_its_minute():
+def test_a_setup_that_computes_is_reported_and_may_take_a_minute():
     play, request = loading(place=ACTION, ran=0.2)
     play.goes_on(50)
     assert len(play.faults) == 1
@@ -231,14 +232,14 @@ def test_a_setup_that_computes_is_named_and_has_its_minute():
     assert play.reply(request) in {"timeout", "process_died"}
 
 
-def test_what_computes_without_the_users_code_is_no_fault_while_it_loads():
+def test_computing_outside_of_user_code_is_no_fault_while_loading():
     play, request = loading(ran=0.2)
     play.goes_on(30)
     assert play.faults == []
     assert play.reply(request) is None
 
 
-def test_what_waits_for_the_disk_while_it_loads_is_no_fault():
+def test_waiting_for_the_disk_while_loading_is_no_fault():
     play, request = loading(state_of="D")
     play.quiet.add("application")
     play.goes_on(30)
@@ -263,7 +264,7 @@ def test_a_process_that_has_not_come_to_its_first_beat_is_judged_by_whether_it_c
 def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
     play = Watched()
     play.climb(State.CONNECTED)
-    play.session.replenish()
+    play.session.children.replenish()
     play.obedient = False
     request = play.command("run")
     (unpacked,) = (
@@ -273,7 +274,7 @@ def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
     other = "application" if kind == "world" else "world"
     play.child_says(other, "starting")
     play.child_says(other, "ready")
-    lost = play.session.children[kind].number
+    lost = play.session.children.living[kind].number
     if way == "dead":
         play.child_dies(kind)
     else:
@@ -282,11 +283,11 @@ def test_a_spare_that_is_lost_as_it_is_needed_is_replaced_once(kind, way):
         play.goes_on(2.5)
         play.quiet.clear()
         play.state_of.clear()
-    assert play.session.children[kind].number > lost
+    assert play.session.children.living[kind].number > lost
     play.obedient = True
-    number = play.session.children[kind].number
+    number = play.session.children.living[kind].number
     starts = [e for e in play.effects if isinstance(e, Tell) and e.number == number and e.kind == kind]
-    assert [e.message["type"] for e in starts] == ["start"]
+    assert [name_of(e.message) for e in starts] == ["start"]
     play.child_says(kind, "ready")
     assert play.reply(request) == "ack"
     assert play.state is State.APPLICATION_RUNNING
@@ -299,7 +300,7 @@ def test_a_second_spare_that_dies_fails_the_run():
     play.child_dies("world")
     assert play.reply(run) is None
     for _ in range(3):
-        if "world" in play.session.children:
+        if "world" in play.session.children.living:
             play.child_dies("world")
     assert play.state is State.CONNECTED
 
@@ -355,7 +356,7 @@ def test_the_speed_is_the_one_that_the_world_took():
     play.command("set_speed", speed=3.0)
     assert play.session.mirror.speed == 1.0
     (order,) = (e for e in play.effects if isinstance(e, Tell))
-    play.child_says("world", "answer", request=order.message["request"])
+    play.child_says("world", "answer", request=order.message.request)
     assert play.session.mirror.speed == 3.0
 
 
@@ -379,14 +380,14 @@ def test_without_simulated_time_the_application_is_started_again_once():
     assert len(play.faults) == 2
 
 
-def test_a_world_that_tells_no_time_is_named():
+def test_a_world_that_publishes_no_time_is_reported():
     play = play_in(State.APPLICATION_RUNNING)
     play.deaf |= {"application", "world"}
     play.goes_on(3)
     assert "the simulated world publishes none" in play.faults[0].message
 
 
-def test_a_slow_world_tells_the_time_seldom_and_a_paused_one_may_not_at_all():
+def test_a_slow_world_publishes_time_rarely_and_a_paused_one_maybe_never():
     play = play_in(State.APPLICATION_RUNNING)
     play.command("set_speed", speed=0.01)
     play.deaf.add("application")

@@ -11,6 +11,7 @@ import msgspec
 import numpy as np
 import pytest
 
+from executor.child_messages import Frame, decode_to_application
 from executor.messages import Poses
 from executor.stream.pose_codec import POSE_BYTES, pack, unpack
 from executor.supervision import channel as channel_module
@@ -23,11 +24,13 @@ from executor.supervision.channel import (
     socket_pair,
 )
 
+decode = msgspec.msgpack.decode
+
 
 @pytest.fixture
 def ends():
     ours, theirs = socket_pair()
-    child = Channel(theirs.detach())
+    child = Channel(theirs.detach(), decode)
     yield ours, child
     child.close()
     ours.close()
@@ -35,7 +38,7 @@ def ends():
 
 def read_all(sock, count):
     """Reads `count` messages from the manager's end with a second Channel."""
-    peer = Channel(sock.detach())
+    peer = Channel(sock.detach(), decode)
     try:
         return [peer.receive(5) for _ in range(count)]
     finally:
@@ -43,7 +46,7 @@ def read_all(sock, count):
 
 
 def frame(data, client="c1", stream="camera", **more):
-    return {"type": "frame", "client": client, "stream": stream, "data": data, **more}
+    return Frame(client, stream, data, **more)
 
 
 def send_many(channel, message, count):
@@ -82,14 +85,14 @@ def test_several_messages_in_one_piece(ends):
     assert [child.receive(1), child.receive(0)] == [{"type": "a"}, {"type": "b"}]
 
 
-def test_the_latest_frame_of_a_stalled_reader_wins_and_control_is_kept(ends):
+def test_a_stalled_reader_gets_the_latest_frame_and_all_control_messages(ends):
     ours, child = ends
     payload = bytes(200_000)
     for n in range(50):
         child.send(frame(struct.pack("<I", n) + payload))
         child.send({"type": "log", "text": str(n)})
     got = []
-    peer = Channel(ours.detach())
+    peer = Channel(ours.detach(), decode)
     while (message := peer.receive(1)) is not None:
         got.append(message)
     peer.close()
@@ -126,7 +129,7 @@ def test_poses_that_wait_are_merged(ends):
     assert [unpack(got.poses[at : at + POSE_BYTES])[0] for at in (0, 16, 32)] == [1.0, 3.0, 4.0]
 
 
-def test_closing_the_other_end_is_told(ends):
+def test_closing_the_other_end_is_noticed(ends):
     ours, child = ends
     ours.close()
     with pytest.raises(ChannelClosed):
@@ -135,7 +138,7 @@ def test_closing_the_other_end_is_told(ends):
         send_many(child, {"type": "log"}, 3)
 
 
-def test_a_peer_that_never_reads_is_given_up(ends, monkeypatch):
+def test_a_peer_that_never_reads_is_dropped(ends, monkeypatch):
     _, child = ends
     monkeypatch.setattr(channel_module, "STALL_TIMEOUT_S", 0.05)
     monkeypatch.setattr(channel_module, "MAX_QUEUED_BYTES", 100_000)
@@ -143,12 +146,15 @@ def test_a_peer_that_never_reads_is_given_up(ends, monkeypatch):
         send_many(child, {"type": "log", "text": "x" * 10_000}, 200)
 
 
-@pytest.mark.parametrize("body", [b"\xc1", b"\x01", b"\x80", b"\x81\xa4type\x01"])
-def test_rubbish_is_refused(ends, body):
-    ours, child = ends
+@pytest.mark.parametrize("body", [b"\xc1", b"\x01", b"\x80", b"\x81\xa4type\x01", b"\x81\xa4type\xa1x"])
+def test_rubbish_is_refused(body):
+    ours, theirs = socket_pair()
+    child = Channel(theirs.detach(), decode_to_application)
     ours.send(struct.pack("<I", len(body)) + body)
-    with pytest.raises(ChannelError):
+    with pytest.raises(ChannelError, match="does not decode"):
         child.receive(1)
+    child.close()
+    ours.close()
 
 
 def test_an_absurd_length_is_refused(ends):
@@ -186,7 +192,7 @@ def test_a_forked_child_cannot_write_into_the_channel(ends):
 
 async def test_the_managers_side(ends):
     ours, child = ends
-    manager = await AsyncChannel.open(ours)
+    manager = await AsyncChannel.open(ours, decode)
     manager.send({"type": "start", "seed": 1})
     assert await asyncio.to_thread(child.receive, 5) == {"type": "start", "seed": 1}
     child.send({"type": "ready"})
@@ -203,7 +209,7 @@ async def test_the_managers_side(ends):
 async def test_the_manager_gives_up_a_child_that_does_not_read(ends, monkeypatch):
     ours, _ = ends
     monkeypatch.setattr(channel_module, "MAX_QUEUED_BYTES", 100_000)
-    manager = await AsyncChannel.open(ours)
+    manager = await AsyncChannel.open(ours, decode)
     with pytest.raises(ChannelClosed, match="does not read"):
         send_many(manager, {"type": "teleop", "pad": "x" * 1000}, 2000)
     manager._writer.transport.abort()

@@ -23,7 +23,7 @@ def test_a_branch_is_found_when_it_grows_and_gone_when_it_ended():
         [sys.executable, "-c", BRANCH], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as parent:
         child = int(parent.stdout.readline())
-        for _ in range(FORGET_EVERY + 1):  # whether it remembers them or reads all anew
+        for _ in range(FORGET_EVERY + 1):  # with and without reading all again
             found = [process.pid for process in descendants.look()]
             assert set(found) - before == {parent.pid, child}
             assert found.index(parent.pid) < found.index(child)
@@ -32,7 +32,7 @@ def test_a_branch_is_found_when_it_grows_and_gone_when_it_ended():
     assert not {parent.pid, child} & {process.pid for process in descendants.look()}
 
 
-def test_it_agrees_with_who_reads_everything():
+def test_it_agrees_with_a_full_scan():
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as child:
         found = {process.pid for process in Descendants().look()}
         assert found == {process.pid for process in psutil.Process().children(recursive=True)}

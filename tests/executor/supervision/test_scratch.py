@@ -32,7 +32,7 @@ def age(folder):
     os.utime(folder / LOCK, (0, 0))
 
 
-def test_what_a_killed_process_left_goes_with_the_next_start_and_not_earlier():
+def test_files_of_a_killed_process_are_removed_at_the_next_start():
     with subprocess.Popen(
         [sys.executable, "-c", HOLD], cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as owner:
@@ -46,7 +46,7 @@ def test_what_a_killed_process_left_goes_with_the_next_start_and_not_earlier():
     assert not folder.exists()
 
 
-def test_what_is_not_a_session_s_stays(tmp_path):
+def test_files_of_others_are_kept(tmp_path):
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / LOCK).touch()
     age(tmp_path / "other")

@@ -27,7 +27,7 @@ def test_segments_without_an_owner_are_removed(tmp_path):
     assert left == {f"{n}{s}" for n in ("fastrtps_alive", "fastrtps_young", "other") for s in ("", "_el")}
 
 
-def test_ports_that_nobody_reads_or_has_in_memory_are_removed(tmp_path):
+def test_ports_without_a_reader_or_a_mapping_are_removed(tmp_path):
     for number in (7410, 7412, 7414, 7416):
         for name in (f"fastrtps_port{number}", f"sem.fastrtps_port{number}_mutex"):
             (tmp_path / name).write_bytes(b"x")

@@ -1,4 +1,4 @@
-"""Children that behave and children that do not: nothing is left, and the reason is told."""
+"""Children that behave and children that do not: nothing is left, and the reason is reported."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from pathlib import Path
 import psutil
 import pytest
 
+from executor.child_messages import name_of
 from executor.session.events import ChildExited, ChildSaid, Kill, Retire, Spawn, Tell
 from executor.supervision.output import LineReader, RateLimit
 from executor.supervision.processes import Limits, Program
@@ -34,17 +35,18 @@ def fakes_alive():
 
 
 class Stage:
-    def __init__(self, habit, **limits):
+    def __init__(self, habit, kind="application", **limits):
+        self.kind = kind
         self.events = asyncio.Queue()
         self.frames = []
         self.seen = []
         self.supervisor = Supervisor(
-            {"application": program(habit, **limits)}, self.events.put_nowait, self.frames.append
+            {kind: program(habit, **limits)}, self.events.put_nowait, self.frames.append
         )
-        self.supervisor.apply(Spawn("application", 1))
+        self.supervisor.apply(Spawn(kind, 1))
 
     def tell(self, type_, **fields):
-        self.supervisor.apply(Tell("application", 1, {"type": type_, **fields}))
+        self.supervisor.apply(Tell(self.kind, 1, {"type": type_, **fields}))
 
     async def until(self, wanted):
         async with asyncio.timeout(60):
@@ -58,12 +60,12 @@ class Stage:
         return await self.until(lambda e: isinstance(e, ChildExited))
 
     async def said(self, type_):
-        return await self.until(lambda e: isinstance(e, ChildSaid) and e.message["type"] == type_)
+        return await self.until(lambda e: isinstance(e, ChildSaid) and name_of(e.message) == type_)
 
 
 @contextlib.asynccontextmanager
-async def stage(habit, **limits):
-    it = Stage(habit, **limits)
+async def stage(habit, kind="application", **limits):
+    it = Stage(habit, kind, **limits)
     try:
         yield it
     finally:
@@ -71,23 +73,35 @@ async def stage(habit, **limits):
         assert fakes_alive() == []
 
 
-async def test_a_good_child_answers_and_ends_when_told():
-    async with stage("good") as it:
+async def test_a_good_child_answers_and_stops_on_request():
+    async with stage("good", "world") as it:
         it.tell("start")
         await it.said("ready")
         it.tell("subscribe", client="c", stream="poses")
-        it.tell("pause")
-        await it.said("paused")
-        assert [f["stream"] for f in it.frames] == ["poses"]
+        it.tell("list_topics", request="q1")
+        await it.said("answer")
+        assert [f.stream for f in it.frames] == ["poses"]
         it.tell("stop")
-        it.supervisor.apply(Retire("application", 1, 5.0))
+        it.supervisor.apply(Retire("world", 1, 5.0))
         assert (await it.exit()).reason == "ended with exit code 0"
+
+
+@pytest.mark.parametrize(
+    "message",
+    [{"type": "tick"}, {"type": "tick", "n": "x"}, {"type": "nonsense"}, {"type": "log", "level": 3}, {}],
+)
+async def test_a_child_whose_message_does_not_decode_is_ended(message):
+    async with stage("good") as it:
+        it.tell("start")
+        await it.said("ready")
+        it.tell("say", message=message)
+        assert "broke its channel (a message does not decode: " in (await it.exit()).reason
 
 
 @pytest.mark.parametrize(
     ("habit", "reason"), [("dies_at_start", "exit code 3"), ("dies_when_started", "exit code 4")]
 )
-async def test_a_child_that_dies_tells_code_and_last_words(habit, reason):
+async def test_a_child_that_dies_reports_its_code_and_last_lines(habit, reason):
     async with stage(habit) as it:
         it.tell("start")
         event = await it.exit()
@@ -108,7 +122,7 @@ async def test_a_child_that_ignores_stop_is_ended_after_its_grace():
         assert (await it.exit()).reason == "was ended"
 
 
-async def test_a_child_killed_from_outside_is_told_by_its_signal():
+async def test_a_child_killed_from_outside_is_reported_with_its_signal():
     async with stage("good") as it:
         it.tell("start")
         await it.said("ready")
@@ -130,7 +144,7 @@ async def test_a_flood_of_output_is_limited_and_counted():
         await it.said("ready")
         it.tell("stop")
         await it.exit()
-        logs = [e for e in it.seen if isinstance(e, ChildSaid) and e.message["type"] == "log"]
+        logs = [e for e in it.seen if isinstance(e, ChildSaid) and name_of(e.message) == "log"]
         assert 1000 <= len(logs) < 5000
 
 
@@ -169,7 +183,7 @@ async def test_a_limit_that_is_hit_is_named(habit, limits, reason):
         assert (await it.exit()).reason == reason
 
 
-async def test_a_program_that_does_not_exist_is_told():
+async def test_a_program_that_does_not_exist_is_reported():
     events = asyncio.Queue()
     supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)
     supervisor.apply(Spawn("world", 1))
@@ -213,9 +227,9 @@ def test_lines_are_cut_and_given_their_level():
     reader = LineReader("info", said.append, time.monotonic)
     reader.feed(b"[WARN] [12.5] [node]: low ba")
     reader.feed(b"ttery\nplain\r\n\xff\n" + b"x" * 9000)
-    assert [(m["level"], m["text"]) for m in said[:3]] == [
+    assert [(m.level, m.text) for m in said[:3]] == [
         ("warning", "[WARN] [12.5] [node]: low battery"),
         ("info", "plain"),
         ("info", "\ufffd"),
     ]
-    assert len(said[3]["text"]) == 4000
+    assert len(said[3].text) == 4000

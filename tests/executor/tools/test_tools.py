@@ -64,14 +64,14 @@ async def test_a_checker_that_hangs_is_given_up(tmp_path, monkeypatch):
     assert (await run_ruff(["60"], "", program="/bin/sleep"))["status"] is None
 
 
-async def test_only_who_knows_the_token_is_served(tmp_path):
+async def test_only_clients_with_the_token_are_served(tmp_path):
     async with tools(tmp_path) as (path, _):
         for target, token, status in (("ruff", "wrong", 401), ("other", TOKEN, 404)):
             with pytest.raises(InvalidStatus, match=str(status)):
                 await client(path, target, token)
 
 
-async def test_they_end_when_nobody_comes(tmp_path):
+async def test_they_end_without_clients(tmp_path):
     async with tools(tmp_path, grace_s=0.3) as (path, running):
         async with client(path, "language"):
             await asyncio.sleep(0.6)

@@ -4,7 +4,7 @@ import pytest
 
 from executor.robots import robot_ids
 from executor.universes import BUILTIN_IDS, load_builtin, parse_universe
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 from tests.executor.universes.coplanar import overlapping
 
 HEAD = "format: bt-studio/universe\nversion: 1\nname: test\n"

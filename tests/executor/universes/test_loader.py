@@ -1,7 +1,7 @@
 import pytest
 
 from executor.universes import BUILTIN_IDS, UniverseError, load_builtin, parse_universe
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 HEAD = "format: bt-studio/universe\nversion: 1\nname: test\n"
 

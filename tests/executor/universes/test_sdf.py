@@ -4,7 +4,7 @@ import pytest
 
 from executor.universes import UniverseError, parse_universe
 from executor.universes.sdf import import_sdf
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 WORLD = b"""<?xml version="1.0"?>
 <sdf version="1.9">

@@ -3,7 +3,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from executor.universes import load_builtin, parse_universe
-from executor.world.bullet import BulletWorld
+from executor.world.physics.bullet import BulletWorld
 
 MakeWorld = Callable[..., BulletWorld]
 

@@ -29,7 +29,7 @@ class Remote:
         command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
         theirs.close()
-        self.channel = Channel(ours.detach())
+        self.channel = Channel(ours.detach(), msgspec.msgpack.decode)
 
     def tell(self, kind: str, **fields: Any) -> None:
         self.channel.send({"type": kind, **fields})
@@ -103,7 +103,7 @@ def test_a_resumed_world_moves_and_is_seen(remote: Remote) -> None:
     remote.tell("unsubscribe", client="a", stream="poses")
 
 
-def test_a_paused_world_steps_as_told(remote: Remote) -> None:
+def test_a_paused_world_steps_on_request(remote: Remote) -> None:
     remote.tell("teleop", linear=0.5, angular=0.0)
     remote.tell("step", dt_s=0.5)
     remote.tell("subscribe", client="b", stream="poses", max_hz=60.0, width=None, camera_pose=None)
@@ -111,7 +111,7 @@ def test_a_paused_world_steps_as_told(remote: Remote) -> None:
     remote.tell("unsubscribe", client="b", stream="poses")
 
 
-def test_a_paused_world_goes_on_for_who_drives_in_it(remote: Remote) -> None:
+def test_a_paused_world_runs_while_a_client_drives(remote: Remote) -> None:
     remote.tell("subscribe", client="c", stream="poses", max_hz=60.0, width=None, camera_pose=None)
     remote.tell("teleop", linear=0.5, angular=0.0, goes_on=True)
     assert poses_until(remote, "c", 0.02) > 0
@@ -133,14 +133,10 @@ def test_a_bump_is_logged(remote: Remote) -> None:
     assert "bumped into wall_east" in remote.hear("log")["text"]
 
 
-def test_what_makes_no_sense_is_refused_and_the_world_goes_on(remote: Remote) -> None:
+def test_invalid_requests_are_refused_and_the_world_continues(remote: Remote) -> None:
     for kind, fields in [
-        ("nonsense", {}),
-        ("step", {}),
         ("set_speed", {"speed": -1}),
         ("move_body", {"id": "ghost", "pose": [0, 0, 0, 0, 0, 0]}),
-        ("subscribe", {"client": "a", "stream": "smell"}),
-        ("subscribe", {"client": "a", "stream": "view", "camera_pose": {"eye": 3}}),
         ("echo_topic", {"topic": "/ghost", "max_hz": 1.0}),
         ("start", {"universe": "empty"}),
     ]:
@@ -149,6 +145,25 @@ def test_what_makes_no_sense_is_refused_and_the_world_goes_on(remote: Remote) ->
     remote.tell("list_topics")
     names = {row["name"] for row in remote.hear("topics")["topics"]}
     assert {"/scan", "/cmd_vel", "/odom", "/clock", "/camera/image_raw"} <= names
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields"),
+    [
+        ("nonsense", {}),
+        ("step", {}),
+        ("subscribe", {"client": "a", "stream": "smell"}),
+        ("subscribe", {"client": "a", "stream": "view", "camera_pose": {"eye": 3}}),
+    ],
+)
+def test_a_message_that_does_not_decode_ends_the_process(
+    kind: str, fields: dict[str, Any], capfd: pytest.CaptureFixture[str]
+) -> None:
+    remote = Remote()
+    remote.tell(kind, **fields)
+    assert remote.process.wait(60) == 1
+    assert "cannot be read: a message does not decode" in capfd.readouterr().err
+    remote.close()
 
 
 def test_a_document_that_is_wrong_is_refused_with_its_line() -> None:

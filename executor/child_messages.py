@@ -1,0 +1,441 @@
+"""Messages between the manager and its two child processes, defined once for both ends.
+
+Each message is a tagged struct; its tag is the field ``type``. A channel decodes one of four unions:
+
+    ToWorld, FromWorld                world process (`executor.world.process`)
+    ToApplication, FromApplication    application process (`executor.application.process`)
+
+Bytes that are no member of the union do not decode: the manager ends such a child with a fault that says
+why, and a child ends itself. Both ends always have the same version, so nothing is versioned here. Messages
+that become events of the session protocol extend the event of the same name (`executor.messages`).
+
+A message with a `request` asks for an answer; the answer repeats that token.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final, TypeVar
+
+import msgspec
+from msgspec import Struct
+
+from executor import messages
+
+Event = TypeVar("Event", bound=Struct)
+
+
+class _Message(Struct, tag_field="type", omit_defaults=True):
+    """A message without a question."""
+
+
+class _Asked(Struct, tag_field="type", omit_defaults=True, kw_only=True):
+    """A message that asks, or the answer to one; `request` is None where nobody waits for an answer."""
+
+    request: str | None = None
+
+
+# --- to both --------------------------------------------------------------------------------------
+
+
+class Stop(_Message, tag="stop"):
+    """End the process."""
+
+
+class Pause(_Asked, tag="pause"):
+    """Pause simulated time, or ticks."""
+
+
+class Resume(_Asked, tag="resume"):
+    """Resume simulated time, or ticks."""
+
+
+# --- to the world ---------------------------------------------------------------------------------
+
+
+class StartWorld(_Message, tag="start"):
+    """Build a world: `universe` is an id or a document, `none` joins an outside ROS graph instead.
+
+    `file` names the document in errors; `assets` is the folder with what it refers to.
+    """
+
+    universe: str
+    file: str = ""
+    assets: str = ""
+    robot: str | None = None
+    seed: int = 0
+    speed: float = 1.0
+    domain_id: int = 0
+
+
+class StepWorld(_Asked, tag="step"):
+    """Simulate `dt_s` seconds of a paused world."""
+
+    dt_s: float
+
+
+class Reset(_Asked, tag="reset"):
+    """Put everything where it was at the start."""
+
+
+class SetSpeed(_Asked, tag="set_speed"):
+    """Simulated seconds a second of real time."""
+
+    speed: float
+
+
+class StopRobot(_Message, tag="stop_robot"):
+    """Set the target velocity of every robot to zero."""
+
+
+class Teleop(_Message, tag="teleop"):
+    """Drive the first robot; `goes_on` lets a paused world run for it for a moment."""
+
+    linear: float
+    angular: float
+    goes_on: bool = False
+
+
+class MoveBody(_Asked, tag="move_body"):
+    """Put a body somewhere."""
+
+    id: str
+    pose: tuple[float, float, float, float, float, float]
+
+
+class Subscribe(_Message, tag="subscribe"):
+    """Send a stream to a client, or change how it is sent."""
+
+    client: str
+    stream: messages.StreamName
+    max_hz: float = 30.0
+    width: int | None = None
+    camera_pose: messages.CameraPose | None = None
+
+
+class Unsubscribe(_Message, tag="unsubscribe"):
+    """End a stream of a client."""
+
+    client: str
+    stream: messages.StreamName
+
+
+class Pace(_Message, tag="pace"):
+    """The share of its pictures that a client was too slow for, 0 to 1."""
+
+    client: str
+    lost: float
+
+
+class ListTopics(_Asked, tag="list_topics"):
+    """Report the topics of the ROS graph."""
+
+
+class EchoTopic(_Asked, tag="echo_topic"):
+    """Report the messages of a topic; a `patient` request waits for a topic that does not exist yet."""
+
+    topic: str
+    max_hz: float
+    patient: bool = False
+
+
+class PublishTopic(_Asked, tag="publish_topic"):
+    """Publish one message."""
+
+    topic: str
+    message_type: str
+    message: dict[str, Any]
+
+
+class DescribeType(_Asked, tag="describe_type"):
+    """Report the fields of a message type."""
+
+    message_type: str
+
+
+# --- to the application ---------------------------------------------------------------------------
+
+
+class StartApplication(_Message, tag="start"):
+    """Load the application in `app_dir` and wait, paused; `outside` uses the time of an outside graph."""
+
+    app_dir: str
+    tick_hz: float
+    on_finish: messages.OnFinish = "stop"
+    on_error: messages.OnError = "stop"
+    seed: int = 0
+    domain_id: int | None = None
+    outside: bool = False
+
+
+class StepTick(_Message, tag="step"):
+    """Tick once; a `Stepped` answers."""
+
+
+class SetTickRate(_Asked, tag="set_tick_rate"):
+    """Ticks a second of simulated time."""
+
+    tick_hz: float
+
+
+class SetBlackboard(_Message, tag="set_blackboard"):
+    """Write an entry; a `BlackboardSet` answers."""
+
+    scope: str
+    key: str
+    value: Any
+
+
+# --- from both ------------------------------------------------------------------------------------
+
+
+class Place(Struct, omit_defaults=True):
+    """Where the main thread of a child is: `text` for people, the rest where it runs an action."""
+
+    text: str = ""
+    node_id: str = ""
+    tree_id: str = ""
+    node_path: str = ""
+    node_type: str = ""
+    file: str = ""
+    line: int = 0
+    traceback: str = ""
+
+
+class Beat(_Message, tag="beat"):
+    """Sign of life of a child (`executor.supervision.pulse`).
+
+    Attributes:
+        turns: how often the main thread completed its loop.
+        task: what the main thread loads; "" once it runs its loop.
+        clocks: how often simulated time was published, or received.
+        place: where the main thread is, if it has not completed its loop for a while.
+    """
+
+    turns: int
+    task: str = ""
+    clocks: int = 0
+    place: Place | None = None
+
+
+class Log(_Message, tag="log"):
+    """One line of output; `time` is None where the session's own time is to be used."""
+
+    level: messages.LogLevel
+    text: str
+    node_id: str = ""
+    node_path: str = ""
+    time: float | None = None
+
+
+class Starting(_Message, tag="starting"):
+    """The child received its start message."""
+
+
+class Answer(_Asked, tag="answer"):
+    """A request was done, or failed with an error."""
+
+    error: messages.Error | None = None
+
+
+# --- from the world -------------------------------------------------------------------------------
+
+
+class WorldReady(_Message, tag="ready"):
+    """The world is built, and paused."""
+
+    renderer: str = ""
+    tf: bool = False
+    universe: str = ""
+
+
+class Progress(_Message, tag="progress"):
+    """How far the start is, 0 to 1."""
+
+    fraction: float
+    message: str
+
+
+class Failed(_Asked, tag="error"):
+    """A message without a request could not be obeyed."""
+
+    code: str
+    message: str
+    hint: str = ""
+
+
+class Sim(messages.Sim, tag_field="type", tag="sim", kw_only=True):
+    """Event `sim` at the simulated time `t`; the session adds the load of the ticks."""
+
+    t: float
+
+
+class TopicMismatch(messages.TopicMismatch, tag_field="type", tag="topic_mismatch"):
+    """Event `topic_mismatch`."""
+
+
+class Topics(_Asked, tag="topics"):
+    """Event `topics`."""
+
+    topics: list[messages.TopicInfo]
+
+
+class TopicMessage(_Asked, tag="topic_message"):
+    """Event `topic_message`, whose `type` is `message_type` here."""
+
+    topic: str
+    message_type: str
+    message: dict[str, Any]
+    bytes: int = 0
+    cut: dict[str, int] = {}
+
+
+class TypeDescription(_Asked, tag="type_description"):
+    """Event `type_description`, whose `type` is `message_type` here."""
+
+    message_type: str
+    fields: dict[str, str]
+    example: dict[str, Any]
+
+
+class Frame(_Message, tag="frame"):
+    """A frame of the stream socket for one client (None: for all).
+
+    `data` is the encoded frame and passes through the manager as it is. Frames may be dropped in favour of
+    newer ones, unless `keep` is set: later frames build upon a scene.
+    """
+
+    client: str | None
+    stream: str
+    data: bytes
+    keep: bool = False
+
+
+# --- from the application -------------------------------------------------------------------------
+
+
+class ApplicationReady(_Message, tag="ready"):
+    """The application is loaded, and paused."""
+
+
+class Paused(_Message, tag="paused"):
+    """Ticks are paused."""
+
+
+class Resumed(_Message, tag="resumed"):
+    """Ticks are resumed."""
+
+
+class Stepped(_Message, tag="stepped"):
+    """One tick was done."""
+
+
+class BlackboardSet(_Message, tag="blackboard_set"):
+    """An entry was written, or `error` says why not."""
+
+    error: str = ""
+
+
+class Tree(messages.Tree, tag_field="type", tag="tree"):
+    """Event `tree`."""
+
+
+class Tick(messages.Tick, tag_field="type", tag="tick", kw_only=True):
+    """Event `tick` at the simulated time `t`."""
+
+    t: float
+
+
+class Blackboard(messages.Blackboard, tag_field="type", tag="blackboard"):
+    """Event `blackboard`."""
+
+
+class Fault(messages.Fault, tag_field="type", tag="fault"):
+    """Event `fault`."""
+
+
+class Finished(messages.Finished, tag_field="type", tag="finished"):
+    """Event `finished`."""
+
+
+WorldCommand = (
+    Pause
+    | Resume
+    | StepWorld
+    | Reset
+    | SetSpeed
+    | StopRobot
+    | Teleop
+    | MoveBody
+    | Subscribe
+    | Unsubscribe
+    | Pace
+    | ListTopics
+    | EchoTopic
+    | PublishTopic
+    | DescribeType
+)
+"""What a started world obeys."""
+ToWorld = StartWorld | Stop | WorldCommand
+FromWorld = (
+    Beat
+    | Log
+    | Starting
+    | Answer
+    | WorldReady
+    | Progress
+    | Failed
+    | Sim
+    | TopicMismatch
+    | Topics
+    | TopicMessage
+    | TypeDescription
+    | Frame
+)
+ToApplication = StartApplication | Stop | Pause | Resume | StepTick | SetTickRate | SetBlackboard
+FromApplication = (
+    Beat
+    | Log
+    | Starting
+    | Answer
+    | ApplicationReady
+    | Paused
+    | Resumed
+    | Stepped
+    | BlackboardSet
+    | Tree
+    | Tick
+    | Blackboard
+    | Fault
+    | Finished
+)
+decode_to_world: Final = msgspec.msgpack.Decoder(ToWorld).decode
+decode_from_world: Final = msgspec.msgpack.Decoder(FromWorld).decode
+decode_to_application: Final = msgspec.msgpack.Decoder(ToApplication).decode
+decode_from_application: Final = msgspec.msgpack.Decoder(FromApplication).decode
+Request = (
+    Pause
+    | Resume
+    | StepWorld
+    | Reset
+    | SetSpeed
+    | MoveBody
+    | ListTopics
+    | EchoTopic
+    | PublishTopic
+    | DescribeType
+    | SetTickRate
+)
+"""Messages that a child answers with `Answer`."""
+
+
+def name_of(message: Struct) -> str:
+    """Returns the tag of a message."""
+    return str(type(message).__struct_config__.tag)
+
+
+def event_of(message: Struct, event: type[Event]) -> Event:
+    """Returns the event that a message extends, without the fields of the channel.
+
+    Nested structs are shared, not copied.
+    """
+    return msgspec.convert(message, event, from_attributes=True)

@@ -1,0 +1,69 @@
+"""Reactions to the end of a child process: the ladder goes down to the highest state that still holds."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from executor import messages
+from executor.session import steps
+from executor.session.ladder import HAS_APPLICATION, State
+from executor.session.questions import answer_late
+
+if TYPE_CHECKING:
+    from executor.session.child import Child
+    from executor.session.events import ChildExited
+    from executor.session.stage import Stage
+
+__all__ = ["exited", "lose"]
+
+
+def exited(stage: Stage, event: ChildExited) -> None:
+    """Handles the exit of a world or an application, expected or not."""
+    child = stage.children.of(event)
+    if child is None:
+        return
+    del stage.children.living[event.kind]
+    child.end(event.reason, event.last_lines)
+    answer_late(stage, stage.questions.orphaned(child.key), "process_died", event.reason)
+    if child.is_stopping:
+        _stopped(stage)
+        return
+    what = "The simulated world" if event.kind == "world" else "The application"
+    message = f"{what} {event.reason}."
+    lines = "\n".join(event.last_lines)
+    if not child.is_in_use:
+        text = f"{message} It was not in use yet. {lines}".strip()
+        stage.emit(messages.Log("manager", "warning", text))
+        return
+    stage.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
+    _fall(stage, child, message)
+
+
+def lose(stage: Stage, child: Child, reason: str, message: str) -> None:
+    """Ends a child that is in use, and goes down to the state that holds without it."""
+    stage.children.drop(child.kind, reason=reason)
+    _fall(stage, child, message)
+
+
+def _stopped(stage: Stage) -> None:
+    """Handles the exit of an application that was told to stop."""
+    if stage.state in HAS_APPLICATION:
+        stage.emit(messages.Finished("IDLE", "terminated"))
+        stage.enter(State.VISUALIZATION_READY)
+        stage.children.replenish()
+
+
+def _fall(stage: Stage, child: Child, message: str) -> None:
+    """Goes down to the state that holds without the child."""
+    rung = State.CONNECTED if child.kind == "world" else State.VISUALIZATION_READY
+    if stage.state.height <= rung.height:
+        return
+    if stage.state in HAS_APPLICATION:
+        stage.emit(messages.Finished("IDLE", "process_died", message))
+    if child.kind == "world":
+        stage.run.universe = None
+        stage.children.drop("application", reason="was ended, since the simulated world is gone")
+    else:
+        steps.stop_moving(stage)
+    stage.enter(rung, message)
+    stage.children.replenish()

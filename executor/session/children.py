@@ -1,0 +1,113 @@
+"""The child processes of a session: starting them, sending them messages, ending them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from executor import child_messages
+from executor.session.child import Child
+from executor.session.events import Interrupt, Kill, Retire, Spawn, Tell
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.child_messages import Request, ToApplication, ToWorld
+    from executor.session.events import ChildExited, ChildLooked, ChildSaid, ChildTraced, Effect, Kind
+
+__all__ = ["Children"]
+
+
+class Children:
+    """At most one living child of each kind; extra nodes are those of `LaunchNodes`.
+
+    Args:
+        effect: takes what is to be done.
+        clock: seconds of the session's clock.
+        token: makes the token of a request.
+        lost: called with a child that is dropped and why, before its end is under way.
+    """
+
+    def __init__(
+        self,
+        effect: Callable[[Effect], None],
+        clock: Callable[[], float],
+        token: Callable[[], str],
+        lost: Callable[[Child, str], None],
+    ) -> None:
+        self._effect = effect
+        self._clock = clock
+        self._token = token
+        self._lost = lost
+        self._count = 0
+        self.living: dict[Kind, Child] = {}
+        self.leaving: set[tuple[Kind, int]] = set()
+        self.spares_lost: Counter[Kind] = Counter()
+
+    def next_number(self) -> int:
+        """Returns the number of a new child."""
+        self._count += 1
+        return self._count
+
+    def get(self, kind: Kind) -> Child | None:
+        """Returns the living child of a kind."""
+        return self.living.get(kind)
+
+    def of(self, event: ChildSaid | ChildLooked | ChildTraced | ChildExited) -> Child | None:
+        """Returns the living child that an event is about; None if it is about an earlier one."""
+        child = self.living.get(event.kind)
+        return child if child is not None and child.number == event.number else None
+
+    def ensure(self, kind: Kind) -> Child:
+        """Returns the living child of a kind, and starts one where there is none."""
+        if kind not in self.living:
+            self.living[kind] = Child(kind, self.next_number(), self._clock())
+            self._effect(Spawn(kind, self._count))
+        return self.living[kind]
+
+    def replenish(self) -> None:
+        """Starts a spare process of each kind, since their imports take time."""
+        self.ensure("world")
+        self.ensure("application")
+
+    def tell_world(self, message: ToWorld) -> None:
+        """Sends a message to the world, if there is one."""
+        self._tell("world", message)
+
+    def tell_application(self, message: ToApplication) -> None:
+        """Sends a message to the application, if there is one."""
+        self._tell("application", message)
+
+    def ask(self, child: Child, message: Request, token: str) -> None:
+        """Sends a request whose answer will have the token."""
+        message.request = token
+        self._effect(Tell(child.kind, child.number, message))
+
+    def order(self, kind: Kind, message: Request) -> tuple[Child, str]:
+        """Sends a request of the session's own; returns the child and the token of its answer."""
+        child, token = self.ensure(kind), self._token()
+        child.expect(token)
+        self.ask(child, message, token)
+        return child, token
+
+    def interrupt(self, child: Child) -> None:
+        """Interrupts the child's current tick."""
+        self._effect(Interrupt(child.kind, child.number))
+
+    def drop(self, kind: Kind, *, grace_s: float = 0.0, reason: str = "was ended") -> None:
+        """Ends the child of a kind: at once, or after a time in which it may end by itself."""
+        child = self.living.pop(kind, None)
+        if child is None:
+            return
+        child.end(reason)  # steps that wait for it fail now
+        self._lost(child, reason)
+        self.leaving.add((kind, child.number))
+        if grace_s:
+            self._effect(Tell(kind, child.number, child_messages.Stop()))
+            self._effect(Retire(kind, child.number, grace_s))
+        else:
+            self._effect(Kill(kind, child.number))
+
+    def _tell(self, kind: Kind, message: ToWorld | ToApplication) -> None:
+        if kind in self.living:
+            self._effect(Tell(kind, self.living[kind].number, message))

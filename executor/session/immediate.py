@@ -1,0 +1,177 @@
+"""Commands that take no time, or that a child answers: none of them is a step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, TypeVar
+
+from msgspec import Struct
+
+from executor import child_messages, messages
+from executor.session import streaming
+from executor.session.clients import MOST_ECHOED_BY_VIEWER
+from executor.session.ladder import State
+from executor.session.questions import ANSWER_S
+from executor.session.steps import RESET_TIMEOUT_S
+from executor.session.waits import NOT_ANSWERING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.child_messages import Request
+    from executor.session.events import CommandCame, Kind
+    from executor.session.stage import Stage
+
+__all__ = ["ANSWER_LATER", "IMMEDIATE"]
+
+Data = TypeVar("Data", bound=Struct)
+
+
+def _ask(  # noqa: PLR0913 - one question
+    stage: Stage,
+    event: CommandCame,
+    kind: Kind,
+    message: Request,
+    *,
+    topic: str = "",
+    patience_s: float = ANSWER_S,
+    then: Callable[[], None] | None = None,
+) -> None:
+    """Lets a child answer a command; `then` is called when it succeeded.
+
+    `topic` is noted as echoed by the client; the note is removed if the child refuses.
+    """
+    child = stage.children.get(kind)
+    if child is None:
+        stage.refuse(event, "process_died", f"The {kind} is gone.")
+        return
+    if child.is_hanging:
+        if topic:
+            stage.clients.echo(event.client, topic, 0.0)
+        stage.refuse(event, NOT_ANSWERING, child.hang)
+        return
+    token = stage.questions.add(
+        event.client, event.request, child.key, stage.now_s, topic=topic, patience_s=patience_s, then=then
+    )
+    stage.children.ask(child, message, token)
+
+
+def _set_tick_rate(stage: Stage, event: CommandCame, data: messages.SetTickRate) -> None:
+    def note() -> None:
+        stage.mirror.tick_hz = data.tick_hz
+
+    _ask(stage, event, "application", child_messages.SetTickRate(data.tick_hz), then=note)
+
+
+def _set_speed(stage: Stage, event: CommandCame, data: messages.SetSpeed) -> None:
+    def note() -> None:
+        stage.mirror.speed = data.speed
+
+    _ask(stage, event, "world", child_messages.SetSpeed(data.speed), then=note)
+
+
+def _reset_world(stage: Stage, event: CommandCame, _: Struct) -> None:
+    _ask(stage, event, "world", child_messages.Reset(), patience_s=RESET_TIMEOUT_S)
+
+
+def _subscribe(stage: Stage, event: CommandCame, data: messages.Subscribe) -> None:
+    stage.clients.subscribe(event.client, data)
+    if stage.clients.has_stream(event.client) and stage.state.reaches(State.VISUALIZATION_READY):
+        streaming.subscribe(stage, event.client, data)
+
+
+def _unsubscribe(stage: Stage, event: CommandCame, data: messages.Unsubscribe) -> None:
+    stage.clients.unsubscribe(event.client, data.stream)
+    stage.children.tell_world(child_messages.Unsubscribe(event.client, data.stream))
+
+
+def _teleop(stage: Stage, _: CommandCame, data: messages.Teleop) -> None:
+    # A pause freezes tree and world. A world that only waits for an application runs while a client drives.
+    goes_on = stage.state in (State.UNIVERSE_READY, State.VISUALIZATION_READY)
+    stage.children.tell_world(child_messages.Teleop(data.linear, data.angular, goes_on))
+
+
+def _move_body(stage: Stage, event: CommandCame, data: messages.MoveBody) -> None:
+    _ask(stage, event, "world", child_messages.MoveBody(data.id, data.pose))
+
+
+def _list_topics(stage: Stage, event: CommandCame, _: Struct) -> None:
+    _ask(stage, event, "world", child_messages.ListTopics())
+
+
+def _publish_topic(stage: Stage, event: CommandCame, data: messages.PublishTopic) -> None:
+    message = child_messages.PublishTopic(data.topic, data.type, data.message)
+    _ask(stage, event, "world", message, topic=data.topic)
+
+
+def _describe_type(stage: Stage, event: CommandCame, data: messages.DescribeType) -> None:
+    _ask(stage, event, "world", child_messages.DescribeType(data.type))
+
+
+def _echo_topic(stage: Stage, event: CommandCame, data: messages.EchoTopic) -> None:
+    if data.max_hz > 0 and stage.clients.echoes_too_many(event.client, data.topic):
+        text = f"A client that looks on may echo {MOST_ECHOED_BY_VIEWER} topics at once."
+        stage.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
+        return
+    rate_hz = stage.clients.echo(event.client, data.topic, data.max_hz)
+    _ask(stage, event, "world", child_messages.EchoTopic(data.topic, rate_hz), topic=data.topic)
+
+
+def _restart_node(stage: Stage, event: CommandCame, data: messages.RestartNode) -> None:
+    problem = stage.restart_node(data.id)
+    if problem:
+        stage.refuse(event, "unknown_node", problem)
+    else:
+        stage.send(event.client, messages.Ack(), event.request)
+
+
+def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:
+    for client in stage.clients.take_over(event.client):
+        stage.introspect(client)
+
+
+def _ping(_: Stage, __: CommandCame, ___: Struct) -> None:
+    """Does nothing: the acknowledgement is the answer."""
+
+
+def _typed(
+    kind: type[Data], handler: Callable[[Stage, CommandCame, Data], None]
+) -> Callable[[Stage, CommandCame], None]:
+    def handle(stage: Stage, event: CommandCame) -> None:
+        if not isinstance(event.data, kind):
+            raise TypeError(f"{kind.__name__} expected, not {type(event.data).__name__}")
+        handler(stage, event, event.data)
+
+    return handle
+
+
+IMMEDIATE: Final[dict[str, Callable[[Stage, CommandCame], None]]] = {
+    "set_tick_rate": _typed(messages.SetTickRate, _set_tick_rate),
+    "set_speed": _typed(messages.SetSpeed, _set_speed),
+    "reset_world": _typed(messages.Empty, _reset_world),
+    "subscribe": _typed(messages.Subscribe, _subscribe),
+    "unsubscribe": _typed(messages.Unsubscribe, _unsubscribe),
+    "echo_topic": _typed(messages.EchoTopic, _echo_topic),
+    "publish_topic": _typed(messages.PublishTopic, _publish_topic),
+    "move_body": _typed(messages.MoveBody, _move_body),
+    "list_topics": _typed(messages.Empty, _list_topics),
+    "describe_type": _typed(messages.DescribeType, _describe_type),
+    "restart_node": _typed(messages.RestartNode, _restart_node),
+    "teleop": _typed(messages.Teleop, _teleop),
+    "take_over": _typed(messages.Empty, _take_over),
+    "ping": _typed(messages.Empty, _ping),
+}
+
+ANSWER_LATER: Final = frozenset(
+    {
+        "set_tick_rate",
+        "set_speed",
+        "reset_world",
+        "move_body",
+        "list_topics",
+        "echo_topic",
+        "publish_topic",
+        "describe_type",
+        "restart_node",
+    }
+)
+"""Commands that are not acknowledged at once: the handler or a child answers."""

@@ -1,0 +1,110 @@
+"""`Stage`: the interface of the session for its parts, and the values that they share.
+
+The parts (`steps`, `running`, `immediate`, `streaming`, `child_events`, `child_exits`, `launch_nodes` and
+`watch`) import this module, and `protocol.Session` imports the parts: no part knows the session itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+
+from executor.launching.model import LaunchPlan
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from msgspec import Struct
+
+    from executor import messages
+    from executor.session.children import Children
+    from executor.session.clients import Clients
+    from executor.session.events import CommandCame, Effect, Unpacked
+    from executor.session.ladder import State
+    from executor.session.mirror import Mirror
+    from executor.session.questions import Questions
+    from executor.session.waits import Step
+
+__all__ = ["About", "LastRun", "Stage"]
+
+
+@dataclass(frozen=True)
+class About:
+    """Properties that do not change during a session."""
+
+    version: str
+    ros_distro: str = "jazzy"
+    ros_domain_id: int = 0
+    ros_environment: Mapping[str, str] = field(default_factory=dict)
+    outside_domain_id: int = 0
+    grace_s: float = 300.0
+    promote_s: float = 5.0
+
+
+@dataclass
+class LastRun:
+    """The last run, for a restart."""
+
+    universe: messages.LaunchUniverse | None = None
+    application: messages.RunApplication | None = None
+    folder: str = ""
+    plan: LaunchPlan = field(default_factory=LaunchPlan)
+    domain_id: int = 0
+    is_outside: bool = False
+    seed: int = 0
+    deaf_until_s: float = 0.0
+    """An application that receives no time is not restarted a second time before this time."""
+
+
+class Stage(Protocol):
+    """One session, without what only its adapters use."""
+
+    about: About
+    mirror: Mirror
+    clients: Clients
+    children: Children
+    questions: Questions
+    run: LastRun
+    now_s: float
+    sim_time_s: float
+
+    @property
+    def state(self) -> State:
+        """The state of the ladder."""
+
+    @property
+    def is_free(self) -> bool:
+        """Whether no step is under way."""
+
+    def enter(self, state: State, reason: str = "") -> None:
+        """Changes the state of the ladder."""
+
+    def emit(self, event: Struct) -> None:
+        """Sends an event to all clients and stores it for those that join later."""
+
+    def send(self, client: str, event: Struct, request: str | None = None) -> None:
+        """Sends an event to one client."""
+
+    def refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
+        """Answers a command with an error."""
+
+    def effect(self, effect: Effect) -> None:
+        """Adds an effect."""
+
+    def introspect(self, client: str) -> None:
+        """Sends a client what the session is, and the client's role."""
+
+    def know_world(self, renderer: str, *, has_tf: bool) -> None:
+        """Stores what the world can do."""
+
+    def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
+        """Unpacks an archive; returns a function that returns the result once it exists."""
+
+    def begin_own(self, command: str, generator: Step) -> None:
+        """Begins a step that no client asked for."""
+
+    def start_nodes(self) -> None:
+        """Starts the extra nodes of the last run's plan."""
+
+    def restart_node(self, id_: str) -> str:
+        """Restarts an extra node; returns why it cannot, or ""."""

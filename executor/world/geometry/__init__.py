@@ -1,0 +1,1 @@
+"""Poses, meshes and what things look like: pure, without a physics engine."""

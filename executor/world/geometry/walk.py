@@ -1,0 +1,83 @@
+"""The gait of a person: along a path at constant speed, with swinging legs. Pure geometry."""
+
+from __future__ import annotations
+
+import bisect
+import itertools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from executor.world.geometry.transforms import wrap
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+STRIDE_M: Final = 1.3
+LARGEST_SWING: Final = 0.5  # rad, at full pace
+FULL_PACE: Final = 1.2  # m/s
+TURN_RATE: Final = 3.0  # rad/s
+
+
+class Path:
+    """A polyline, walked from its first point; closed if `loop`, otherwise back and forth."""
+
+    def __init__(self, points: Sequence[tuple[float, float]], *, loop: bool) -> None:
+        closed = [*points, points[0]] if loop or len(points) == 1 else [*points, *reversed(points[:-1])]
+        self._points = closed
+        self._ends = [0.0]
+        for a, b in itertools.pairwise(closed):
+            self._ends.append(self._ends[-1] + math.dist(a, b))
+
+    @property
+    def length_m(self) -> float:
+        """The length of one lap."""
+        return self._ends[-1]
+
+    def at(self, distance_m: float) -> tuple[float, float, float]:
+        """Returns x, y and heading after a distance."""
+        if self.length_m <= 0:
+            return (*self._points[0], 0.0)
+        along = distance_m % self.length_m
+        i = min(bisect.bisect_right(self._ends, along), len(self._ends) - 1)
+        a, b = self._points[i - 1], self._points[i]
+        part = (along - self._ends[i - 1]) / max(self._ends[i] - self._ends[i - 1], 1e-9)
+        return (
+            a[0] + (b[0] - a[0]) * part,
+            a[1] + (b[1] - a[1]) * part,
+            math.atan2(b[1] - a[1], b[0] - a[0]),
+        )
+
+
+@dataclass(frozen=True)
+class Gait:
+    """Pose of a walker: `swing` is the angle in rad of the left leg and the right arm."""
+
+    x: float
+    y: float
+    yaw: float
+    swing: float
+    distance_m: float
+
+
+class Walker:
+    """A person on a path. The heading follows the path's with a limited rate, for natural corners."""
+
+    def __init__(self, path: Path, speed: float, start_m: float = 0.0) -> None:
+        self._path = path
+        self._speed = speed
+        self.gait = self._gait(start_m, path.at(start_m)[2])
+
+    def advance(self, dt_s: float) -> Gait:
+        """Walks for `dt_s`."""
+        distance = self.gait.distance_m + self._speed * dt_s
+        wanted = wrap(self._path.at(distance)[2] - self.gait.yaw)
+        limit = TURN_RATE * dt_s
+        self.gait = self._gait(distance, wrap(self.gait.yaw + max(-limit, min(limit, wanted))))
+        return self.gait
+
+    def _gait(self, distance: float, yaw: float) -> Gait:
+        x, y, _ = self._path.at(distance)
+        pace = min(1.0, self._speed / FULL_PACE) ** 0.5 if self._path.length_m > 0 else 0.0
+        swing = LARGEST_SWING * pace * math.sin(2 * math.pi * distance / STRIDE_M)
+        return Gait(x, y, yaw, swing, distance)

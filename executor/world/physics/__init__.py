@@ -1,0 +1,1 @@
+"""Bodies, robots and actors in PyBullet."""

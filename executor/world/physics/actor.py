@@ -1,0 +1,79 @@
+"""Actors in the physics server: bodies that are moved along their path, and that robots can bump into."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from executor.world.geometry.person import Part, person_parts
+from executor.world.geometry.transforms import Pose, from_xyz_rpy
+from executor.world.geometry.walk import Gait, Path, Walker
+from executor.world.physics.bodies import capsule, rgba
+from executor.world.physics.placement import put
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from executor.universes.model import Actor
+    from executor.world.engine import Bullet
+    from executor.world.geometry.objects import SceneObjects
+
+
+class BulletActor:
+    """A person who walks, unaffected by collisions."""
+
+    def __init__(self, bullet: Bullet, actor: Actor) -> None:
+        self.id = actor.id
+        self._bullet = bullet
+        self._walker = Walker(Path(actor.path, loop=actor.loop), actor.speed, actor.start_m)
+        self._parts = person_parts(rgba(actor.color))
+        self._solid = [
+            (
+                part,
+                capsule(
+                    bullet, part.capsule[0], part.capsule[1], from_xyz_rpy((0, 0, part.capsule[2], 0, 0, 0))
+                ),
+            )
+            for part in self._parts
+            if part.capsule is not None
+        ]
+        self._carry()
+
+    @property
+    def uids(self) -> list[int]:
+        """The bodies of the actor in the physics server."""
+        return [uid for _, uid in self._solid]
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Position of the actor in m."""
+        return self._walker.gait.x, self._walker.gait.y
+
+    def advance(self, dt_s: float) -> None:
+        """Walks for `dt_s`."""
+        self._walker.advance(dt_s)
+        self._carry()
+
+    def save(self) -> Gait:
+        """Returns what `restore` needs."""
+        return self._walker.gait
+
+    def restore(self, gait: Gait) -> None:
+        """Restores a state of `save`."""
+        self._walker.gait = gait
+        self._carry()
+
+    def add_to_scene(self, objects: SceneObjects) -> None:
+        """Adds one object for each part."""
+        ids = [
+            (objects.add(self.id, part.name, "actor", list(part.shapes), part.pose(self._walker.gait)), part)
+            for part in self._parts
+        ]
+        objects.add_mover(lambda: self._where(ids))
+
+    def _where(self, ids: list[tuple[int, Part]]) -> Sequence[tuple[int, Pose]]:
+        gait = self._walker.gait
+        return [(object_id, part.pose(gait)) for object_id, part in ids]
+
+    def _carry(self) -> None:
+        for part, uid in self._solid:
+            put(self._bullet, uid, part.pose(self._walker.gait))

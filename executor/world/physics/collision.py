@@ -1,0 +1,35 @@
+"""Counts collisions by episode: a long scrape along a wall is one collision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+EPISODE_GAP_S: Final = 0.5
+
+
+@dataclass(frozen=True)
+class Collision:
+    """The start of an episode, with the body that was hit."""
+
+    time_s: float
+    body: str
+
+
+@dataclass
+class CollisionCounter:
+    """Contacts less than `EPISODE_GAP_S` apart belong to one episode."""
+
+    count: int = 0
+    last_contact_s: float = float("-inf")
+
+    def observe(self, now_s: float, body: str | None) -> Collision | None:
+        """Takes the body in contact (None without one); returns a collision when an episode starts."""
+        if body is None:
+            return None
+        is_new = now_s - self.last_contact_s > EPISODE_GAP_S
+        self.last_contact_s = now_s
+        if not is_new:
+            return None
+        self.count += 1
+        return Collision(now_s, body)

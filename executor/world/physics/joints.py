@@ -1,0 +1,88 @@
+"""The motors of a robot's joints other than wheels: each holds its last target position."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from executor.robots.config import JointDrive, RobotConfig
+    from executor.world.engine import Bullet
+
+GAIN: Final = 0.3
+"""Share of a position error that a motor corrects in one physics step."""
+
+
+class JointMotors:
+    """Moves joints to their targets within their rate limits.
+
+    Args:
+        bullet: the physics server.
+        uid: the robot in it.
+        config: of the robot.
+        indices: of its joints in the physics server, by name.
+    """
+
+    def __init__(self, bullet: Bullet, uid: int, config: RobotConfig, indices: Mapping[str, int]) -> None:
+        self._bullet = bullet
+        self._uid = uid
+        self._drives = {drive.joint: drive for drive in config.joints}
+        self._indices = {name: indices[name] for name in self._drives}
+        self._limits = {name: config.urdf.joints[name].limits for name in self._drives}
+        self._wanted = {name: self._within(name, drive.start) for name, drive in self._drives.items()}
+        self._held: dict[str, float] = {}
+        self.control()
+
+    def __bool__(self) -> bool:
+        return bool(self._drives)
+
+    def command(self, joint: str, position: float) -> bool:
+        """Sets the target of a joint in rad or m, within its limits; refuses one that is not finite."""
+        if not math.isfinite(position):
+            return False
+        self._wanted[joint] = self._within(joint, position)
+        return True
+
+    def control(self) -> None:
+        """Sets the motors' current targets; called once a control period while there is power."""
+        for name, wanted in self._wanted.items():
+            if self._held.get(name) != wanted:
+                self._hold(self._drives[name], wanted)
+
+    def states(self) -> dict[str, tuple[float, float]]:
+        """Returns position and rate of each joint."""
+        if not self._indices:
+            return {}
+        states = self._bullet.getJointStates(self._uid, list(self._indices.values()))
+        return {name: (state[0], state[1]) for name, state in zip(self._indices, states, strict=True)}
+
+    def save(self) -> object:
+        """Returns the state that the physics server does not save itself."""
+        return dict(self._wanted), dict(self._held)
+
+    def restore(self, saved: object) -> None:
+        """Restores a state of `save`."""
+        if not isinstance(saved, tuple):
+            raise TypeError("not saved joints")
+        wanted, held = saved
+        self._wanted = dict(wanted)
+        for name, position in held.items():
+            self._hold(self._drives[name], position)
+
+    def _hold(self, drive: JointDrive, position: float) -> None:
+        self._held[drive.joint] = position
+        self._bullet.setJointMotorControl2(
+            self._uid,
+            self._indices[drive.joint],
+            self._bullet.POSITION_CONTROL,
+            targetPosition=position,
+            positionGain=GAIN,
+            maxVelocity=drive.max_rate,
+            force=drive.torque,
+        )
+
+    def _within(self, joint: str, position: float) -> float:
+        limits = self._limits[joint]
+        return position if limits is None else max(limits[0], min(limits[1], position))

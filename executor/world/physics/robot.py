@@ -1,0 +1,358 @@
+"""A robot in the physics server. It moves by its wheel motors and by contact only."""
+
+from __future__ import annotations
+
+import copy
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from executor.robots.prepare import physical_urdf
+from executor.world.geometry.kinematics import add_links, link_pose, sensor_placements
+from executor.world.geometry.transforms import Pose, Vector, compose, from_xyz_rpy, inverse, yaw_of
+from executor.world.physics.collision import Collision, CollisionCounter
+from executor.world.physics.drive import DifferentialDrive, DriveState, Odometry
+from executor.world.physics.joints import JointMotors
+from executor.world.sensing.lidar import LidarCaster
+from executor.world.sensing.proprioception import Proprioception
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from executor.messages import SensorPlacement
+    from executor.robots.config import Battery, Camera, Imu, Lidar, RobotConfig
+    from executor.universes.model import RobotPlace
+    from executor.world.engine import Bullet
+    from executor.world.geometry.objects import SceneObjects
+    from executor.world.interface import LidarReading
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.imu import ImuReading
+    from executor.world.sensing.rays import RayCaster
+
+DEFAULT_FRICTION: Final = 0.8
+ANY_LINK: Final = -2  # PyBullet's default
+MOST_QUESTIONS: Final = 2
+TOUCH_M: Final = 0.0  # PyBullet reports near misses too, with a positive distance
+FIRST_ROBOT_GROUP: Final = 8  # bits 0 to 7 are used by Bullet, and by us for models
+ALL_GROUPS: Final = 0x7FFF
+
+
+@dataclass(frozen=True)
+class _Saved:
+    drive: DriveState
+    counter: CollisionCounter
+    distance_m: float
+    at: tuple[float, float]
+    noise: Mapping[str, Any]
+    senses: object
+    motors: object
+
+
+class BulletRobot:
+    """A robot with a differential drive, made from its configuration."""
+
+    def __init__(  # noqa: PLR0913 - a robot, and what it stands in
+        self,
+        bullet: Bullet,
+        rays: RayCaster,
+        config: RobotConfig,
+        place: RobotPlace,
+        *,
+        index: int,
+        seed: int,
+    ) -> None:
+        self.id = place.id
+        self.config = config
+        self.distance_m = 0.0
+        self._bullet = bullet
+        self._clock_s = 0.0
+        start = from_xyz_rpy(place.pose)
+        apart = {*config.wheels, *config.friction, *config.skid}
+        with physical_urdf(config.urdf.text, config.meshes, apart) as path:
+            self.uid: int = bullet.loadURDF(
+                str(path), start[:3], start[3:], flags=bullet.URDF_USE_INERTIA_FROM_FILE
+            )
+        self._noise = np.random.default_rng([seed, index])
+        self._drive = DifferentialDrive(config.drive, self._noise)
+        self._counter = CollisionCounter()
+        self._carriers: dict[str, tuple[str, Pose]] = {}
+        self._proprioception = Proprioception(config, (seed, index), self._pose_of)
+        self._joints, self._links = self._index_links()
+        self._wheel_joints = [self._joints[name] for name in (*config.drive.left, *config.drive.right)]
+        self._motors = JointMotors(bullet, self.uid, config, self._joints)
+        self._wheel_links = {self._links[name] for name in config.wheels}
+        self._bumping = self._bumping_links()
+        self._inertial = self._inertial_inverse()
+        self._applied: tuple[float, float] | None = None
+        self._at = self.pose[:2]
+        self._set_up_contact(1 << (FIRST_ROBOT_GROUP + index))
+        mask = ALL_GROUPS & ~(1 << (FIRST_ROBOT_GROUP + index))
+        self._lidars = {
+            lidar.name: LidarCaster(rays, lidar, self.uid, mask, (seed, index, i))
+            for i, lidar in enumerate(config.lidars)
+        }
+        self._drive.observe(*self._wheel_angles(), 0.0)
+
+    # --- what a program may ask ---
+
+    @property
+    def odometry(self) -> Odometry:
+        """Pose and twist by its wheels."""
+        return self._drive.state.odometry
+
+    @property
+    def collisions(self) -> int:
+        """Number of collisions since the start."""
+        return self._counter.count
+
+    @property
+    def base_pose(self) -> Pose:
+        """True pose of the root link."""
+        position, orientation = self._bullet.getBasePositionAndOrientation(self.uid)
+        return compose((*position, *orientation), self._inertial)
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """True x and y in m and yaw in rad."""
+        pose = self.base_pose
+        return pose[0], pose[1], yaw_of(pose[3:])
+
+    @property
+    def bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Lowest and highest corner in m of the bounding box of all collision shapes."""
+        boxes = [self._bullet.getAABB(self.uid, link) for link in self._links.values()]
+        lows, highs = zip(*boxes, strict=True)
+        return tuple(map(min, zip(*lows, strict=True))), tuple(map(max, zip(*highs, strict=True)))
+
+    @property
+    def twist(self) -> tuple[float, float, float]:
+        """True speed along x and y of the robot, in m/s, and about z, in rad/s."""
+        (x, y, _), (_, _, turn) = self._bullet.getBaseVelocity(self.uid)
+        # PyBullet's velocity is that of the centre of mass.
+        center, _ = self._bullet.getBasePositionAndOrientation(self.uid)
+        base = self.base_pose
+        x, y = x + turn * (center[1] - base[1]), y - turn * (center[0] - base[0])
+        cosine, sine = math.cos(self.pose[2]), math.sin(self.pose[2])
+        return x * cosine + y * sine, y * cosine - x * sine, turn
+
+    def command(self, linear: float, angular: float, at_s: float | None = None) -> bool:
+        """Sets the target twist, of now or an earlier time; refuses one that is not finite."""
+        return self._drive.command(linear, angular, self._clock_s if at_s is None else at_s)
+
+    def stop(self) -> None:
+        """Sets the target velocity to zero."""
+        self._drive.command(0.0, 0.0, self._clock_s)
+
+    def command_joint(self, joint: str, position: float) -> bool:
+        """Sets the target of a joint with a motor; refuses one that is not finite."""
+        return self._motors.command(joint, position)
+
+    def joint_states(self) -> dict[str, tuple[float, float]]:
+        """Position and rate of each joint that has a motor, the wheels' first."""
+        names = (*self.config.drive.left, *self.config.drive.right)
+        states = self._bullet.getJointStates(self.uid, self._wheel_joints)
+        wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
+        return wheels | self._motors.states() if self._motors else wheels
+
+    def scan(self, lidar: Lidar) -> LidarReading:
+        """Measures now."""
+        return self._lidars[lidar.name].scan(self._clock_s, self._pose_of(lidar.link))
+
+    def imu(self, imu: Imu) -> ImuReading:
+        """Measures now."""
+        return self._proprioception.imu(imu, self._clock_s)
+
+    def battery(self, battery: Battery) -> BatteryReading:
+        """Measures now."""
+        return self._proprioception.battery(battery)
+
+    def pressed(self) -> frozenset[Zone]:
+        """Returns the zones of the bumper that are pressed."""
+        return self._proprioception.pressed(self._clock_s)
+
+    def camera_pose(self, camera: Camera) -> Pose:
+        """Pose of a camera in the world."""
+        return self._pose_of(camera.link)
+
+    # --- what the world calls ---
+
+    def control(self, now_s: float, dt_s: float) -> None:
+        """Sets the wheels' motors; called at the start of a control period."""
+        self._clock_s = now_s
+        rates = self._drive.wheel_rates(now_s, dt_s) if self._proprioception.has_power else (0.0, 0.0)
+        if rates != self._applied:
+            self._apply(rates)
+        if self._motors and self._proprioception.has_power:
+            self._motors.control()
+
+    def measure(self, now_s: float, dt_s: float) -> None:
+        """Reads wheels and inner sensors; called at the end of a control period."""
+        self._clock_s = now_s
+        self._drive.observe(*self._wheel_angles(), dt_s)
+        center, turn = self._bullet.getBasePositionAndOrientation(self.uid)
+        base = compose((*center, *turn), self._inertial)
+        self._feel(base, center, dt_s)
+        x, y = base[:2]
+        moved = math.dist((x, y), self._at)
+        if moved > 1e-5:  # jitter of the solver is no travel
+            self.distance_m += moved
+            self._at = (x, y)
+
+    def observe_contact(self, now_s: float, name_of: Callable[[int], str | None]) -> Collision | None:
+        """Reads the contacts of the robot; called once a physics step."""
+        self._clock_s = now_s
+        touched = None
+        for contact in self._contacts():
+            body = name_of(contact[2])
+            if body is not None:
+                self._proprioception.touch(contact[5], now_s)
+                touched = touched or body
+        return None if touched is None else self._counter.observe(now_s, touched)
+
+    @property
+    def has_drawn(self) -> bool:
+        """Whether anything of the robot is random: LIDARs, wheels, or a noisy measurement."""
+        config = self.config
+        is_noisy = config.drive.slip_noise > 0 or any(lidar.noise_m > 0 for lidar in config.lidars)
+        return is_noisy or self._proprioception.has_drawn
+
+    def moved_by_hand(self) -> None:
+        """Notes that the robot was moved by hand, which is no travel."""
+        self._at = self.pose[:2]
+        self._drive.state = DriveState(
+            wheel_angles=self._drive.state.wheel_angles, odometry=self._drive.state.odometry
+        )
+        self._apply((0.0, 0.0))
+
+    def save(self) -> object:
+        """Returns the state that the physics server does not save itself."""
+        noise, senses = self._noise.bit_generator.state, self._proprioception.save()
+        return _Saved(
+            self._drive.state,
+            copy.copy(self._counter),
+            self.distance_m,
+            self._at,
+            noise,
+            senses,
+            self._motors.save(),
+        )
+
+    def restore(self, saved: object, now_s: float) -> None:
+        """Restores a state of `save`."""
+        if not isinstance(saved, _Saved):
+            raise TypeError("not a saved robot")
+        self._clock_s = now_s
+        self._drive.state = saved.drive
+        self._counter = copy.copy(saved.counter)
+        self.distance_m, self._at = saved.distance_m, saved.at
+        self._noise.bit_generator.state = saved.noise
+        self._proprioception.restore(saved.senses)
+        self._motors.restore(saved.motors)
+        drive = self.config.drive
+        half_track, radius = drive.track * drive.turn_factor / 2, drive.wheel_radius
+        linear, turn = saved.drive.linear, saved.drive.angular * half_track
+        rates = ((linear - turn) / radius, (linear + turn) / radius)
+        self._apply(rates if self._proprioception.has_power else (0.0, 0.0))
+
+    def add_to_scene(self, objects: SceneObjects, sensors: list[SensorPlacement]) -> None:
+        """Adds the robot's visual shapes and its sensors."""
+        ids = add_links(self.id, self.config.urdf, self.config.id, objects, "robot")
+        objects.add_mover(lambda: self._where(ids))
+        sensors += sensor_placements(self.config, ids)
+
+    # --- inside ---
+
+    def _contacts(self) -> Iterator[Sequence[Any]]:
+        """Returns PyBullet's contact points, except those of wheels."""
+        for link in self._bumping:
+            for contact in self._bullet.getContactPoints(bodyA=self.uid, linkIndexA=link):
+                if contact[8] <= TOUCH_M and contact[3] not in self._wheel_links:
+                    yield contact
+
+    def _where(self, ids: dict[str, int]) -> Sequence[tuple[int, Pose]]:
+        base, positions = self.base_pose, self._positions()
+        urdf = self.config.urdf
+        return [(object_id, link_pose(urdf, base, link, positions)) for link, object_id in ids.items()]
+
+    def _pose_of(self, link: str, base: Pose | None = None) -> Pose:
+        carrier, offset = self._carriers.get(link) or self._find_carrier(link)
+        base = base or self.base_pose
+        if carrier != self.config.urdf.root:
+            base = link_pose(self.config.urdf, base, carrier, self._positions())
+        return compose(base, offset)
+
+    def _find_carrier(self, link: str) -> tuple[str, Pose]:
+        found = self._carriers[link] = self.config.urdf.rigid_parent(link)
+        return found
+
+    def _positions(self) -> dict[str, float]:
+        return {name: state[0] for name, state in self.joint_states().items()}
+
+    def _feel(self, base: Pose, center: Vector, dt_s: float) -> None:
+        drive, odometry = self.config.drive, self._drive.state.odometry
+        effort = abs(odometry.linear) / drive.max_linear + abs(odometry.angular) / drive.max_angular
+        self._proprioception.drain(effort, dt_s)
+        if self._proprioception.has_imu:
+            linear, rate = self._bullet.getBaseVelocity(self.uid)
+            self._proprioception.move(base, center, linear, rate, dt_s)
+
+    def _wheel_angles(self) -> tuple[float, float]:
+        states = self._bullet.getJointStates(self.uid, self._wheel_joints)
+        on_left = len(self.config.drive.left)
+        left = sum(state[0] for state in states[:on_left]) / on_left
+        right = sum(state[0] for state in states[on_left:]) / (len(states) - on_left)
+        return left, right
+
+    def _apply(self, rates: tuple[float, float]) -> None:
+        left, right = rates
+        drive = self.config.drive
+        targets = [left] * len(drive.left) + [right] * len(drive.right)
+        self._bullet.setJointMotorControlArray(
+            self.uid,
+            self._wheel_joints,
+            self._bullet.VELOCITY_CONTROL,
+            targetVelocities=targets,
+            forces=[drive.wheel_torque] * len(targets),
+        )
+        self._applied = rates
+
+    def _index_links(self) -> tuple[dict[str, int], dict[str, int]]:
+        joints: dict[str, int] = {}
+        links = {self.config.urdf.root: -1}
+        for index in range(self._bullet.getNumJoints(self.uid)):
+            info = self._bullet.getJointInfo(self.uid, index)
+            joints[info[1].decode()] = index
+            links[info[12].decode()] = index
+        return joints, links
+
+    def _bumping_links(self) -> list[int]:
+        """Returns the links to query for contacts: all with one query if single queries would cost more."""
+        solid = [
+            index
+            for index in self._links.values()
+            if index not in self._wheel_links and self._bullet.getCollisionShapeData(self.uid, index)
+        ]
+        return solid if len(solid) <= MOST_QUESTIONS else [ANY_LINK]
+
+    def _inertial_inverse(self) -> Pose:
+        info = self._bullet.getDynamicsInfo(self.uid, -1)
+        return inverse((*info[3], *info[4]))
+
+    def _set_up_contact(self, group: int) -> None:
+        for name, index in self._links.items():
+            self._bullet.setCollisionFilterGroupMask(self.uid, index, group, ALL_GROUPS)
+            friction = self.config.friction.get(name, DEFAULT_FRICTION)
+            self._bullet.changeDynamics(
+                self.uid, index, lateralFriction=friction, linearDamping=0.0, angularDamping=0.0,
+                rollingFriction=0.0, spinningFriction=0.0, restitution=0.0,
+            )  # fmt: skip
+            if name in self.config.skid:
+                self._bullet.changeDynamics(
+                    self.uid, index, anisotropicFriction=[1.0, self.config.skid[name], 1.0]
+                )
+        self._bullet.changeDynamics(
+            self.uid, -1, activationState=self._bullet.ACTIVATION_STATE_DISABLE_SLEEPING
+        )

@@ -1,0 +1,88 @@
+"""The inner sensors of a robot: IMU, bumper and battery."""
+
+from __future__ import annotations
+
+import copy
+from typing import TYPE_CHECKING
+
+from executor.world.geometry.transforms import Pose, Vector, compose, inverse
+from executor.world.sensing.battery import BatteryModel
+from executor.world.sensing.bumper import Bumper
+from executor.world.sensing.imu import ImuModel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from executor.robots.config import Battery, Imu, RobotConfig
+    from executor.world.sensing.battery import BatteryReading
+    from executor.world.sensing.bumper import Zone
+    from executor.world.sensing.imu import ImuReading
+
+
+class Proprioception:
+    """The inner sensors of one robot; `pose_of` returns the pose of a link, now or for a given root."""
+
+    def __init__(self, config: RobotConfig, seed: tuple[int, int], pose_of: Callable[..., Pose]) -> None:
+        self._config = config
+        self._pose_of = pose_of
+        self._imus = {imu.name: ImuModel(imu, (*seed, 1000 + i)) for i, imu in enumerate(config.imus)}
+        self._batteries = {battery.name: BatteryModel(battery) for battery in config.batteries}
+        self._bumper = Bumper()
+        self._rate: Vector = (0.0, 0.0, 0.0)
+
+    @property
+    def has_power(self) -> bool:
+        """Whether the battery is not empty."""
+        return not any(battery.is_empty for battery in self._batteries.values())
+
+    @property
+    def has_drawn(self) -> bool:
+        """Whether a noisy measurement was made."""
+        return any(imu.has_drawn for imu in self._imus.values())
+
+    @property
+    def has_imu(self) -> bool:
+        """Whether the robot has an IMU, which needs velocities."""
+        return bool(self._imus)
+
+    def move(self, root: Pose, center: Vector, linear: Vector, rate: Vector, dt_s: float) -> None:
+        """Takes the pose of the root, the velocity of its centre of mass, and its turning rate."""
+        self._rate = rate
+        (vx, vy, vz), (wx, wy, wz) = linear, rate
+        for imu in self._config.imus:
+            at = self._pose_of(imu.link, root)
+            x, y, z = at[0] - center[0], at[1] - center[1], at[2] - center[2]
+            velocity = (vx + wy * z - wz * y, vy + wz * x - wx * z, vz + wx * y - wy * x)
+            self._imus[imu.name].observe(velocity, dt_s)
+
+    def drain(self, effort: float, dt_s: float) -> None:
+        """Discharges the battery."""
+        for battery in self._batteries.values():
+            battery.drain(effort, dt_s)
+
+    def touch(self, point: tuple[float, float, float], now_s: float) -> None:
+        """Adds a contact at a point of the world."""
+        for bumper in self._config.bumpers[:1]:
+            x, y, *_ = compose(inverse(self._pose_of(bumper.link)), (*point, 0.0, 0.0, 0.0, 1.0))
+            self._bumper.touch(x, y, now_s)
+
+    def pressed(self, now_s: float) -> frozenset[Zone]:
+        """Returns the zones of the bumper that are pressed."""
+        return self._bumper.pressed(now_s)
+
+    def imu(self, imu: Imu, now_s: float) -> ImuReading:
+        """Measures now."""
+        return self._imus[imu.name].reading(now_s, self._pose_of(imu.link), self._rate)
+
+    def battery(self, battery: Battery) -> BatteryReading:
+        """Measures now."""
+        return self._batteries[battery.name].reading()
+
+    def save(self) -> object:
+        """Returns the state."""
+        return copy.deepcopy((self._imus, self._batteries, self._bumper, self._rate))
+
+    def restore(self, saved: object) -> None:
+        """Restores a state of `save`."""
+        if isinstance(saved, tuple):
+            self._imus, self._batteries, self._bumper, self._rate = copy.deepcopy(saved)

@@ -1,0 +1,1 @@
+"""A running world: time, streams, and adaptation to the load."""

@@ -1,0 +1,25 @@
+"""Saves of Python files by eight clients at once: each answer is the true one."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+
+import pytest
+
+from tests.backend.serving import serving
+from tests.benchmarks.load import sign_in, team
+from tests.benchmarks.saves import storm
+from tests.budget import count
+
+CLIENTS = 8
+pytestmark = [pytest.mark.timeout(900)]
+
+
+async def test_no_answer_to_a_save_is_false(tmp_path):
+    with ExitStack() as stack:
+        settings, port = team(stack, tmp_path, sqlite=False)
+        stack.enter_context(serving(tmp_path, "--port", str(port), **settings))
+        answers = await storm(port, sign_in(tmp_path, settings, CLIENTS), count("true_saves"))
+    assert answers.false == []
+    assert answers.saved + answers.conflicts == count("true_saves")
+    assert answers.conflicts

@@ -1,0 +1,231 @@
+"""A hostile user attacks for ten minutes, from inside a session and by the web, while another works.
+
+The one who attacks runs on the machine of the server, so the attacker's client is *nice* (19) and has one of
+the cores: what slows the other down is then the server's work, not the attacker's own. The bound is a ratio:
+the other's requests beside the attack against the same user's requests just before, in the same stack.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+from contextlib import asynccontextmanager
+from functools import partial
+
+import pytest
+
+from tests.budget import count
+from tests.docker.engine import REPOSITORY, build_images, engine
+from tests.docker.stack import Stack
+from tests.docker.test_stack import BUMP, distance_m, run, run_app, save, ticks
+from tests.hostile.projects import large_files
+from tests.hostile.wire import guest_cookie
+
+BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
+TAG = BUILT or "test"
+# A developer who looks for a cause may name a shorter time.
+MINUTES = float(os.environ.get("BT_STUDIO_HOSTILE_MINUTES") or count("hostile_minutes"))
+QUIET_S = min(90.0, 60 * MINUTES)
+PHASE_S = min(15.0, 60 * MINUTES / 12)
+PAUSE_S = 0.1
+NODES = 100_000
+MOST_TIMES = 3.0
+LOOK_S = 15.0
+INSIDE = (REPOSITORY / "tests" / "hostile" / "inside.py").read_text()
+pytestmark = [pytest.mark.timeout(3600)]
+
+
+@pytest.fixture(scope="module")
+def stack(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("hostile")
+    with engine(folder) as running:
+        if not BUILT:
+            build_images(running, TAG)
+        made = Stack(running, folder, TAG, BT_STUDIO_MAX_SESSIONS="4", BT_STUDIO_PROXY_HOPS="0")
+        try:
+            made.up()
+            yield made
+        finally:
+            print(made.compose("logs", "--tail=40", check=False).stdout)
+            made.down()
+
+
+def process(module, plan):
+    """A program of `tests.hostile` at work; what it prints is JSON."""
+    started = subprocess.Popen(
+        [sys.executable, "-m", module],
+        cwd=REPOSITORY,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    started.stdin.write(json.dumps(plan))
+    started.stdin.close()
+    started.stdin = None
+    return started
+
+
+def told(started, timeout_s=600):
+    out, err = started.communicate(timeout=timeout_s)
+    assert started.returncode == 0, err[-3000:]
+    return json.loads(out)
+
+
+def p95(samples):
+    """Of milliseconds; a few samples have a worst one instead."""
+    times = sorted(ms for _, _, ms, _ in samples)
+    return statistics.quantiles(times, n=20)[18] if len(times) >= 20 else times[-1]
+
+
+def table(title, groups):
+    """Rows of p95s: quiet, beside the attack, and how many times as long."""
+    print(
+        f"{title:16} {'quiet':>12} {'p95 ms':>8} {'attacked':>9} {'p95 ms':>8} {'ratio':>6} {'worst ms':>9}"
+    )
+    for name, quiet, attacked in groups:
+        if quiet and attacked:
+            before, beside = p95(quiet), p95(attacked)
+            worst = max(ms for _, _, ms, _ in attacked)
+            counts = f"{len(quiet):12} {before:8.1f} {len(attacked):9} {beside:8.1f}"
+            print(f"{name:16} {counts} {beside / before:6.2f} {worst:9.0f}")
+
+
+def phase_of(sample, phases):
+    return next((kind for kind, began, _ in reversed(phases) if began <= sample[1]), "")
+
+
+@asynccontextmanager
+async def working(stack, user, project):
+    """A user with a robot that drives, an editor, and a page that waits for news."""
+    session = user.post(f"projects/{project}/session")
+    client = await user.open_session(session)
+    try:
+        await run(client, user, project, "walled_room")
+        await client.until(lambda: distance_m(client) > 0.05, 120)
+        async with user.open_language(project) as editor, user.open_notices(project) as news:
+            reading = [asyncio.create_task(read_all(socket)) for socket in (editor, news)]
+            yield session["id"], client, (editor, news)
+        await asyncio.gather(*reading)
+    finally:
+        await client.close()
+
+
+async def read_all(socket):
+    """As a browser does; who does not read answers no ping, and is taken for gone."""
+    async for _ in socket:
+        pass
+
+
+async def moves_on(client, until):
+    """Looks, every while, that the robot has driven and its program has ticked."""
+    looks = 0
+    while time.monotonic() < until:
+        await asyncio.sleep(LOOK_S)
+        assert not client.is_closed, client.control.close_reason
+        for what, now in (("ticks", ticks), ("drives", distance_m)):
+            before = now(client)
+            await client.until(lambda now=now, before=before: now(client) > before, 60)
+            assert now(client) > before, what
+        looks += 1
+    return looks
+
+
+async def attack_inside(user, project, until):
+    """Code in the container of a session that harms; started again whenever it was ended."""
+    starts, said = 0, {}
+    while time.monotonic() < until:
+        starts += 1
+        session = await asyncio.to_thread(user.post, f"projects/{project}/session")
+        try:
+            client = await user.open_session(session, stream=False)
+        except (OSError, TimeoutError):
+            continue
+        try:
+            source = f"{INSIDE}\nFIRST = {starts - 1}\n"
+            app = await asyncio.to_thread(hostile_app, user, project, source)
+            await run_app(client, app)
+            left_s = max(0.0, until - time.monotonic())
+            await client.until(partial(has_ended, client), left_s)
+        except (AssertionError, TimeoutError, OSError) as error:
+            said[type(error).__name__] = said.get(type(error).__name__, 0) + 1
+        finally:
+            for entry in client.named("log"):
+                if entry["text"].startswith("TRIES "):
+                    said[entry["text"].strip()] = said.get(entry["text"].strip(), 0) + 1
+            await client.close()
+    print(f"inside: {starts} starts, {said}")
+
+
+def has_ended(client):
+    return client.state != "application_running" or client.is_closed
+
+
+def hostile_app(user, project, source):
+    file = next(f for f in user.get(f"projects/{project}")["files"] if f["path"] == "actions/Forward.py")
+    save(user, project, "actions/Forward.py", source, base=file["revision"])
+    return user.app(project)
+
+
+def make_large(user):
+    """A project of 100,000 nodes, with an earlier version that differs, and a link for anybody to read it."""
+    made = user.post("projects", {"name": "Large"})
+    user.post(f"projects/{made['id']}/changes", {"files": large_files(NODES, made["files"])})
+    link = user.post(f"projects/{made['id']}/shares/links", {})["links"][0]["url"]
+    return made["id"], link
+
+
+async def test_a_hostile_user_harms_nobody_else(stack):
+    ann, eve = stack.add_user("ann"), stack.add_user("eve")
+    project = ann.post("projects", {"name": "Bump", "template": BUMP})["id"]
+    theirs = eve.post("projects", {"name": "Harm", "template": BUMP})["id"]
+    large, link = make_large(eve)
+    guest = guest_cookie(link)
+    site = {
+        "host": stack.address[0],
+        "port": stack.address[1],
+        "origin": stack.base,
+        "guest": guest,
+        "user": eve.cookies,
+        "project": large,
+        "account": "ann",
+    }
+    before = stack.restarts()
+    async with working(stack, ann, project) as (session, client, open_sockets):
+        who = {"host": site["host"], "port": site["port"], "origin": stack.base, "cookie": ann.cookies}
+        who |= {"project": project, "session": session}
+        plan = {"who": who, "seconds": QUIET_S, "pause_s": PAUSE_S}
+        quiet = await asyncio.to_thread(told, process("tests.hostile.bystander", plan))
+
+        until = time.monotonic() + 60 * MINUTES
+        attacker = {"site": site, "seconds": 60 * MINUTES, "phase_s": PHASE_S}
+        attacker["cores"] = sorted(os.sched_getaffinity(0))[-1:]
+        attacking = process("tests.hostile.guest", attacker)
+        worker = process("tests.hostile.bystander", plan | {"seconds": 60 * MINUTES})
+        looks, _ = await asyncio.gather(moves_on(client, until), attack_inside(eve, theirs, until))
+        attacked = await asyncio.to_thread(told, worker)
+        phases = await asyncio.to_thread(told, attacking)
+        lost = [socket.close_reason or socket.close_code for socket in open_sockets if socket.close_code]
+        end = (client.is_closed, client.state)
+    report(quiet, attacked, phases)
+    print(f"the robot moved at each of {looks} looks; memory: {stack.memory()}")
+    assert (lost, end) == ([], (False, "application_running"))
+    assert {sample[3] // 100 for sample in attacked} == {2}
+    assert stack.restarts() == before
+    assert p95(attacked) <= MOST_TIMES * p95(quiet)
+
+
+def report(quiet, attacked, phases):
+    """By kind of request, by what is tried meanwhile, and what those who tried were answered."""
+    kinds = list(dict.fromkeys(sample[0] for sample in quiet))
+    table("kind", [(k, [s for s in quiet if s[0] == k], [s for s in attacked if s[0] == k]) for k in kinds])
+    names = list(dict.fromkeys(kind for kind, _, _ in phases))
+    table("beside", [(n, quiet, [s for s in attacked if phase_of(s, phases) == n]) for n in names])
+    table("all", [("all", quiet, attacked)])
+    for kind, _, answers in phases:
+        print(f"  {kind}: {answers}")

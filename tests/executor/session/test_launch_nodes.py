@@ -1,0 +1,126 @@
+"""Extra nodes of launch files: real processes beside fake children."""
+
+from __future__ import annotations
+
+import base64
+import io
+import os
+import signal
+import zipfile
+
+import psutil
+
+from executor.launching.model import LaunchPlan, NodeSpec
+from executor.session.events import Retire, Spawn, Unpacked
+from executor.session.ladder import State
+from tests.executor.manager.test_server import manager
+from tests.executor.session.play import Play
+from tests.executor.session_client import SessionClient
+
+TALKER = "import sys, time\nprint('hello from', sys.argv[1], flush=True)\ntime.sleep(3600)\n"
+LAUNCH = """
+launch:
+  - node: {exec: launch/talker.py, name: talker, args: one}
+  - node: {pkg: ghosts, exec: ghost}
+"""
+
+
+def run_with(launch, **files):
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w") as archive:
+        archive.writestr("launch/extra.launch.yaml", launch)
+        for name, text in files.items():
+            archive.writestr(f"launch/{name}.py", text)
+    app = base64.b64encode(packed.getvalue()).decode()
+    return {"universe": {"universe": "x"}, "application": {"app_zip_base64": app}}
+
+
+def processes_of(word):
+    return [p for p in psutil.Process().children(recursive=True) if any(word in a for a in p.cmdline())]
+
+
+async def test_nodes_live_with_the_application_and_are_listed_with_their_output():
+    async with manager() as it:
+        client = await SessionClient(it.port).open()
+        assert await client.ask("run", run_with(LAUNCH, talker=TALKER)) == "ack"
+        talker, ghost = client.named("launch_nodes")[0]["nodes"]
+        assert (talker["name"], talker["state"], talker["line"]) == ("talker", "running", 3)
+        assert (ghost["state"], "'ghosts'" in ghost["end"]) == ("failed", True)
+        line = await client.event("log", lambda d: d["text"] == "hello from one")
+        assert (line["data"]["source"], line["data"]["launch_node"]) == ("launch", talker["id"])
+        viewer = await SessionClient(it.port).open()
+        assert viewer.named("snapshot")[0]["launch_nodes"] == client.named("launch_nodes")[-1]["nodes"]
+        await viewer.close()
+
+        at = len(client.events)
+        [process] = processes_of("talker.py")
+        os.kill(process.pid, signal.SIGKILL)
+        fault = (await client.event("fault", after=at))["data"]
+        assert fault["message"] == "The node talker was killed by SIGKILL."
+        assert (fault["file"], fault["line"]) == ("launch/extra.launch.yaml", 3)
+        assert client.state == "application_running"
+        assert (await client.ask("restart_node", {"id": ghost["id"]}))["code"] == "unknown_node"
+        at = len(client.events)
+        assert await client.ask("restart_node", {"id": talker["id"]}) == "ack"
+        await client.event("log", lambda d: d["text"] == "hello from one", after=at)
+
+        assert await client.ask("disconnect") == "ack"
+        assert client.named("launch_nodes")[-1]["nodes"][0]["state"] == "ended"
+        assert processes_of("talker.py") == []
+        await client.close()
+
+
+async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
+    async with manager() as it:
+        client = await SessionClient(it.port).open()
+        reply = await client.ask("run", run_with("launch:\n  - nod: {exec: x}\n"))
+        assert reply["code"] == "bad_launch_file"
+        assert reply["message"].startswith("launch/extra.launch.yaml:2:10: there is no action 'nod'")
+        fault = client.named("fault")[-1]
+        assert (fault["kind"], fault["file"], fault["line"]) == ("load", "launch/extra.launch.yaml", 2)
+        await client.close()
+
+
+# --- the machine alone ----------------------------------------------------------------------------
+
+PLAN = LaunchPlan((NodeSpec("a", "a", "", "a.py", "launch/a.launch.yaml", 1, ("python", "a.py")),))
+
+
+class NodePlay(Play):
+    """A play whose application has an extra node."""
+
+    def answers(self, effect):
+        answers = super().answers(effect)
+        return [Unpacked(a.token, a.folder, plan=PLAN) if isinstance(a, Unpacked) else a for a in answers]
+
+    def states(self):
+        return [node.state for node in self.sent("launch_nodes")[-1].nodes]
+
+
+def test_a_node_is_started_with_the_application_and_ended_with_it():
+    for end in ("terminate_application", "disconnect", None):
+        play = NodePlay()
+        play.command("run")
+        assert "node" in play.did(Spawn)
+        assert play.states() == ["running"]
+        if end is None:
+            play.child_dies("application")
+        else:
+            assert play.reply(play.command(end)) == "ack"
+        assert play.states() == ["ended"]
+        assert play.did(Retire).count("node") == 1
+        assert play.session.children.leaving == set()
+
+
+def test_a_second_run_starts_it_again_and_a_pause_does_not_affect_it():
+    play = NodePlay()
+    play.command("run")
+    play.command("pause")
+    assert play.states() == ["running"]
+    play.command("run")
+    assert (play.did(Spawn).count("node"), play.did(Retire).count("node")) == (2, 1)
+    assert play.states() == ["running"]
+    assert play.reply(play.command("restart_node", id="a")) == "ack"
+    assert play.did(Spawn).count("node") == 3
+    assert play.sent("launch_nodes")[-1].nodes[0].restarts == 1
+    assert play.state is State.APPLICATION_RUNNING

@@ -68,7 +68,7 @@ def source(name: str, number: int, chance: random.Random) -> tuple[str, bool]:
 
 @dataclass
 class Answers:
-    """What came, and all that should not have come."""
+    """Counts of the answers, and of all that should not have come."""
 
     saved: int = 0
     conflicts: int = 0

@@ -6,7 +6,18 @@ import tseslint from 'typescript-eslint';
 const tests = ['**/*.test.{ts,tsx}', 'vitest.setup.ts', 'harness/**'];
 
 /** Folders of src, lowest first: each may import itself and those before it. */
-const layers = ['generated', 'model', 'api', 'i18n', 'store', 'actions', 'ui', 'features'];
+const layers = [
+  'generated',
+  'model',
+  'api',
+  'i18n',
+  'store',
+  'actions',
+  'ui',
+  'workspace',
+  'features',
+  'frame',
+];
 const viewLibraries =
   '^(react|react-dom|react-i18next|zustand|@xyflow|@mantine|@tabler|@react-three|three)(/|$)';
 

@@ -4,7 +4,7 @@ import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { findNodes } from '@/model/find';
 import { setEditor } from '@/store/project/editor';
-import { letGoOfDocument } from '@/features/frame/focus';
+import { letGoOfDocument } from '@/workspace/focus';
 import { useProjectStore } from '@/store/project';
 import classes from './Canvas.module.css';
 

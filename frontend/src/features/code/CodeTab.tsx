@@ -8,7 +8,7 @@ import { useTranslation } from 'react-i18next';
 import { useLanguageStore } from '@/store/language';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
-import { useTabs } from '@/features/frame/tabs';
+import { useTabs } from '@/workspace/tabs';
 import frame from './editorFrame.module.css';
 import { marksFor } from './diagnostics';
 import { extensionsFor } from './extensions';

@@ -1,7 +1,7 @@
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { useUndoTarget } from '@/actions/undo';
-import { useTabs } from '@/features/frame/tabs';
+import { useTabs } from '@/workspace/tabs';
 import { isReadOnly, travel, type Editor } from './session';
 
 /** Has undo and redo of the frame work on this editor while it is the document in front. */

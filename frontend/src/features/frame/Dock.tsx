@@ -14,11 +14,11 @@ import 'flexlayout-react/style/light.css';
 import './dock.css';
 import { t, translates } from '@/i18n';
 import { useProjectStore } from '@/store/project';
-import { forgetLayouts, keepLayout, type FrameWidth } from './layoutModel';
+import { forgetLayouts, keepLayout, type FrameWidth } from '@/workspace/layoutModel';
 import { renderTab } from './panels';
 import { PanelBadge } from './PanelBadge';
 import { Popouts } from './popouts';
-import { documentOf, followFront, keepOpen, useTabs } from './tabs';
+import { documentOf, followFront, keepOpen, useTabs } from '@/workspace/tabs';
 
 const KEEP_AFTER_MS = 300;
 

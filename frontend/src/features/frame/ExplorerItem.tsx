@@ -20,7 +20,7 @@ import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
 import { removeDocument } from './removing';
-import { openTab, showPanel, type DocumentTab } from './tabs';
+import { openTab, showPanel, type DocumentTab } from '@/workspace/tabs';
 
 interface ExplorerItemProps {
   readonly path: string;

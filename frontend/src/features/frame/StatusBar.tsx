@@ -14,7 +14,7 @@ import { useWorldChoice } from '@/store/run/world';
 import { useMotion } from '@/store/session/motion';
 import { useSessionStore } from '@/store/session/store';
 import classes from './frame.module.css';
-import { showPanel } from './tabs';
+import { showPanel } from '@/workspace/tabs';
 
 export function StatusBar() {
   const { t } = useTranslation('frame');

@@ -29,13 +29,22 @@ import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
 import { leaveInspector, registerFrameActions } from './actions';
-import { CommandPalette } from './CommandPalette';
+import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
-import { loadLayout } from './layoutModel';
+import { loadLayout } from '@/workspace/layoutModel';
 import { RestoredNotice } from './RestoredNotice';
 import { StatusBar } from './StatusBar';
-import { aimAt, closeGone, followFront, followRename, openTab, reopen, showPanel, useTabs } from './tabs';
+import {
+  aimAt,
+  closeGone,
+  followFront,
+  followRename,
+  openTab,
+  reopen,
+  showPanel,
+  useTabs,
+} from '@/workspace/tabs';
 import { TopBar } from './TopBar';
 import { useProject } from './useProject';
 import { Waiting } from './Waiting';

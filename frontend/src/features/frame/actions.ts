@@ -32,10 +32,10 @@ import { openNewRobot } from '@/features/robotEditor/newRobot';
 import { openNewUniverse } from '@/features/worldEditor/newUniverse';
 import { resetLayout } from './Dock';
 import { fileActions } from './fileActions';
-import { focusInspector } from './focus';
-import { WINDOWED, type PanelId } from './layoutModel';
+import { focusInspector } from '@/workspace/focus';
+import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
-import { openTab, showPanel, togglePanel } from './tabs';
+import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
 /** The tree that was edited last, with the keyboard in it. */
 function goToTree(): void {

@@ -5,7 +5,7 @@ import { setScope } from '@/features/history/scope';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf, treePath } from '@/store/project/state';
 import { removeDocument } from './removing';
-import { showPanel, useTabs } from './tabs';
+import { showPanel, useTabs } from '@/workspace/tabs';
 
 /** The file of the document in front. */
 function pathInFront(): string | null {

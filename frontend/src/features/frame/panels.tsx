@@ -17,9 +17,9 @@ import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
 import { lazyPart } from '@/ui/parts';
 import { ErrorBoundary } from './ErrorBoundary';
 import { Explorer } from './Explorer';
-import type { PanelId } from './layoutModel';
+import type { PanelId } from '@/workspace/layoutModel';
 import { InItsWindow } from './popouts';
-import { documentOf, useTabs } from './tabs';
+import { documentOf, useTabs } from '@/workspace/tabs';
 import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);

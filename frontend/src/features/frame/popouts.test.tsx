@@ -2,9 +2,9 @@ import { notifications } from '@mantine/notifications';
 import { Actions, Model, TabNode, TabSetNode } from 'flexlayout-react';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 import '@/i18n';
-import { loadLayout } from './layoutModel';
+import { loadLayout } from '@/workspace/layoutModel';
 import { popOut, Popouts } from './popouts';
-import { useTabs } from './tabs';
+import { useTabs } from '@/workspace/tabs';
 
 let model: Model;
 let popouts: Popouts;

@@ -4,8 +4,8 @@ import { Actions, DockLocation, Model, TabNode, TabSetNode, type Action } from '
 import { useMemo, type ReactNode } from 'react';
 import { bindShortcuts } from '@/actions/shortcuts';
 import { t } from '@/i18n';
-import { companionsOf, type PanelId } from './layoutModel';
-import { useTabs } from './tabs';
+import { companionsOf, type PanelId } from '@/workspace/layoutModel';
+import { useTabs } from '@/workspace/tabs';
 
 /** Panels in windows of their own: each keeps where it came from, and goes back there when its window closes. */
 

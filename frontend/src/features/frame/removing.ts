@@ -6,7 +6,7 @@ import { documentName, filesOf, followDocument } from '@/store/project/moving';
 import { treeIdOf } from '@/store/project/state';
 import { useWorldChoice } from '@/store/run/world';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
-import { closeTab } from './tabs';
+import { closeTab } from '@/workspace/tabs';
 
 /** Deletes a document, of a robot all its files; the note that says so brings everything back. */
 export async function removeDocument(path: string): Promise<void> {

@@ -18,7 +18,7 @@ import { useImport } from './useImport';
 import { useProjectActions } from './useProjects';
 import { useStartActions } from './useStartActions';
 
-const CommandPalette = lazyPart(async () => (await import('@/features/frame/CommandPalette')).CommandPalette);
+const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
 /** Project zips of ours and of JdeRobot, trees as XML, projects of Groot2. */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';

@@ -4,7 +4,7 @@ import { IconCircleCheck, IconCircleX, IconPlayerPlayFilled, IconRefresh } from 
 import { useTranslation } from 'react-i18next';
 import type { LaunchNode } from '@/generated/messages';
 import { useConsoleFilter } from '@/features/console/filter';
-import { showPanel } from '@/features/frame/tabs';
+import { showPanel } from '@/workspace/tabs';
 import { openFile } from '@/store/project/navigation';
 import { restartNode } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';

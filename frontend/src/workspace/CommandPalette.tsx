@@ -8,7 +8,7 @@ import { perform, useActionTable, type ActionGroup } from '@/actions/registry';
 import { keysOf } from '@/actions/shortcuts';
 import { matchScore } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
-import classes from './commands.module.css';
+import classes from './commandPalette.module.css';
 import { openTab, useTabs, type DocumentTab } from './tabs';
 
 /** What is wanted most often comes first. */

@@ -7,7 +7,12 @@ import { documentName, kindOf } from '@/store/project/moving';
 import { openFile, openTree } from '@/store/project/navigation';
 import { treeIdOf } from '@/store/project/state';
 import { nameProblem, pathFor } from './names';
-import { closeFileDialog, useFileDialog, type FileDialog as Dialog, type NamedKind } from './newFile';
+import {
+  closeFileDialog,
+  useFileDialog,
+  type FileDialog as Dialog,
+  type NamedKind,
+} from '@/store/dialogs/files';
 import { renameDocument } from './renaming';
 import { ACTION_TEMPLATES, actionSource, type ActionTemplate } from './templates';
 

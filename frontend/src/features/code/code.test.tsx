@@ -10,7 +10,7 @@ import { setNavigator } from '@/store/project/navigation';
 import { marksFor } from './diagnostics';
 import { FileDialog } from './FileDialog';
 import { nameProblem } from './names';
-import { openNewFile, useFileDialog } from './newFile';
+import { openNewFile, useFileDialog } from '@/store/dialogs/files';
 import { textErrors, textMarks } from './textErrors';
 import { ACTION_TEMPLATES, actionSource } from './templates';
 

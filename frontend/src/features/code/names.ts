@@ -1,6 +1,6 @@
 import { OUTSIDE } from '@/features/universe/titles';
 import { isPythonName } from '@/model/pythonNames';
-import type { NamedKind } from './newFile';
+import type { NamedKind } from '@/store/dialogs/files';
 
 export type NameProblem = 'empty' | 'notIdentifier' | 'notPath' | 'taken' | 'builtin' | 'notId' | 'meansNone';
 

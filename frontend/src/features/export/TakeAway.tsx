@@ -2,7 +2,7 @@ import { Modal } from '@mantine/core';
 import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lazyPart } from '@/ui/parts';
-import { closeTakeAway, useTakeAway } from './takeAway';
+import { closeTakeAway, useTakeAway } from '@/store/dialogs/export';
 
 const Contents = lazyPart(async () => (await import('./TakeAwayContents')).TakeAwayContents);
 

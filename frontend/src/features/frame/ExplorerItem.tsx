@@ -12,10 +12,10 @@ import {
   IconWorld,
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { openRename } from '@/features/code/newFile';
-import { setScope } from '@/features/history/scope';
-import { ROBOT_FILE } from '@/features/robotEditor/newRobot';
-import { UNIVERSE_FILE } from '@/features/worldEditor/newUniverse';
+import { openRename } from '@/store/dialogs/files';
+import { setScope } from '@/store/revisions/scope';
+import { ROBOT_FILE } from '@/store/dialogs/newRobot';
+import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';

@@ -8,7 +8,7 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
-import { openWorlds } from '@/features/universe/worlds';
+import { openWorlds } from '@/store/dialogs/universeChooser';
 import { useProjectStore } from '@/store/project';
 import { useWorldChoice } from '@/store/run/world';
 import { useMotion } from '@/store/session/motion';

@@ -1,7 +1,7 @@
 import { IconHistory, IconPencil, IconStar, IconTrash } from '@tabler/icons-react';
 import type { UserAction } from '@/actions/registry';
-import { openRename } from '@/features/code/newFile';
-import { setScope } from '@/features/history/scope';
+import { openRename } from '@/store/dialogs/files';
+import { setScope } from '@/store/revisions/scope';
 import { useProjectStore } from '@/store/project';
 import { treeIdOf, treePath } from '@/store/project/state';
 import { removeDocument } from './removing';

@@ -10,7 +10,7 @@ import { useComparison } from './compare';
 import { groupRevisions, type RevisionGroup } from './groups';
 import classes from './history.module.css';
 import { RevisionRow } from './RevisionRow';
-import { setScope, useScope } from './scope';
+import { setScope, useScope } from '@/store/revisions/scope';
 import { useHistory } from './useHistory';
 
 /** Every state that the document in front, or the project, was saved in. */

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { useActionTable, type ActionGroup } from '@/actions/registry';
 import { keysOf, shortcutLabel } from '@/actions/shortcuts';
 import classes from './onboarding.module.css';
-import { closeShortcuts, useShortcutsDialog } from './shortcutsDialog';
+import { closeShortcuts, useShortcutsDialog } from '@/store/dialogs/shortcuts';
 
 const GROUPS: readonly ActionGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
 

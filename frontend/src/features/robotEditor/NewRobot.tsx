@@ -7,7 +7,7 @@ import { CopyForm } from '@/features/editor3d/CopyForm';
 import { titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
-import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from './newRobot';
+import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from '@/store/dialogs/newRobot';
 
 /** Makes a robot of the project: of our template, or of a robot that we ship. */
 export function NewRobot() {

@@ -3,7 +3,7 @@ import { rewrite } from '@/model/document/rewrite';
 import { urdfNameOf } from '@/model/robot/read';
 import templateUrdf from '@/model/robot/template/robot.urdf?raw';
 import templateYaml from '@/model/robot/template/robot.yaml?raw';
-import { TEMPLATE } from './newRobot';
+import { TEMPLATE } from '@/store/dialogs/newRobot';
 
 interface RobotTexts {
   readonly yaml: string;

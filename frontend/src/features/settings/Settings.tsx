@@ -1,6 +1,6 @@
 import { Modal } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { closeSettings, useSettingsDialog } from './settingsDialog';
+import { closeSettings, useSettingsDialog } from '@/store/dialogs/settings';
 import { SettingsForm } from './SettingsForm';
 
 /** What a project is called, and how it runs. */

@@ -7,7 +7,7 @@ import { LIMITS } from '@/generated/limits';
 import { useProjectStore } from '@/store/project';
 import { setTickRate } from '@/store/run/commands';
 import { projectNameProblem } from './names';
-import { closeSettings } from './settingsDialog';
+import { closeSettings } from '@/store/dialogs/settings';
 
 const FINISHES = ['stop', 'repeat'] as const;
 const ERRORS = ['stop', 'failure'] as const;

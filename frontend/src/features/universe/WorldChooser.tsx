@@ -5,14 +5,14 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { api } from '@/api/client';
 import type { UniverseInfo } from '@/api/types';
-import { ownRobots, openNewRobot } from '@/features/robotEditor/newRobot';
+import { ownRobots, openNewRobot } from '@/store/dialogs/newRobot';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { useWorldChoice } from '@/store/run/world';
 import { ChoiceCards } from './ChoiceCards';
 import { OUTSIDE, titled } from './titles';
 import classes from './universe.module.css';
-import { closeWorlds } from './worlds';
+import { closeWorlds } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
 /** The robot that the universe itself names. */

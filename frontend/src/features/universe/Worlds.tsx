@@ -2,7 +2,7 @@ import { Modal } from '@mantine/core';
 import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lazyPart } from '@/ui/parts';
-import { closeWorlds, useWorlds } from './worlds';
+import { closeWorlds, useWorlds } from '@/store/dialogs/universeChooser';
 
 const Chooser = lazyPart(async () => (await import('./WorldChooser')).WorldChooser);
 

@@ -7,7 +7,7 @@ import { CopyForm } from '@/features/editor3d/CopyForm';
 import { OUTSIDE, titled } from '@/features/universe/titles';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
-import { closeNewUniverse, useNewUniverse } from './newUniverse';
+import { closeNewUniverse, useNewUniverse } from '@/store/dialogs/newUniverse';
 
 /** Makes a universe of the project out of one that we ship. */
 export function NewUniverse() {

@@ -19,7 +19,7 @@ import { api } from '@/api/client';
 import { FILES } from '@/model/universe/types';
 import { bringMesh, MESH_KINDS } from '@/features/editor3d/upload';
 import { PaletteBar, PlaceButton, PlaceMenu } from '@/features/editor3d/PlaceButton';
-import { ownRobots } from '@/features/robotEditor/newRobot';
+import { ownRobots } from '@/store/dialogs/newRobot';
 import { useProjectStore } from '@/store/project';
 import { KINDS, placeThing, type Kind, type Placeable } from './commands';
 import type { UniverseEditor } from './editor';

@@ -1,13 +1,13 @@
 import { ModalsProvider } from '@mantine/modals';
 import { Notifications } from '@mantine/notifications';
 import { Suspense } from 'react';
-import { ErrorBoundary } from '@/features/frame/ErrorBoundary';
-import { Waiting } from '@/features/frame/Waiting';
+import { ErrorBoundary } from '@/frame/ErrorBoundary';
+import { Waiting } from '@/frame/Waiting';
 import { StartPage } from '@/features/projects/StartPage';
 import { useRoute } from '@/store/route';
 import { lazyPart } from '@/ui/parts';
 
-const Studio = lazyPart(async () => (await import('@/features/frame/Studio')).Studio);
+const Studio = lazyPart(async () => (await import('@/frame/Studio')).Studio);
 
 export function App() {
   const route = useRoute((state) => state.route);

@@ -1,6 +1,6 @@
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
-import { undoNotification } from '@/features/projects/undoNotification';
+import { undoNotification } from '@/ui/undoNotification';
 import { restoreRevision } from '@/store/revisions/restore';
 
 /** Puts files (all, when none are named) back to a revision, and offers to take that back. */

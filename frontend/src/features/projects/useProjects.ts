@@ -5,7 +5,7 @@ import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from './reason';
-import { undoNotification } from './undoNotification';
+import { undoNotification } from '@/ui/undoNotification';
 
 /** The projects of one shelf, page by page. */
 export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShelf) {

@@ -16,7 +16,7 @@ import { ROBOT_FILE } from '@/store/dialogs/newRobot';
 import { UNIVERSE_FILE } from '@/store/dialogs/newUniverse';
 import { lazyPart } from '@/ui/parts';
 import { ErrorBoundary } from './ErrorBoundary';
-import { Explorer } from './Explorer';
+import { Explorer } from '@/features/explorer/Explorer';
 import type { PanelId } from '@/workspace/layoutModel';
 import { InItsWindow } from './popouts';
 import { documentOf, useTabs } from '@/workspace/tabs';

@@ -1,5 +1,5 @@
 import { notifications } from '@mantine/notifications';
-import { undoNotification } from '@/features/projects/undoNotification';
+import { undoNotification } from '@/ui/undoNotification';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { documentName, filesOf, followDocument } from '@/store/project/moving';

@@ -31,7 +31,7 @@ import { openWorlds } from '@/store/dialogs/universeChooser';
 import { openNewRobot } from '@/store/dialogs/newRobot';
 import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
-import { fileActions } from './fileActions';
+import { fileActions } from '@/features/explorer/fileActions';
 import { focusInspector } from '@/workspace/focus';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';

@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/actions/palette';
 import { useShortcuts } from '@/actions/shortcuts';
-import { registerCanvasActions } from '@/features/canvas/actions';
+import { registerCanvasActions } from '@/features/canvas/commands/actions';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
 import { TakeAway } from '@/features/export/TakeAway';

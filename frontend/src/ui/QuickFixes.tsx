@@ -3,7 +3,7 @@ import { notifications } from '@mantine/notifications';
 import { IconBulb } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { Fix } from '@/model/fixes';
-import { applyFix } from '@/store/project/fixes';
+import { applyFix } from '@/store/project/edits/fixes';
 
 interface QuickFixesProps {
   readonly tree: string;

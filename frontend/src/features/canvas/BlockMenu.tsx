@@ -2,7 +2,7 @@ import { Menu } from '@mantine/core';
 import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/actions/shortcuts';
-import { blockActions, type BlockAction } from './blockActions';
+import { blockActions, type BlockAction } from './commands/blockActions';
 
 export interface MenuPoint {
   readonly x: number;

@@ -2,7 +2,7 @@ import { useStoreApi, type ReactFlowInstance, type Viewport } from '@xyflow/reac
 import { useCallback, useMemo } from 'react';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Box, Layout } from '@/model/layout';
-import { disconnect } from '@/store/project/commands';
+import { disconnect } from '@/store/project/edits/blocks';
 import type { BlockNode, TreeEdge } from './flow';
 
 /** Where the user was looking in each tree, for as long as the page lives. */

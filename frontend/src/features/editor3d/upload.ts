@@ -3,7 +3,7 @@ import type * as THREE from 'three';
 import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { putBinaries } from '@/store/saving/binary';
-import { readMesh } from './meshes';
+import { readMesh } from './scene/meshes';
 
 export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
 

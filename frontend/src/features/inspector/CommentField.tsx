@@ -1,7 +1,7 @@
 import { Textarea } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { setComment } from '@/model/edits';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { Section } from './Section';
 import type { Target } from './target';
 import classes from './Inspector.module.css';

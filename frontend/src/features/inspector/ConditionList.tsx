@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import { setCondition } from '@/model/edits';
 import { blackboardKeys } from '@/model/vocabulary';
 import { useProjectStore } from '@/store/project';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { ScriptInput } from './ScriptInput';
 import { Section } from './Section';
 import type { Target } from './target';

@@ -2,7 +2,7 @@ import { Button, TextInput } from '@mantine/core';
 import { IconArrowsExchange, IconBinaryTree, IconCode } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { setName } from '@/model/edits';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { setEditor } from '@/store/project/editor';
 import { openAction, openTree } from '@/store/project/navigation';
 import { FamilyTile } from '@/ui/FamilyTile';

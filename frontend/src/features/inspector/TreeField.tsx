@@ -3,7 +3,7 @@ import { useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
 import { morph } from '@/model/edits';
 import { wouldRecurse } from '@/model/vocabulary';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { useProjectStore } from '@/store/project';
 import type { Target } from './target';
 import classes from './Inspector.module.css';

@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setCollapsed } from '@/model/edits';
 import { outlineRows } from '@/model/outline';
-import { change, deleteSelection } from '@/store/project/commands';
+import { change, deleteSelection } from '@/store/project/edits/blocks';
 import { openAction } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import { OutlineRow } from './OutlineRow';

@@ -4,7 +4,7 @@ import { displayName, type DiagramNode } from '@/model/diagram';
 import { setCollapsed } from '@/model/edits';
 import type { OutlineLine } from '@/model/outline';
 import type { NodeSpec } from '@/model/vocabulary';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { useProjectStore } from '@/store/project';
 import { FamilyTile } from '@/ui/FamilyTile';

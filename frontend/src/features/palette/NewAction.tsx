@@ -2,7 +2,7 @@ import { Button, Group, SegmentedControl, TextInput } from '@mantine/core';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { isPythonName } from '@/model/pythonNames';
-import { createAction, type ActionKind } from '@/store/project/actionTemplate';
+import { createAction, type ActionKind } from '@/store/project/edits/actionTemplate';
 import { openAction } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import classes from './Palette.module.css';

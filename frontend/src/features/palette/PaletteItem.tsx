@@ -2,7 +2,7 @@ import { Tooltip } from '@mantine/core';
 import { memo } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { Choice } from '@/model/choices';
-import { addHere } from '@/store/project/commands';
+import { addHere } from '@/store/project/edits/blocks';
 import { setEditor } from '@/store/project/editor';
 import { FamilyTile } from '@/ui/FamilyTile';
 import classes from './Palette.module.css';

@@ -5,7 +5,7 @@ import { useTranslation } from 'react-i18next';
 import type { Diagnostic, Severity } from '@/api/types';
 import { displayName } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
-import { fixesOfDiagnostic } from '@/store/project/fixes';
+import { fixesOfDiagnostic } from '@/store/project/edits/fixes';
 import { openFile, openTree } from '@/store/project/navigation';
 import { inOwnWords } from '@/store/project/problems';
 import { QuickFixes } from '@/ui/QuickFixes';

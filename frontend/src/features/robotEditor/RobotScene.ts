@@ -1,8 +1,8 @@
 import * as THREE from 'three';
-import { setThingPose } from '@/features/editor3d/Gizmo';
-import { box, frameOf, markLines } from '@/features/editor3d/marks';
-import { ThingScene } from '@/features/editor3d/ThingScene';
-import { pyramidOf } from '@/features/viewer/HelperViews';
+import { setThingPose } from '@/features/editor3d/scene/Gizmo';
+import { box, frameOf, markLines } from '@/features/editor3d/scene/marks';
+import { ThingScene } from '@/features/editor3d/scene/ThingScene';
+import { pyramidOf } from '@/features/viewer/scene/HelperViews';
 import type { Shape } from '@/generated/messages';
 import type { Pose } from '@/model/document/values';
 import { below, type Solid } from '@/model/robot/urdf';

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
-import { poseOf, type Handles } from '@/features/editor3d/Gizmo';
-import type { Carrier } from '@/features/editor3d/PointerTool';
+import { poseOf, type Handles } from '@/features/editor3d/scene/Gizmo';
+import type { Carrier } from '@/features/editor3d/scene/PointerTool';
 import { select, toggle } from '@/features/editor3d/session';
 import { jointOf, move, place } from '@/model/robot/edits';
 import { partOf, type Part } from '@/model/robot/types';

@@ -1,8 +1,8 @@
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { history } from '@/store/session/history';
-import { BIT } from '@/store/session/lane';
+import { history } from '@/store/session/trace/history';
+import { BIT } from '@/store/session/trace/lane';
 import { useSessionStore } from '@/store/session/store';
 import classes from './timeline.module.css';
 

@@ -1,5 +1,5 @@
-import { BIT } from '@/store/session/lane';
-import type { History } from '@/store/session/history';
+import { BIT } from '@/store/session/trace/lane';
+import type { History } from '@/store/session/trace/history';
 import { marks, timeLabel, type Span } from './span';
 
 export const ROW_PX = 22;

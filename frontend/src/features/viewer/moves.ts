@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
-import type { BodyPose } from './Carried';
+import type { BodyPose } from './scene/Carried';
 
 /** The last body that was carried, and where it had been. */
 export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { World } from './World';
+import type { World } from './scene/World';
 
 const ray = new THREE.Raycaster();
 const GROUND = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);

@@ -4,11 +4,11 @@ import { useEffect } from 'react';
 import type { OrbitControls } from '@react-three/drei/core/OrbitControls';
 import type { ComponentRef } from 'react';
 import { send } from '@/store/session/connection';
-import { Carried, carriable } from './Carried';
+import { Carried, carriable } from './scene/Carried';
 import { canMove, useMoves } from './moves';
 import { pointedAt, pointedAtHeight } from './pointing';
 import { addMeasured, useMeasuring } from './measuring';
-import type { World } from './World';
+import type { World } from './scene/World';
 
 type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
 

@@ -2,15 +2,15 @@ import * as THREE from 'three';
 import { beforeEach, describe, expect, it } from 'vitest';
 import type { Scan, Scene, Shape } from '@/generated/messages';
 import { currentPoses } from '@/store/session/poses';
-import { Trail } from '@/store/session/trail';
-import { Carried, carriable } from './Carried';
-import { pyramidOf } from './HelperViews';
-import { LidarView } from './LidarView';
+import { Trail } from '@/store/session/trace/trail';
+import { Carried, carriable } from './scene/Carried';
+import { pyramidOf } from './scene/HelperViews';
+import { LidarView } from './scene/LidarView';
 import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring';
 import { panned, poseOf, START, turned, zoomed } from './orbit';
 import { directionOf } from './TeleopPad';
-import { TrailView } from './TrailView';
-import { World } from './World';
+import { TrailView } from './scene/TrailView';
+import { World } from './scene/World';
 
 const box: Shape = { shape: 'box', size: [1, 2, 3], pose: [0, 0, 0, 0, 0, 0, 1], color: [1, 0, 0, 1] };
 

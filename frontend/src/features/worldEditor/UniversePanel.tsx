@@ -18,9 +18,9 @@ import { idProblem, rename } from '@/model/universe/edits';
 import { thingOf, type Thing, type Universe } from '@/model/universe/types';
 import { deleteSelected, duplicateSelected } from './commands';
 import { edit, type UniverseEditor } from './editor';
-import { ManyFields } from './ManyFields';
-import { ThingFields } from './ThingFields';
-import { WorldFields } from './WorldFields';
+import { ManyFields } from './fields/ManyFields';
+import { ThingFields } from './fields/ThingFields';
+import { WorldFields } from './fields/WorldFields';
 
 interface UniversePanelProps {
   readonly editor: UniverseEditor;

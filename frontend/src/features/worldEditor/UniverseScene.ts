@@ -1,7 +1,7 @@
 import * as THREE from 'three';
-import { setThingPose } from '@/features/editor3d/Gizmo';
-import { arrow, box, frameOf, wayOf } from '@/features/editor3d/marks';
-import { arrival, rgba, ThingScene } from '@/features/editor3d/ThingScene';
+import { setThingPose } from '@/features/editor3d/scene/Gizmo';
+import { arrow, box, frameOf, wayOf } from '@/features/editor3d/scene/marks';
+import { arrival, rgba, ThingScene } from '@/features/editor3d/scene/ThingScene';
 import type { ActorThing, ModelThing, RobotThing, Thing, Universe } from '@/model/universe/types';
 import { personShapes } from './person';
 import { pictureName, type EditorTextures } from './textures';

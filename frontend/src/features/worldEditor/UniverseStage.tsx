@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from 'react';
-import { EditorStage } from '@/features/editor3d/EditorStage';
-import { rgba } from '@/features/editor3d/ThingScene';
+import { EditorStage } from '@/features/editor3d/scene/EditorStage';
+import { rgba } from '@/features/editor3d/scene/ThingScene';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
 import type { Universe } from '@/model/universe/types';

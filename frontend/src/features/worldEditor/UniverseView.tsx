@@ -2,7 +2,7 @@ import { VisuallyHidden } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
 import classes from '@/features/editor3d/editor3d.module.css';
-import { EditorCanvas } from '@/features/editor3d/EditorCanvas';
+import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
 import { onEditorKey } from '@/features/editor3d/keys';
 import { isReadOnly } from '@/features/editor3d/session';
 import { positionOf } from '@/model/universe/geometry';

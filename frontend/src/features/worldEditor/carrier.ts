@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { Carrier, Drawing } from '@/features/editor3d/PointerTool';
+import type { Carrier, Drawing } from '@/features/editor3d/scene/PointerTool';
 import { select, toggle } from '@/features/editor3d/session';
 import type { Point } from '@/model/document/values';
 import { move } from '@/model/universe/edits';

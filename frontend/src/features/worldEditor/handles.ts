@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import { poseOf, type Handles, type Stand } from '@/features/editor3d/Gizmo';
+import { poseOf, type Handles, type Stand } from '@/features/editor3d/scene/Gizmo';
 import type { Pose } from '@/model/document/values';
 import { move, place, setWaypoint, turn } from '@/model/universe/edits';
 import { middleOf, stretched } from '@/model/universe/geometry';

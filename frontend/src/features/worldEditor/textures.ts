@@ -1,6 +1,6 @@
 import type * as THREE from 'three';
 import { fileUrl } from '@/store/saving/binary';
-import { loadTexture, type Pictures } from '@/features/viewer/TextureCache';
+import { loadTexture, type Pictures } from '@/features/viewer/scene/TextureCache';
 import tiles from '@/generated/textures/tiles.json';
 
 const shipped = import.meta.glob<string>('../../generated/textures/*.jpg', {

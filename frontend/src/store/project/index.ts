@@ -6,7 +6,7 @@ import { emptyHistory, redo, seal, undo, type Renaming, type Travel } from '@/mo
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { renamed as tellNavigator } from './navigation';
 import { refusingViewers } from './readOnly';
-import { withActionRenamed } from './renameAction';
+import { withActionRenamed } from './edits/renameAction';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import {
   actionsAfter,

@@ -3,7 +3,7 @@ import type { PortSpec } from '@/model/ports';
 import { parseDiagram } from '@/model/serialize';
 import { treeFacts } from '@/model/treeFacts';
 import { atPlaces, closureOf, planInsertion, type Sources } from '@/model/reuse';
-import { addHere, change } from './commands';
+import { addHere, change } from './edits/blocks';
 import { useProjectStore } from './index';
 
 /** A behaviour that can be reused: of the built-in library, or a tree of another project. */

@@ -2,11 +2,18 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import type { ProjectDetail } from '@/api/types';
 import { edit, setName, setPort } from '@/model/edits';
 import { serializeDiagram } from '@/model/serialize';
-import { createAction } from './actionTemplate';
-import { addHere, deleteSelection, duplicateSelection, moveIn, moveOut, reorderSelection } from './commands';
+import { createAction } from './edits/actionTemplate';
+import {
+  addHere,
+  deleteSelection,
+  duplicateSelection,
+  moveIn,
+  moveOut,
+  reorderSelection,
+} from './edits/blocks';
 import { useProjectStore } from './index';
 import { setNavigator } from './navigation';
-import { extractSelection, inlineSelection } from './subtrees';
+import { extractSelection, inlineSelection } from './edits/subtrees';
 
 const state = () => useProjectStore.getState();
 const tree = {

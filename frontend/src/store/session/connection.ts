@@ -5,7 +5,7 @@ import type { SessionInfo } from '@/api/types';
 import { t } from '@/i18n';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { CommandError, ControlSocket } from './control';
-import { forgetRun, rememberRun } from './memory';
+import { forgetRun, rememberRun } from './trace/memory';
 import { Pulse, PULSE_MS } from './pulse';
 import { note, receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';

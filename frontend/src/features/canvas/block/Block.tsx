@@ -3,7 +3,7 @@ import { IconChevronDown, IconChevronUp, IconPlus } from '@tabler/icons-react';
 import { memo, type CSSProperties } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setCollapsed } from '@/model/edits';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { setEditor, toggleExpanded, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { liveKey, useLiveStore } from '@/store/project/live';

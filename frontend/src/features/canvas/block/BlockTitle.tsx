@@ -1,7 +1,7 @@
 import type { TFunction } from 'i18next';
 import { displayName, type DiagramNode, type NodeId } from '@/model/diagram';
 import { setComment, setName } from '@/model/edits';
-import { change } from '@/store/project/commands';
+import { change } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { BlockBadges } from './BlockBadges';
 import { TextField } from './TextField';

@@ -1,6 +1,6 @@
 import { childrenOf, type NodeId } from '@/model/diagram';
 import { bestPlacement } from '@/model/rules';
-import { activeDiagram, placeAfter } from '@/store/project/commands';
+import { activeDiagram, placeAfter } from '@/store/project/edits/blocks';
 import { setEditor, type QuickAddGoal } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 

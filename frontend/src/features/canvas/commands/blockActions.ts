@@ -1,0 +1,291 @@
+import type { UserAction } from '@/actions/registry';
+import {
+  IconArrowsExchange,
+  IconBan,
+  IconBinaryTree,
+  IconBox,
+  IconBoxOff,
+  IconBulb,
+  IconClipboard,
+  IconCode,
+  IconCopy,
+  IconCopyPlus,
+  IconCut,
+  IconFold,
+  IconForms,
+  IconMessage2,
+  IconPlus,
+  IconRowInsertBottom,
+  IconTrash,
+  type Icon,
+} from '@tabler/icons-react';
+import { canUnwrap } from '@/model/rules';
+import { copySelection, cutSelection } from '@/store/project/edits/clipboard';
+import {
+  activeDiagram,
+  deleteSelection,
+  duplicateSelection,
+  hasProblem,
+  toggleDisabled,
+  unwrapSelection,
+} from '@/store/project/edits/blocks';
+import { setEditor, useEditorStore } from '@/store/project/editor';
+import { extractSelection, inlineSelection } from '@/store/project/edits/subtrees';
+import { useProjectStore } from '@/store/project';
+import { editSelected, firstSelected, openBlock, toggleFolded, toggleInside } from './blockCommands';
+import { pasteHere } from '../gestures/clipboard';
+import { isOnCanvas, isTreeInFront } from '../inFront';
+import { openQuickAddHere } from '../quickAdd/open';
+
+/** What can be done with a block: a row of the table of actions that the menu of a block has, too. */
+export interface BlockAction extends UserAction {
+  icon: Icon;
+  /** Its words in the menu of a block or of the free canvas, a key of `canvas:menu`; null where it is not offered. */
+  inMenu: (isOnBlock: boolean) => string | null;
+}
+
+const state = () => useProjectStore.getState();
+const selectedNode = () => activeDiagram()?.nodes[firstSelected() ?? ''];
+const selectedSpec = () => state().vocabulary.specs.get(selectedNode()?.type ?? '');
+const childCount = () => selectedNode()?.children?.length ?? 0;
+const isSubTree = () => selectedNode()?.type === 'SubTree';
+const opensTree = () => isSubTree() && selectedNode()?.tree !== undefined;
+const opensCode = () => selectedSpec()?.source === 'action';
+const canLookInside = () => isSubTree() && state().vocabulary.trees.has(selectedNode()?.tree ?? '');
+const isExtractable = () => childCount() > 0 || state().selection.length > 1;
+const isLookedInside = () =>
+  useEditorStore.getState().expanded[state().activeTree ?? '']?.has(firstSelected() ?? '') === true;
+
+const hasSelection = () => state().selection.length > 0;
+const selectedOnCanvas = () => isOnCanvas() && hasSelection();
+const selectedInFront = () => hasSelection() && isTreeInFront();
+
+const always = (words: string) => () => words;
+
+function wordsOfAdding(isOnBlock: boolean): string | null {
+  if (!isOnBlock) return 'addBlock';
+  return (selectedSpec()?.maxChildren ?? 0) > childCount() ? 'addChild' : null;
+}
+
+function wordsOfOpening(): string | null {
+  if (opensTree()) return 'openTree';
+  return opensCode() ? 'openCode' : null;
+}
+
+function canUnwrapSelected(): boolean {
+  const diagram = activeDiagram();
+  const id = firstSelected();
+  return diagram !== null && id !== undefined && canUnwrap(diagram, id, state().vocabulary);
+}
+
+/** What is done with the selected blocks, in the order of the command palette. */
+export const blockActions: readonly BlockAction[] = [
+  {
+    id: 'edit.copy',
+    group: 'edit',
+    labelKey: 'canvas:menu.copy',
+    inMenu: always('copy'),
+    icon: IconCopy,
+    keys: '$mod+KeyC',
+    enabled: selectedOnCanvas,
+    run: () => void copySelection(),
+  },
+  {
+    id: 'edit.cut',
+    group: 'edit',
+    labelKey: 'canvas:menu.cut',
+    inMenu: always('cut'),
+    icon: IconCut,
+    keys: '$mod+KeyX',
+    enabled: selectedOnCanvas,
+    run: () => void cutSelection(),
+  },
+  {
+    id: 'edit.paste',
+    group: 'edit',
+    labelKey: 'canvas:menu.paste',
+    inMenu: always('paste'),
+    icon: IconClipboard,
+    keys: '$mod+KeyV',
+    enabled: isOnCanvas,
+    run: () => void pasteHere(),
+  },
+  {
+    id: 'edit.duplicate',
+    group: 'edit',
+    labelKey: 'canvas:menu.duplicate',
+    inMenu: always('duplicate'),
+    icon: IconCopyPlus,
+    shortcut: '$mod+KeyD',
+    enabled: selectedOnCanvas,
+    run: duplicateSelection,
+  },
+  {
+    id: 'edit.delete',
+    group: 'edit',
+    labelKey: 'canvas:menu.delete',
+    inMenu: always('delete'),
+    icon: IconTrash,
+    keys: 'Delete',
+    enabled: selectedInFront,
+    run: deleteSelection,
+  },
+  {
+    id: 'canvas.add',
+    group: 'canvas',
+    labelKey: 'canvas:menu.addBlock',
+    inMenu: wordsOfAdding,
+    icon: IconPlus,
+    keys: 'Tab',
+    enabled: isTreeInFront,
+    run: () => {
+      openQuickAddHere('child');
+    },
+  },
+  {
+    id: 'canvas.addAfter',
+    group: 'canvas',
+    labelKey: 'canvas:menu.addAfter',
+    inMenu: always('addAfter'),
+    icon: IconRowInsertBottom,
+    keys: '$mod+Enter',
+    enabled: selectedInFront,
+    run: () => {
+      openQuickAddHere('after');
+    },
+  },
+  {
+    id: 'canvas.rename',
+    group: 'canvas',
+    labelKey: 'canvas:action.rename',
+    inMenu: always('rename'),
+    icon: IconForms,
+    keys: 'F2',
+    enabled: selectedInFront,
+    run: () => {
+      editSelected('name');
+    },
+  },
+  {
+    id: 'canvas.comment',
+    group: 'canvas',
+    labelKey: 'canvas:action.comment',
+    inMenu: always('comment'),
+    icon: IconMessage2,
+    keys: 'Slash',
+    enabled: selectedInFront,
+    run: () => {
+      editSelected('comment');
+    },
+  },
+  {
+    id: 'canvas.open',
+    group: 'canvas',
+    labelKey: 'canvas:action.open',
+    inMenu: wordsOfOpening,
+    icon: IconCode,
+    keys: 'Enter',
+    enabled: () => isTreeInFront() && (opensTree() || opensCode()),
+    run: () => {
+      const diagram = activeDiagram();
+      if (diagram) openBlock(diagram, firstSelected() ?? '');
+    },
+  },
+  {
+    id: 'canvas.fold',
+    group: 'canvas',
+    labelKey: 'canvas:action.fold',
+    inMenu: () => (childCount() === 0 ? null : selectedNode()?.collapsed ? 'unfold' : 'fold'),
+    icon: IconFold,
+    keys: 'Space',
+    enabled: () => isTreeInFront() && childCount() > 0,
+    run: toggleFolded,
+  },
+  {
+    id: 'canvas.wrap',
+    group: 'canvas',
+    labelKey: 'canvas:menu.wrap',
+    inMenu: always('wrap'),
+    icon: IconBox,
+    shortcut: '$mod+KeyG',
+    enabled: selectedInFront,
+    run: () => {
+      openQuickAddHere('wrap');
+    },
+  },
+  {
+    id: 'canvas.unwrap',
+    group: 'canvas',
+    labelKey: 'canvas:menu.unwrap',
+    inMenu: () => (canUnwrapSelected() ? 'unwrap' : null),
+    icon: IconBoxOff,
+    shortcut: '$mod+Shift+KeyG',
+    enabled: selectedInFront,
+    run: unwrapSelection,
+  },
+  {
+    id: 'canvas.morph',
+    group: 'canvas',
+    labelKey: 'canvas:menu.morph',
+    inMenu: always('morph'),
+    icon: IconArrowsExchange,
+    shortcut: '$mod+KeyM',
+    enabled: selectedInFront,
+    run: () => {
+      openQuickAddHere('morph');
+    },
+  },
+  {
+    id: 'canvas.disable',
+    group: 'canvas',
+    labelKey: 'canvas:menu.disable',
+    inMenu: () => (selectedNode()?.disabled ? 'enable' : 'disable'),
+    icon: IconBan,
+    shortcut: '$mod+KeyE',
+    enabled: selectedInFront,
+    run: toggleDisabled,
+  },
+  {
+    id: 'canvas.fix',
+    group: 'canvas',
+    labelKey: 'canvas:menu.fix',
+    inMenu: () => (hasProblem(firstSelected()) ? 'fix' : null),
+    icon: IconBulb,
+    shortcut: '$mod+Period',
+    enabled: () => hasProblem(firstSelected()),
+    run: () => {
+      // After the menu has given the focus back.
+      setTimeout(() => {
+        setEditor({ fixing: firstSelected() ?? null });
+      });
+    },
+  },
+  {
+    id: 'canvas.extract',
+    group: 'canvas',
+    labelKey: 'canvas:menu.extract',
+    inMenu: () => (isExtractable() ? 'extract' : null),
+    icon: IconBinaryTree,
+    enabled: () => isTreeInFront() && isExtractable(),
+    run: extractSelection,
+  },
+  {
+    id: 'canvas.look',
+    group: 'canvas',
+    labelKey: 'canvas:action.look',
+    inMenu: () => (canLookInside() ? (isLookedInside() ? 'lookAway' : 'lookInside') : null),
+    icon: IconFold,
+    keys: 'Space',
+    enabled: () => isTreeInFront() && canLookInside(),
+    run: toggleInside,
+  },
+  {
+    id: 'canvas.inline',
+    group: 'canvas',
+    labelKey: 'canvas:menu.inline',
+    inMenu: () => (isSubTree() ? 'inline' : null),
+    icon: IconBoxOff,
+    enabled: () => isTreeInFront() && isSubTree(),
+    run: inlineSelection,
+  },
+];

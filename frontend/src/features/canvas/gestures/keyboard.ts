@@ -1,0 +1,130 @@
+import type { KeyboardEvent } from 'react';
+import { childrenOf, parentOf, topsOf, type Diagram, type NodeId } from '@/model/diagram';
+import type { Inside } from '@/model/expand';
+import { visibleChildren } from '@/model/layout';
+import {
+  activeDiagram,
+  deleteSelection,
+  moveIn,
+  moveOut,
+  reorderSelection,
+  unwrapSelection,
+} from '@/store/project/edits/blocks';
+import { openTree } from '@/store/project/navigation';
+import { useProjectStore } from '@/store/project';
+import { editSelected, openBlock, toggleFolded, toggleInside } from '../commands/blockCommands';
+import { openQuickAddHere } from '../quickAdd/open';
+
+/** What presses a button that has the focus, or leaves it. */
+const PRESSES: ReadonlySet<string> = new Set(['Enter', ' ', 'Tab']);
+
+type Direction = 'up' | 'down' | 'before' | 'after';
+
+/** Arrow keys as the eye sees them: in a left-right layout a parent is to the left. */
+const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>> = {
+  vertical: { ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'before', ArrowRight: 'after' },
+  horizontal: { ArrowLeft: 'up', ArrowRight: 'down', ArrowUp: 'before', ArrowDown: 'after' },
+};
+
+/** The block beside, above or below; beyond the last sibling, the nearest cousin. */
+export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
+  if (direction === 'up') return parentOf(diagram, id);
+  if (direction === 'down') return visibleChildren(diagram, id)[0] ?? null;
+  const parent = parentOf(diagram, id);
+  const step = direction === 'after' ? 1 : -1;
+  const siblings = parent === null ? topsOf(diagram) : childrenOf(diagram, parent);
+  const beside = siblings[siblings.indexOf(id) + step];
+  if (beside !== undefined) return beside;
+  if (parent === null) return null;
+  const uncle = neighbour(diagram, parent, direction);
+  if (uncle === null) return null;
+  const cousins = visibleChildren(diagram, uncle);
+  return (direction === 'after' ? cousins[0] : cousins.at(-1)) ?? uncle;
+}
+
+function move(direction: Direction): void {
+  if (direction === 'before' || direction === 'after') reorderSelection(direction === 'after' ? 1 : -1);
+  else if (direction === 'up') moveOut();
+  else moveIn();
+}
+
+function walk(diagram: Diagram, id: NodeId | undefined, direction: Direction, extend: boolean): void {
+  const { select, selection } = useProjectStore.getState();
+  const next = id === undefined ? diagram.root : neighbour(diagram, id, direction);
+  if (next === null) return;
+  // The block that was walked to comes first: keys act on it.
+  select(diagram.id, extend ? [next, ...selection.filter((other) => other !== next)] : [next]);
+}
+
+/** Goes to the tree that a block seen inside of a SubTree belongs to. */
+export function enterInside({ tree, node }: Inside): void {
+  openTree(tree);
+  useProjectStore.getState().reveal(tree, node);
+}
+
+/** Keys on a selected block; true when the key was one of ours. */
+function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean {
+  switch (event.key) {
+    case 'Tab':
+      if (event.shiftKey) return false;
+      openQuickAddHere('child');
+      return true;
+    case 'Enter':
+      if (event.ctrlKey || event.metaKey) openQuickAddHere('after');
+      else openBlock(diagram, id);
+      return true;
+    case 'F2':
+      editSelected('name');
+      return true;
+    case '/':
+      editSelected('comment');
+      return true;
+    case 'Delete':
+    case 'Backspace':
+      if (event.shiftKey) unwrapSelection();
+      else deleteSelection();
+      return true;
+    case ' ':
+      if (diagram.nodes[id]?.type === 'SubTree') toggleInside();
+      else toggleFolded();
+      return true;
+    default:
+      return false;
+  }
+}
+
+/** The key of the right mouse button's menu, and what keyboards without it have. */
+export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
+  key === 'ContextMenu' || (key === 'F10' && shiftKey);
+
+/** The canvas's own keys; those with Ctrl that the whole frame has are in the table of actions. */
+export function onCanvasKey(event: KeyboardEvent): void {
+  const target = event.target as HTMLElement;
+  // A menu stands elsewhere in the page, though React tells of its keys here, too.
+  if (!event.currentTarget.contains(target)) return;
+  if (target.matches('input, textarea, select, [contenteditable=true]')) return;
+  if (target.matches('button') && PRESSES.has(event.key)) return;
+  const diagram = activeDiagram();
+  if (!diagram) return;
+  const { selection, select } = useProjectStore.getState();
+  const [id] = selection;
+  const command = event.ctrlKey || event.metaKey;
+  const direction = DIRECTIONS[diagram.layout][event.key];
+  let done = true;
+  if (direction) {
+    if (command) move(direction);
+    else walk(diagram, id, direction, event.shiftKey);
+  } else if (event.key === 'Home' && diagram.root !== null) select(diagram.id, [diagram.root]);
+  else if (event.key === 'Escape') {
+    // With nothing to leave, the key is for the frame.
+    done = selection.length > 0;
+    select(diagram.id, []);
+  } else if (id !== undefined && onBlockKey(event, diagram, id)) done = true;
+  else if (event.key === 'Tab' && !event.shiftKey && diagram.root === null) openQuickAddHere('child');
+  else if (!command && !event.altKey && /^[a-z0-9_]$/i.test(event.key)) openQuickAddHere('child', event.key);
+  else done = false;
+  if (done) {
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

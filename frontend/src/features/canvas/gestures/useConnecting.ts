@@ -1,0 +1,48 @@
+import { useReactFlow, type Connection, type Edge, type FinalConnectionState } from '@xyflow/react';
+import { useCallback } from 'react';
+import { childrenOf, isWithin } from '@/model/diagram';
+import { canMoveUnder } from '@/model/rules';
+import { connect } from '@/store/project/edits/blocks';
+import { openQuickAdd, openQuickAddBelow } from '../quickAdd/open';
+import type { TreeOnCanvas } from '../useTree';
+
+/** Drawing connections by hand; one that ends on empty canvas asks what to put there. */
+export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
+  const flow = useReactFlow();
+
+  const isValidConnection = useCallback(
+    (connection: Connection | Edge) =>
+      canMoveUnder(diagram, connection.target, connection.source, vocabulary) &&
+      !childrenOf(diagram, connection.source).includes(connection.target),
+    [diagram, vocabulary],
+  );
+
+  const onConnect = useCallback((connection: Connection) => {
+    connect(connection.source, connection.target);
+  }, []);
+
+  const onConnectEnd = useCallback(
+    (event: MouseEvent | TouchEvent, state: FinalConnectionState) => {
+      if (state.isValid || !state.fromNode || !('clientX' in event)) return;
+      const from = state.fromNode.id;
+      const { clientX, clientY } = event;
+      const target = document
+        .elementFromPoint(clientX, clientY)
+        ?.closest('.react-flow__node')
+        ?.getAttribute('data-id');
+      if (target && target !== from) {
+        // Dropped on the body of a block: it need not be the small handle.
+        if (state.fromHandle?.type === 'source' && !isWithin(diagram, from, target)) connect(from, target);
+        else if (state.fromHandle?.type === 'target') connect(target, from);
+        return;
+      }
+      const start = flow.flowToScreenPosition(state.from ?? { x: 0, y: 0 });
+      if (Math.hypot(start.x - clientX, start.y - clientY) < 12) return;
+      if (state.fromHandle?.type === 'source') openQuickAddBelow(diagram.id, from, clientX, clientY);
+      else openQuickAdd(diagram.id, { does: 'wrap', nodes: [from] }, clientX, clientY);
+    },
+    [diagram, flow],
+  );
+
+  return { isValidConnection, onConnect, onConnectEnd };
+}

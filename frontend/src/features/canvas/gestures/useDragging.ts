@@ -1,0 +1,118 @@
+import { useReactFlow } from '@xyflow/react';
+import { useCallback, useEffect, useRef, useState, type RefObject } from 'react';
+import { freshId, subtreeOf, topmost, type NodeId } from '@/model/diagram';
+import { insertFragment, fragmentOf, moveNodes, setPosition, withFreshIds } from '@/model/edits';
+import { hasRoom } from '@/model/rules';
+import { isSamePlace, slotFinder, type Slot, type SlotFinder } from '@/model/slots';
+import { change } from '@/store/project/edits/blocks';
+import { setEditor, useEditorStore } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { Hand } from './carrying';
+import type { BlockNode } from '../flow';
+import type { TreeOnCanvas } from '../useTree';
+
+/** Below this a press is a click: hands tremble. */
+const DEAD_ZONE = 6;
+
+/** What is worked out once when blocks are taken, for all steps of the hand. */
+interface Grip {
+  readonly hand: Hand;
+  /** The blocks in the hand that are below none of the others, in execution order. */
+  readonly tops: readonly NodeId[];
+  readonly layout: unknown;
+  readonly findSlot: SlotFinder;
+}
+
+/** Moving blocks by hand: into a slot of the tree, or to a position of their own. Alt copies. */
+export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
+  const flow = useReactFlow();
+  const grip = useRef<Grip | null>(null);
+  const [held, setHeld] = useState<string | null>(null);
+  const { diagram, shown, layout, vocabulary } = tree;
+
+  const take = useCallback(
+    (node: BlockNode): Grip | null => {
+      const known = grip.current;
+      if (known?.hand.holds === node.id && known.layout === layout) return known;
+      known?.hand.letGo();
+      if (!canvas.current) return null;
+      const { selection } = useProjectStore.getState();
+      const tops =
+        selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
+      const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
+      const hand = new Hand(canvas.current, node.id, new Set(tops), ids);
+      const findSlot = slotFinder({ diagram, layout, vocabulary, moving: tops });
+      setHeld(node.id);
+      return (grip.current = { hand, tops, layout, findSlot });
+    },
+    [diagram, shown, layout, vocabulary, canvas],
+  );
+
+  const letGo = useCallback(() => {
+    grip.current?.hand.letGo();
+    grip.current = null;
+  }, []);
+  useEffect(() => letGo, [letGo]);
+
+  /** Copies come in addition to what hangs there; what is moved leaves its place first. */
+  const allows = useCallback(
+    (slot: Slot, tops: readonly NodeId[], isCopy: boolean): boolean =>
+      isCopy ? hasRoom(diagram, slot.parent, vocabulary, tops.length) : !isSamePlace(diagram, tops, slot),
+    [diagram, vocabulary],
+  );
+
+  const onDrag = useCallback(
+    (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
+      const origin = layout.positions[node.id];
+      if (!origin || !('clientX' in event)) return;
+      const taken = take(node);
+      if (!taken) return;
+      const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
+      taken.hand.moveBy(dx, dy);
+      const pointer = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY });
+      const far = Math.hypot(dx, dy) > DEAD_ZONE;
+      const slot = far ? taken.findSlot(pointer.x, pointer.y) : null;
+      const next = slot && allows(slot, taken.tops, event.altKey) ? slot : null;
+      const shown = useEditorStore.getState().slot;
+      const same =
+        next?.parent === shown?.parent && next?.index === shown?.index && next?.kind === shown?.kind;
+      if (!same) setEditor({ slot: next });
+    },
+    [layout, take, allows, flow],
+  );
+
+  const onDrop = useCallback(
+    (event: MouseEvent | TouchEvent | React.MouseEvent, node: BlockNode) => {
+      const found = useEditorStore.getState().slot;
+      const origin = layout.positions[node.id];
+      const tops = grip.current?.tops ?? [node.id];
+      letGo();
+      setHeld(null);
+      setEditor({ slot: null });
+      if (!origin) return;
+      const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
+      if (Math.hypot(dx, dy) <= DEAD_ZONE) return;
+      // The key may have been let go, or pressed, since the last step of the hand.
+      const slot = found && allows(found, tops, event.altKey) ? found : null;
+      const place = slot && ({ at: 'child', parent: slot.parent, index: slot.index } as const);
+      if (event.altKey) {
+        const copy = withFreshIds(fragmentOf(diagram, tops), (taken) =>
+          freshId({ ...diagram.nodes, ...taken }),
+        );
+        const free = { at: 'draft', position: [node.position.x, node.position.y] } as const;
+        change('duplicate', [insertFragment(copy, place ?? free)], { select: copy.tops });
+      } else if (place) {
+        change('move', [moveNodes(tops, place)], { select: tops });
+      } else {
+        const recipes = tops.map((top) => {
+          const box = layout.positions[top];
+          return setPosition(top, [(box?.x ?? 0) + dx, (box?.y ?? 0) + dy]);
+        });
+        change('place', recipes, { select: tops });
+      }
+    },
+    [diagram, layout, letGo, allows],
+  );
+
+  return { held, onDrag, onDrop };
+}

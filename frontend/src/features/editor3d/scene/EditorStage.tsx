@@ -1,0 +1,114 @@
+import { useThree } from '@react-three/fiber';
+import { useEffect, useRef, type ReactNode } from 'react';
+import * as THREE from 'three';
+import { useStore } from 'zustand';
+import type { Scene } from '@/generated/messages';
+import { Surroundings, useSight, type Orbit } from '@/features/viewer/scene/Surroundings';
+import type { Pictures } from '@/features/viewer/scene/TextureCache';
+import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
+import { forwardOf } from './aiming';
+import { Gizmo, type Handles } from './Gizmo';
+import { PointerTool, type Carrier, type Drawing } from './PointerTool';
+import { isReadOnly, showIn, type Editor } from '../session';
+import type { ThingScene } from './ThingScene';
+
+/** Closer lines would be a haze. */
+const FINEST_LINES_M = 0.05;
+
+/** What an editor gives its stage: what is shown, and what gestures do to it. */
+export interface Staged {
+  readonly scene: ThingScene<{ readonly key: string }>;
+  readonly handles: Handles;
+  readonly carrier: Carrier;
+  readonly drawing?: Drawing;
+}
+
+interface EditorStageProps {
+  readonly editor: Editor;
+  readonly staged: Staged;
+  /** The document's value: another one is drawn anew. */
+  readonly content: object;
+  readonly isDark: boolean;
+  readonly lights: Scene['lights'];
+  readonly ground: { readonly color: readonly number[]; readonly picture?: string | undefined };
+  readonly textures?: Pictures | undefined;
+  /** How near and how far one may look from, and how large what is seen may be, in m. */
+  readonly reach: readonly [number, number];
+  readonly extent: readonly [number, number];
+  readonly children?: ReactNode;
+}
+
+/** A document in 3D as it is written, with what moves its things. */
+export function EditorStage(props: EditorStageProps) {
+  const { editor, staged, content, isDark, lights, ground, textures, reach, extent } = props;
+  const { scene, handles, carrier, drawing } = staged;
+  const redraw = useThrottledInvalidate();
+  const controls = useRef<Orbit | null>(null);
+  const gizmo = useRef<Gizmo | null>(null);
+  const camera = useThree((state) => state.camera);
+  const canvas = useThree((state) => state.gl.domElement);
+  const root = useThree((state) => state.scene);
+  const { selection, waypoint, mode, tool, grid, viewpoint } = useStore(editor.store);
+
+  useEffect(() => {
+    const hold = (isHeld: boolean) => {
+      if (controls.current) controls.current.enabled = !isHeld;
+    };
+    const made = new Gizmo(handles, camera, canvas, { change: redraw, hold });
+    made.controls.enabled = !isReadOnly();
+    gizmo.current = made;
+    root.add(made.root);
+    const isTaken = () => made.controls.enabled && made.controls.axis !== null;
+    const gestures = drawing ? { carrier, drawing } : { carrier };
+    const pointer = new PointerTool({ editor, scene, ...gestures, camera, canvas, isTaken, hold, redraw });
+    showIn(editor, {
+      center: () => {
+        const target = controls.current?.target ?? new THREE.Vector3();
+        return [target.x, target.y];
+      },
+      forward: () => forwardOf(camera),
+      cancel: () => made.cancel() || pointer.cancel(),
+    });
+    return () => {
+      showIn(editor, null);
+      gizmo.current = null;
+      pointer.dispose();
+      made.dispose();
+    };
+  }, [editor, scene, handles, carrier, drawing, camera, canvas, root, redraw]);
+
+  useEffect(() => {
+    handles.show();
+    gizmo.current?.update();
+    redraw();
+  }, [handles, content, redraw]);
+  useEffect(() => {
+    scene.mark(selection);
+    if (tool !== 'wall') drawing?.end();
+    gizmo.current?.update();
+    redraw();
+  }, [scene, drawing, content, selection, waypoint, mode, tool, grid, redraw]);
+  useSight(controls, viewpoint, () => {
+    const { kind } = viewpoint;
+    const isSelection = kind === 'selection' && editor.store.getState().selection.length > 0;
+    const bounds = isSelection ? scene.boundsOf(editor.store.getState().selection) : scene.bounds;
+    return { bounds, kind, least: extent[0], most: extent[1] };
+  });
+
+  return (
+    <Surroundings
+      controls={controls}
+      isDark={isDark}
+      lights={lights}
+      bounds={scene.bounds}
+      ground={ground}
+      textures={textures}
+      hasGrid
+      fineGrid={grid === 0 ? 0 : Math.max(grid, FINEST_LINES_M)}
+      reach={reach}
+    >
+      <primitive object={scene.group} />
+      {props.children}
+    </Surroundings>
+  );
+}

@@ -1,0 +1,144 @@
+import * as THREE from 'three';
+import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import type { Pose } from '@/model/document/values';
+import { TURN_STEP, type Mode } from '../session';
+
+const MODES = { move: 'translate', turn: 'rotate', size: 'scale' } as const;
+const OF = { translate: 'move', rotate: 'turn', scale: 'size' } as const;
+
+/** x, y, z in m and roll, pitch, yaw in rad. */
+export function poseOf(object: THREE.Object3D): Pose {
+  const { x, y, z } = object.position;
+  const angles = new THREE.Euler().setFromQuaternion(object.quaternion, 'ZYX');
+  return [x, y, z, angles.x, angles.y, angles.z];
+}
+
+export function setThingPose(node: THREE.Object3D, [x, y, z, roll, pitch, yaw]: Pose): void {
+  node.position.set(x, y, z);
+  node.quaternion.setFromEuler(new THREE.Euler(roll, pitch, yaw, 'ZYX'));
+  node.scale.set(1, 1, 1);
+}
+
+/** Where the gizmo stands, and what can be done there. */
+export interface Stand {
+  readonly pose: Pose;
+  readonly mode: Mode;
+  /** Turns about all axes, not only about the upright one. */
+  readonly turnsFreely: boolean;
+  /** Moves over the floor only. */
+  readonly isFlat: boolean;
+  readonly grid: number;
+}
+
+/** What the gizmo does to the things of an editor. */
+export interface Handles {
+  /** Null: nothing that can be moved is selected. */
+  stand(): Stand | null;
+  /** What follows the gizmo while it is dragged. */
+  held(): readonly THREE.Object3D[];
+  /** Takes over what the gesture did; `start` is where the gizmo stood. */
+  commit(mode: Mode, pivot: THREE.Object3D, start: THREE.Matrix4): void;
+  /** Draws everything as it is written. */
+  show(): void;
+}
+
+interface On {
+  readonly change: () => void;
+  readonly hold: (isHeld: boolean) => void;
+}
+
+/** Arrows, rings and boxes by which the selected things are moved, turned and stretched. */
+export class Gizmo {
+  readonly controls: TransformControls;
+  readonly root: THREE.Object3D;
+  private readonly pivot = new THREE.Object3D();
+  private readonly start = new THREE.Matrix4();
+  private held: { node: THREE.Object3D; start: THREE.Matrix4 }[] = [];
+
+  constructor(
+    private readonly handles: Handles,
+    camera: THREE.Camera,
+    canvas: HTMLElement,
+    private readonly on: On,
+  ) {
+    this.controls = new TransformControls(camera, canvas);
+    this.controls.setSize(0.85);
+    this.root = new THREE.Group().add(this.controls.getHelper(), this.pivot);
+    this.controls.addEventListener('change', on.change);
+    this.controls.addEventListener('objectChange', () => {
+      this.follow();
+    });
+    this.controls.addEventListener('dragging-changed', ({ value }) => {
+      if (value) this.take();
+      else this.commit();
+      on.hold(Boolean(value));
+    });
+  }
+
+  /** Stands at what is selected, in the way that is chosen. */
+  update(): void {
+    const stand = this.handles.stand();
+    if (!stand) {
+      this.controls.detach();
+      return;
+    }
+    setThingPose(this.pivot, stand.pose);
+    this.pivot.updateMatrixWorld(true);
+    const { mode, turnsFreely, isFlat, grid } = stand;
+    this.controls.setMode(MODES[mode]);
+    this.controls.setSpace(mode === 'move' ? 'world' : 'local');
+    this.controls.showX = mode !== 'turn' || turnsFreely;
+    this.controls.showY = mode !== 'turn' || turnsFreely;
+    this.controls.showZ = !(mode === 'move' && isFlat);
+    this.controls.setTranslationSnap(grid || null);
+    this.controls.setRotationSnap(grid ? TURN_STEP : null);
+    this.controls.attach(this.pivot);
+    // What can be grasped is where it will be drawn, also before it is.
+    this.controls.getHelper().updateMatrixWorld(true);
+  }
+
+  /** Puts everything back while it is held; tells whether it was. */
+  cancel(): boolean {
+    if (!this.controls.dragging) return false;
+    this.controls.reset();
+    this.held = [];
+    this.controls.pointerUp(null);
+    this.handles.show();
+    this.update();
+    return true;
+  }
+
+  dispose(): void {
+    this.controls.detach();
+    this.controls.dispose();
+    this.root.removeFromParent();
+  }
+
+  private take(): void {
+    this.pivot.updateMatrixWorld(true);
+    this.start.copy(this.pivot.matrixWorld);
+    this.held = this.handles.held().map((node) => {
+      node.updateMatrix();
+      return { node, start: node.matrix.clone() };
+    });
+  }
+
+  private follow(): void {
+    this.pivot.updateMatrixWorld(true);
+    const step = this.pivot.matrixWorld.clone().multiply(this.start.clone().invert());
+    for (const { node, start } of this.held) {
+      step.clone().multiply(start).decompose(node.position, node.quaternion, node.scale);
+    }
+    this.on.change();
+  }
+
+  private commit(): void {
+    const held = this.held.length;
+    this.held = [];
+    if (held === 0) return;
+    this.handles.commit(OF[this.controls.getMode()], this.pivot, this.start);
+    // What could not be done, or did nothing, is shown as it is.
+    this.handles.show();
+    this.update();
+  }
+}

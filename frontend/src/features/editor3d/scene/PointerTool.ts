@@ -1,0 +1,174 @@
+import type * as THREE from 'three';
+import { snapped } from '@/model/universe/geometry';
+import type { Point } from '@/model/document/values';
+import { pointAt, thingAt, type Aimed } from './aiming';
+import { isReadOnly, type Editor } from '../session';
+import type { ThingScene } from './ThingScene';
+
+const CLICK_PX = 4;
+
+/** What can be carried over the floor. */
+interface Load {
+  readonly keys: readonly string[];
+  /** Where the thing under the pointer is: its place falls on the grid, and the others follow. */
+  readonly anchor: Point;
+  readonly nodes: readonly THREE.Object3D[];
+}
+
+/** What the pointer does to the things of an editor. */
+export interface Carrier {
+  /** Null: what is under the pointer stays where it is. */
+  take(hit: Aimed): Load | null;
+  drop(keys: readonly string[], by: Point): void;
+  click(hit: Aimed | null, isAdding: boolean): void;
+}
+
+/** Something that is drawn point by point, in place of selecting. */
+export interface Drawing {
+  isOn(): boolean;
+  move(point: Point): void;
+  click(point: Point | null): void;
+  /** Tells whether there was something to end. */
+  end(): boolean;
+}
+
+interface Parts {
+  readonly editor: Editor;
+  readonly scene: Pick<ThingScene<{ key: string }>, 'group' | 'keyOf'>;
+  readonly carrier: Carrier;
+  readonly drawing?: Drawing;
+  readonly camera: THREE.Camera;
+  readonly canvas: HTMLElement;
+  /** Whether the gizmo has the pointer. */
+  readonly isTaken: () => boolean;
+  readonly hold: (isHeld: boolean) => void;
+  readonly redraw: () => void;
+}
+
+interface Carrying extends Load {
+  readonly from: Point;
+  readonly height: number;
+  readonly starts: readonly { readonly node: THREE.Object3D; readonly at: THREE.Vector3 }[];
+  offset: Point;
+}
+
+/** What the pointer does on the floor plan: selects, carries, and draws. */
+export class PointerTool {
+  private pressed: { x: number; y: number; isFree: boolean } | null = null;
+  private carrying: Carrying | null = null;
+  private readonly listening = new AbortController();
+
+  constructor(private readonly parts: Parts) {
+    const { canvas } = parts;
+    const { signal } = this.listening;
+    canvas.addEventListener('pointerdown', this.onDown, { capture: true, signal });
+    canvas.addEventListener('pointermove', this.onMove, { signal });
+    canvas.addEventListener('pointerup', this.onUp, { signal });
+    canvas.addEventListener('pointercancel', () => this.cancel(), { signal });
+  }
+
+  /** Ends what is under way without doing it; tells whether there was something. */
+  cancel(): boolean {
+    const wasBusy = this.carrying !== null;
+    for (const { node, at } of this.carrying?.starts ?? []) node.position.copy(at);
+    this.carrying = null;
+    this.pressed = null;
+    const wasDrawing = this.parts.drawing?.end() ?? false;
+    this.parts.hold(false);
+    this.parts.redraw();
+    return wasBusy || wasDrawing;
+  }
+
+  dispose(): void {
+    this.listening.abort();
+  }
+
+  private readonly onDown = (event: PointerEvent): void => {
+    if (event.button !== 0 || this.parts.isTaken()) return;
+    this.pressed = { x: event.clientX, y: event.clientY, isFree: true };
+    if (this.parts.drawing?.isOn() || isReadOnly()) return;
+    if (!isAdding(event)) this.take(event);
+  };
+
+  private take(event: PointerEvent): void {
+    const { scene, camera, canvas, hold, carrier } = this.parts;
+    const hit = thingAt(event, canvas, camera, scene);
+    const load = hit ? carrier.take(hit) : null;
+    const from = hit ? pointAt(event, canvas, camera, hit.height) : null;
+    if (!hit || !load || !from) return;
+    const starts = load.nodes.map((node) => ({ node, at: node.position.clone() }));
+    this.carrying = { ...load, from, height: hit.height, starts, offset: [0, 0] };
+    hold(true);
+    canvas.setPointerCapture(event.pointerId);
+    event.stopImmediatePropagation();
+    canvas.focus();
+  }
+
+  private readonly onMove = (event: PointerEvent): void => {
+    const { scene, camera, canvas, drawing, redraw, editor } = this.parts;
+    const { grid } = editor.store.getState();
+    if (drawing?.isOn()) {
+      const point = this.floorPoint(event);
+      if (point) drawing.move(point);
+      redraw();
+      return;
+    }
+    const { carrying } = this;
+    if (!carrying) {
+      if (event.buttons === 0) canvas.style.cursor = thingAt(event, canvas, camera, scene) ? 'pointer' : '';
+      return;
+    }
+    if (!this.isDragged(event)) return;
+    const at = pointAt(event, canvas, camera, carrying.height);
+    if (!at) return;
+    canvas.style.cursor = 'grabbing';
+    const along = (axis: 0 | 1) =>
+      snapped(carrying.anchor[axis] + at[axis] - carrying.from[axis], grid) - carrying.anchor[axis];
+    carrying.offset = [along(0), along(1)];
+    const [dx, dy] = carrying.offset;
+    for (const { node, at: start } of carrying.starts) node.position.set(start.x + dx, start.y + dy, start.z);
+    redraw();
+  };
+
+  private isDragged(event: PointerEvent): boolean {
+    if (!this.pressed) return false;
+    if (Math.hypot(event.clientX - this.pressed.x, event.clientY - this.pressed.y) >= CLICK_PX) {
+      this.pressed.isFree = false;
+    }
+    return !this.pressed.isFree;
+  }
+
+  private readonly onUp = (event: PointerEvent): void => {
+    const { carrying, pressed } = this;
+    const { canvas, hold, carrier } = this.parts;
+    const isClick = pressed !== null && !this.isDragged(event);
+    this.carrying = null;
+    this.pressed = null;
+    if (carrying) hold(false);
+    if (carrying && !isClick) {
+      canvas.style.cursor = '';
+      carrier.drop(carrying.keys, carrying.offset);
+      return;
+    }
+    if (isClick && event.button === 0) this.click(event);
+  };
+
+  private click(event: PointerEvent): void {
+    const { scene, camera, canvas, redraw, drawing, carrier } = this.parts;
+    if (!drawing?.isOn()) {
+      carrier.click(thingAt(event, canvas, camera, scene), isAdding(event));
+      return;
+    }
+    drawing.click(this.floorPoint(event));
+    redraw();
+  }
+
+  private floorPoint(event: PointerEvent): Point | null {
+    const { camera, canvas, editor } = this.parts;
+    const { grid } = editor.store.getState();
+    const point = pointAt(event, canvas, camera);
+    return point ? [snapped(point[0], grid), snapped(point[1], grid)] : null;
+  }
+}
+
+const isAdding = (event: PointerEvent): boolean => event.shiftKey || event.ctrlKey || event.metaKey;

@@ -1,0 +1,195 @@
+import * as THREE from 'three';
+import type { Shape } from '@/generated/messages';
+import { GeometryCache } from '@/features/viewer/scene/geometry';
+import { mapPicture } from '@/features/viewer/scene/mapping';
+import { MaterialCache, meshOf } from '@/features/viewer/scene/shapes';
+import type { Pictures } from '@/features/viewer/scene/TextureCache';
+import { Assets, type Fetched } from './assets';
+import { box } from './marks';
+
+const PENDING = [0.6, 0.62, 0.66, 0.5];
+const FAILED = [0.85, 0.25, 0.22, 0.6];
+
+/** `#rrggbb` or `#rrggbbaa` as parts from 0 to 1. */
+export function rgba(color: string): number[] {
+  const parts = [1, 3, 5, 7].map((at) => parseInt(color.slice(at, at + 2), 16) / 255);
+  return parts.map((part, index) => (Number.isNaN(part) ? (index === 3 ? 1 : 0.6) : part));
+}
+
+interface Drawn {
+  readonly node: THREE.Group;
+  readonly said: string;
+}
+
+/** What can be selected in an editor, as three.js draws it; kept outside React, and changed thing by thing. */
+export abstract class ThingScene<T extends { readonly key: string }> {
+  readonly group = new THREE.Group();
+  readonly bounds = new THREE.Box3();
+  protected readonly assets: Assets;
+  private readonly drawn = new Map<string, Drawn>();
+  private readonly geometries = new GeometryCache({});
+  private readonly materials: MaterialCache;
+  private selected: readonly string[] = [];
+  private things: readonly T[] = [];
+
+  constructor(isSimple: boolean, onArrival: () => void, textures: Pictures | null = null) {
+    this.materials = new MaterialCache(isSimple, textures);
+    this.assets = new Assets(() => {
+      this.again();
+      onArrival();
+    });
+  }
+
+  /** What a thing looks like beyond what it says: whether its files have arrived. */
+  protected abstract stateOf(thing: T): unknown;
+  /** Draws a thing into its node. */
+  protected abstract fill(node: THREE.Group, thing: T): void;
+  /** Puts a node where its thing is. */
+  protected abstract put(node: THREE.Group, thing: T): void;
+
+  /** Draws what changed since the last time; what did not stays the same object. */
+  show(things: readonly T[]): void {
+    this.things = things;
+    const keys = new Set(things.map(({ key }) => key));
+    for (const key of [...this.drawn.keys()]) if (!keys.has(key)) this.drop(key);
+    for (const thing of things) {
+      const said = JSON.stringify([this.lookOf(thing), this.stateOf(thing)]);
+      const old = this.drawn.get(thing.key);
+      if (old?.said === said) {
+        this.put(old.node, thing);
+        continue;
+      }
+      this.drop(thing.key);
+      const node = new THREE.Group();
+      node.userData['thing'] = thing.key;
+      this.fill(node, thing);
+      this.put(node, thing);
+      this.drawn.set(thing.key, { node, said });
+      this.group.add(node);
+    }
+    this.group.updateMatrixWorld(true);
+    this.bounds.copy(this.boundsOf(things.map(({ key }) => key)));
+    this.mark(this.selected);
+  }
+
+  /** Draws again what is shown: something of it may have arrived. */
+  protected again(): void {
+    this.show(this.things);
+  }
+
+  nodeOf(key: string): THREE.Group | undefined {
+    return this.drawn.get(key)?.node;
+  }
+
+  /** The key of the thing that something drawn is a part of. */
+  keyOf(part: THREE.Object3D): string | null {
+    for (let at: THREE.Object3D | null = part; at; at = at.parent) {
+      const key: unknown = at.userData['thing'];
+      if (typeof key === 'string') return key;
+    }
+    return null;
+  }
+
+  /** The box round some things, without their marks. */
+  boundsOf(keys: readonly string[]): THREE.Box3 {
+    const bounds = new THREE.Box3();
+    for (const key of keys) {
+      for (const child of this.nodeOf(key)?.children ?? []) {
+        if (!child.userData['isMark']) bounds.expandByObject(child);
+      }
+    }
+    return bounds;
+  }
+
+  /** Frames what is selected. */
+  mark(selection: readonly string[]): void {
+    this.selected = selection;
+    for (const [key, { node }] of this.drawn) {
+      const isSelected = selection.includes(key);
+      for (const child of node.children) {
+        if (child.userData['isMark']) child.visible = isSelected;
+        if (child.userData['isFaint']) setFaint(child, !isSelected);
+      }
+    }
+  }
+
+  dispose(): void {
+    for (const key of [...this.drawn.keys()]) this.drop(key);
+    this.geometries.dispose();
+    this.materials.dispose();
+    this.assets.dispose();
+  }
+
+  /** What decides how a thing is drawn; by default all that is known of it. */
+  protected lookOf(thing: T): unknown {
+    return thing;
+  }
+
+  protected meshOf(shape: Shape): THREE.Mesh {
+    const mesh = meshOf(shape, this.geometries, this.materials);
+    mesh.receiveShadow = true;
+    return mesh;
+  }
+
+  /** Shapes that may be on their way; in their place stands a box of this size in m. */
+  protected addShapes(node: THREE.Group, { value, failed }: Fetched<Shape[]>, size: number): void {
+    if (!value) {
+      node.add(box(size, failed ? FAILED : PENDING));
+      return;
+    }
+    for (const shape of value) {
+      if (shape.shape === 'mesh') this.addMesh(node, shape);
+      else node.add(this.meshOf(shape));
+    }
+  }
+
+  protected addMesh(node: THREE.Group, shape: Shape): void {
+    const { value, failed } = this.assets.mesh(shape.mesh ?? '');
+    if (!value) {
+      node.add(box(0.4, failed ? FAILED : PENDING));
+      return;
+    }
+    const mesh = this.meshOf({ ...shape, mesh: '' });
+    const { textures } = this.materials;
+    mesh.geometry = shape.texture && textures ? painted(value, shape, textures.tileOf(shape.texture)) : value;
+    node.add(mesh);
+  }
+
+  /** Whether shapes and their meshes have arrived, as a text. */
+  protected arrivals(entry: Fetched<Shape[]>): string {
+    const meshes = (entry.value ?? [])
+      .filter(({ mesh }) => mesh)
+      .map(({ mesh }) => this.assets.mesh(mesh ?? ''));
+    return [entry, ...meshes].map(arrival).join();
+  }
+
+  private drop(key: string): void {
+    const node = this.drawn.get(key)?.node;
+    if (!node) return;
+    node.removeFromParent();
+    node.traverse((child) => {
+      if (child.userData['isOwn'] && 'geometry' in child) (child.geometry as THREE.BufferGeometry).dispose();
+    });
+    this.drawn.delete(key);
+  }
+}
+
+/** A copy of a mesh that says where in a picture its triangles are; in m while it is painted. */
+function painted(
+  mesh: THREE.BufferGeometry,
+  { size }: Shape,
+  tile: readonly [number, number],
+): THREE.BufferGeometry {
+  const [x = 1, y = 1, z = 1] = size;
+  const copy = mesh.clone().scale(x, y, z);
+  mapPicture(copy, 'mesh', tile);
+  return copy.scale(1 / x, 1 / y, 1 / z);
+}
+
+export const arrival = ({ value, failed }: Fetched<unknown>): string =>
+  value ? 'here' : failed ? 'failed' : 'coming';
+
+function setFaint(child: THREE.Object3D, isFaint: boolean): void {
+  const material = (child as THREE.Line).material as THREE.LineBasicMaterial;
+  material.opacity = isFaint ? 0.35 : 1;
+}

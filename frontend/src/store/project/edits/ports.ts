@@ -1,0 +1,26 @@
+import { addPort, edit, removePort, renamePort, type Recipe } from '@/model/edits';
+import { useProjectStore } from '../index';
+
+/** Changes every tree: one step of undo, of the tree in front. */
+function changeEverywhere(recipe: Recipe): void {
+  const { activeTree, diagrams, apply } = useProjectStore.getState();
+  if (activeTree === null) return;
+  const others = Object.entries(diagrams).filter(([id]) => id !== activeTree);
+  const also = Object.fromEntries(others.map(([id, diagram]) => [id, edit(diagram, recipe).diagram]));
+  apply(activeTree, 'port', [recipe], { also });
+}
+
+/** Ports of an action that declares none: what one of its blocks has, all have. */
+export const shared = {
+  add: (type: string, name: string): void => changeEverywhere(addPort(type, name)),
+  rename: (type: string, from: string, to: string): void => changeEverywhere(renamePort(type, from, to)),
+  remove: (type: string, name: string): void => changeEverywhere(removePort(type, name)),
+};
+
+/** The ports that blocks of a type have, in the order in which they are met. */
+export function portsInUse(type: string): readonly string[] {
+  const diagrams = Object.values(useProjectStore.getState().diagrams);
+  const nodes = diagrams.flatMap((diagram) => Object.values(diagram.nodes));
+  const names = nodes.filter((node) => node.type === type).flatMap((node) => Object.keys(node.ports ?? {}));
+  return [...new Set(names)];
+}

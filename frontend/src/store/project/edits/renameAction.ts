@@ -1,0 +1,25 @@
+import type { Renaming } from '@/model/history';
+import { importsName, withName } from '@/model/pythonNames';
+import { currentText } from '../files';
+import { actionPath, type FileEntry, type ProjectData } from '../state';
+import { removeFile } from '../transitions';
+
+/** An action by another name: its file, its class, and the files that import it; null where that cannot be. */
+export function withActionRenamed(data: ProjectData, { from, to }: Renaming): ProjectData | null {
+  const [before, after] = [actionPath(from), actionPath(to)];
+  const source = currentText(data, before);
+  if (source === null || after in data.files) return null;
+  const without = { ...data, ...removeFile(data, before) };
+  const { [after]: revision = 0, ...removed } = without.removed;
+  const files: Record<string, FileEntry> = { ...without.files };
+  files[after] = { path: after, kind: 'text', text: withName(source, from, to), revision, savedText: null };
+  for (const entry of Object.values(files)) {
+    const { path, text } = entry;
+    if (text === null || !path.endsWith('.py') || !importsName(text, from)) continue;
+    files[path] = { ...entry, text: withName(text, from, to) };
+  }
+  const actions = data.actions.map((each) =>
+    each.name === from ? { ...each, name: to, path: after } : each,
+  );
+  return { ...without, files, removed, actions };
+}

@@ -4,7 +4,7 @@ import '@/i18n';
 import '@/ui/global.css';
 import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { Canvas } from '@/features/canvas/Canvas';
-import { registerCanvasActions } from '@/features/canvas/commands/actions';
+import { registerCanvasActions } from '@/features/canvas/commands/canvasCommands';
 import { Inspector } from '@/features/inspector/Inspector';
 import { Outline } from '@/features/outline/Outline';
 import { Palette } from '@/features/palette/Palette';

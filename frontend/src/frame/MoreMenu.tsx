@@ -1,8 +1,8 @@
 import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconMenu2 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { perform, useActionTable } from '@/actions/registry';
-import { keysOf } from '@/actions/shortcuts';
+import { perform, useActionTable } from '@/commands/registry';
+import { keysOf } from '@/commands/shortcuts';
 import { currentLanguage, LANGUAGES, setLanguage, type Language } from '@/i18n';
 
 const ROWS = [

@@ -10,7 +10,7 @@ import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
 import { openWorlds } from '@/store/dialogs/universeChooser';
 import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/world';
+import { useWorldChoice } from '@/store/run/universeChoice';
 import { useMotion } from '@/store/session/motion';
 import { useSessionStore } from '@/store/session/store';
 import classes from './frame.module.css';

@@ -24,9 +24,9 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
-const HistoryPanel = lazyPart(async () => (await import('@/features/history/HistoryPanel')).HistoryPanel);
-const CompareTab = lazyPart(async () => (await import('@/features/history/CompareTab')).CompareTab);
-const UniverseTab = lazyPart(async () => (await import('@/features/worldEditor/UniverseTab')).UniverseTab);
+const HistoryPanel = lazyPart(async () => (await import('@/features/revisions/RevisionsPanel')).HistoryPanel);
+const CompareTab = lazyPart(async () => (await import('@/features/revisions/CompareTab')).CompareTab);
+const UniverseTab = lazyPart(async () => (await import('@/features/universeEditor/UniverseTab')).UniverseTab);
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 

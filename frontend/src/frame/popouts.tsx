@@ -2,7 +2,7 @@ import { Button, MantineThemeProvider } from '@mantine/core';
 import { notifications } from '@mantine/notifications';
 import { Actions, DockLocation, Model, TabNode, TabSetNode, type Action } from 'flexlayout-react';
 import { useMemo, type ReactNode } from 'react';
-import { bindShortcuts } from '@/actions/shortcuts';
+import { bindShortcuts } from '@/commands/shortcuts';
 import { t } from '@/i18n';
 import { companionsOf, type PanelId } from '@/workspace/layoutModel';
 import { useTabs } from '@/workspace/tabs';

@@ -4,8 +4,8 @@ import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
 import { followRevisions } from '@/store/saving/live';
-import { tellServer } from './tellServer';
-import { tellTaken } from './tellTaken';
+import { tellServer } from './showServerNotice';
+import { tellTaken } from './notifyRemoteSave';
 import { leave, reattach } from '@/store/session/connection';
 
 type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };

@@ -1,4 +1,4 @@
-import { registerActions } from '@/actions/registry';
+import { registerActions } from '@/commands/registry';
 import { ActionIcon, Tooltip, useComputedColorScheme, useMantineColorScheme } from '@mantine/core';
 import { IconMoon, IconSun } from '@tabler/icons-react';
 import { useEffect } from 'react';

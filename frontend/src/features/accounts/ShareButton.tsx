@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import { IconShare3 } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions } from '@/actions/registry';
+import { registerActions } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
 import { ShareDialog } from './ShareDialog';
 import { useMe } from './useMe';

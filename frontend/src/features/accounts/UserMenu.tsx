@@ -2,7 +2,7 @@ import { Avatar, Button, Menu, Text, UnstyledButton, VisuallyHidden } from '@man
 import { IconChartPie, IconLogout, IconSettings, IconShield, IconUsers } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions, type UserAction } from '@/actions/registry';
+import { registerActions, type UserAction } from '@/commands/registry';
 import { DataDialog } from './DataDialog';
 import { GroupsDialog } from './GroupsDialog';
 import { useMe } from './useMe';

@@ -1,7 +1,7 @@
 import { Menu } from '@mantine/core';
 import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
-import { keysOf } from '@/actions/shortcuts';
+import { keysOf } from '@/commands/shortcuts';
 import { blockActions, type BlockAction } from './commands/blockActions';
 
 export interface MenuPoint {

@@ -14,13 +14,13 @@ import {
 import { useReactFlow, useStore } from '@xyflow/react';
 import { memo, useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
-import { shortcutLabel } from '@/actions/shortcuts';
-import { ActionButton } from '@/ui/ActionButton';
+import { shortcutLabel } from '@/commands/shortcuts';
+import { ActionButton } from '@/ui/CommandButton';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { FIT_KEYS } from './commands/actions';
+import { FIT_KEYS } from './commands/canvasCommands';
 import type { BlockNode, TreeEdge } from './flow';
 import { FIT } from './useViewport';
 import { fitSelection, showsTree } from './views';

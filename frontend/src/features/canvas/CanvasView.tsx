@@ -20,7 +20,7 @@ import { EmptyTree } from './EmptyTree';
 import { FindBar } from './FindBar';
 import { FixBox } from './FixBox';
 import { FlowProjection, withHeld, type BlockNode, type TreeEdge as TreeEdgeType } from './flow';
-import { openBlock } from './commands/blockCommands';
+import { openBlock } from './commands/selectedBlock';
 import { enterInside, isMenuKey, onCanvasKey } from './gestures/keyboard';
 import { Overview } from './Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';

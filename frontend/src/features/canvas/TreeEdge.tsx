@@ -2,7 +2,7 @@ import { BaseEdge, type EdgeProps } from '@xyflow/react';
 import { memo } from 'react';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { elbow } from '@/ui/shapes';
-import { useCarried } from './gestures/carrying';
+import { useCarried } from './gestures/draggedBlocks';
 import type { TreeEdge as TreeEdgeType } from './flow';
 import classes from './TreeEdge.module.css';
 

@@ -1,7 +1,7 @@
 import { useProjectStore } from '@/store/project';
 import { filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
 import { openFile, renamed } from '@/store/project/navigation';
-import { useWorldChoice } from '@/store/run/world';
+import { useWorldChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 
 /** Gives a universe, a robot with all its files, or another file a new name. */

@@ -7,7 +7,7 @@ import type { DocumentProblem } from '@/model/document/yaml';
 import { lazyPart } from '@/ui/parts';
 import classes from './editor3d.module.css';
 import { ProblemList } from './ProblemList';
-import type { Editor } from './session';
+import type { Editor } from './editing';
 import { useUndoInFront } from './useUndoInFront';
 
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);

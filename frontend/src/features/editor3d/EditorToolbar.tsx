@@ -15,10 +15,10 @@ import {
 import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
-import { useActionTable } from '@/actions/registry';
+import { useActionTable } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
 import classes from './editor3d.module.css';
-import { travel, type Editor, type Mode } from './session';
+import { travel, type Editor, type Mode } from './editing';
 
 const MODE_ICONS: Readonly<Record<Mode, readonly [typeof IconArrowsMove, string]>> = {
   move: [IconArrowsMove, 'M'],

@@ -2,7 +2,7 @@ import { IconAlertTriangle } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import type { DocumentProblem } from '@/model/document/yaml';
 import { aimAt, openFile } from '@/store/project/navigation';
-import { select, type Editor } from './session';
+import { select, type Editor } from './editing';
 import classes from './editor3d.module.css';
 
 interface ProblemListProps {

@@ -4,7 +4,7 @@ import { useEffect, useRef, useState, type KeyboardEvent, type MouseEvent, type 
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
 import classes from './editor3d.module.css';
-import { isReadOnly, select, toggle, type Editor } from './session';
+import { isReadOnly, select, toggle, type Editor } from './editing';
 
 /** A thing as the list shows it. */
 export interface Listed {

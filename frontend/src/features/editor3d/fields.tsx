@@ -1,7 +1,7 @@
 import { ColorInput, NumberInput, TextInput } from '@mantine/core';
 import { useState, type ReactNode } from 'react';
 import { rounded } from '@/model/universe/geometry';
-import { isReadOnly } from './session';
+import { isReadOnly } from './editing';
 import classes from './editor3d.module.css';
 
 interface NumberFieldProps {

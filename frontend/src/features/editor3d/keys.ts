@@ -1,5 +1,5 @@
 import type { KeyboardEvent } from 'react';
-import { select, travel, type Editor, type Mode } from './session';
+import { select, travel, type Editor, type Mode } from './editing';
 
 const MODES: Readonly<Record<string, Mode>> = { m: 'move', r: 'turn', s: 'size' };
 

@@ -1,8 +1,8 @@
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
-import { useUndoTarget } from '@/actions/undo';
+import { useUndoTarget } from '@/commands/undo';
 import { useTabs } from '@/workspace/tabs';
-import { isReadOnly, travel, type Editor } from './session';
+import { isReadOnly, travel, type Editor } from './editing';
 
 /** Has undo and redo of the frame work on this editor while it is the document in front. */
 export function useUndoInFront(editor: Editor): void {

@@ -4,7 +4,7 @@ import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { documentName, filesOf, followDocument } from '@/store/project/moving';
 import { treeIdOf } from '@/store/project/state';
-import { useWorldChoice } from '@/store/run/world';
+import { useWorldChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 import { closeTab } from '@/workspace/tabs';
 

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { useProjectStore } from '@/store/project';
-import { ActionButton } from '@/ui/ActionButton';
+import { ActionButton } from '@/ui/CommandButton';
 import { ActionSource } from './ActionSource';
 import { CommentField } from './CommentField';
 import { ConditionList } from './ConditionList';

@@ -1,7 +1,7 @@
 import { IconBulb, IconX } from '@tabler/icons-react';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
-import { openPalette } from '@/actions/palette';
+import { openPalette } from '@/commands/palette';
 import { useProjectStore } from '@/store/project';
 import { useSessionStore } from '@/store/session/store';
 import { finishHint, HINTS, useHints } from './hints';

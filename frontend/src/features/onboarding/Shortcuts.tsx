@@ -1,7 +1,7 @@
 import { Kbd, Modal, Table, Title } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { useActionTable, type ActionGroup } from '@/actions/registry';
-import { keysOf, shortcutLabel } from '@/actions/shortcuts';
+import { useActionTable, type ActionGroup } from '@/commands/registry';
+import { keysOf, shortcutLabel } from '@/commands/shortcuts';
 import classes from './onboarding.module.css';
 import { closeShortcuts, useShortcutsDialog } from '@/store/dialogs/shortcuts';
 

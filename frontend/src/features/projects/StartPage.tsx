@@ -2,8 +2,8 @@ import { Button, FileButton, Group, Loader, Overlay, Text, Title, Tooltip } from
 import { IconUpload } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Suspense, useEffect, useRef } from 'react';
-import { closePalette, usePalette } from '@/actions/palette';
-import { useShortcuts } from '@/actions/shortcuts';
+import { closePalette, usePalette } from '@/commands/palette';
+import { useShortcuts } from '@/commands/shortcuts';
 import { UserMenu } from '@/features/accounts/UserMenu';
 import { ThemeToggle } from '@/ui/ThemeToggle';
 import { Logo } from '@/ui/Logo';
@@ -16,7 +16,7 @@ import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
 import { useImport } from './useImport';
 import { useProjectActions } from './useProjects';
-import { useStartActions } from './useStartActions';
+import { useStartActions } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 

@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { ColorField, FieldGroup, NumberField } from '@/features/editor3d/fields';
 import { PoseFields } from '@/features/editor3d/PoseFields';
-import { isReadOnly, select } from '@/features/editor3d/session';
+import { isReadOnly, select } from '@/features/editor3d/editing';
 import { rgba } from '@/features/editor3d/scene/ThingScene';
 import { addBody, removeBody } from '@/model/robot/bodies';
 import { setBody, setMass } from '@/model/robot/edits';

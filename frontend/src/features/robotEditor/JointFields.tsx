@@ -2,7 +2,7 @@ import { Select, Switch } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 import classes from '@/features/editor3d/editor3d.module.css';
 import { FieldGroup, NumberField, TextField } from '@/features/editor3d/fields';
-import { isReadOnly } from '@/features/editor3d/session';
+import { isReadOnly } from '@/features/editor3d/editing';
 import {
   isFree,
   JOINT_TYPES,

@@ -1,12 +1,12 @@
 import { useEffect, useMemo } from 'react';
 import { useTranslation } from 'react-i18next';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import { EditorFrame } from '@/features/editor3d/EditorFrame';
 import { EditorToolbar } from '@/features/editor3d/EditorToolbar';
-import { followTexts } from '@/features/editor3d/session';
+import { followTexts } from '@/features/editor3d/editing';
 import { readRobot } from '@/model/robot/read';
 import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/world';
+import { useWorldChoice } from '@/store/run/universeChoice';
 import { editorOf, GRIDS, urdfPathOf, type RobotEditor } from './editor';
 import { RobotPanel } from './RobotPanel';
 import { RobotView } from './RobotView';

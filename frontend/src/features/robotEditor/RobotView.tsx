@@ -5,7 +5,7 @@ import { useStore } from 'zustand';
 import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
 import { EditorStage } from '@/features/editor3d/scene/EditorStage';
 import { onEditorKey, type KeyActs } from '@/features/editor3d/keys';
-import { isReadOnly, TURN_STEP } from '@/features/editor3d/session';
+import { isReadOnly, TURN_STEP } from '@/features/editor3d/editing';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
 import type { Addable } from '@/model/robot/parts';

@@ -1,4 +1,4 @@
-import { change, editorFor, textsOf, type Editor } from '@/features/editor3d/session';
+import { change, editorFor, textsOf, type Editor } from '@/features/editor3d/editing';
 import { edited, type RobotEdit } from '@/model/robot/edits';
 import { readRobot, urdfNameOf, type RobotReading } from '@/model/robot/read';
 import type { Robot } from '@/model/robot/types';

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import { poseOf, type Handles } from '@/features/editor3d/scene/Gizmo';
 import type { Carrier } from '@/features/editor3d/scene/PointerTool';
-import { select, toggle } from '@/features/editor3d/session';
+import { select, toggle } from '@/features/editor3d/editing';
 import { jointOf, move, place } from '@/model/robot/edits';
 import { partOf, type Part } from '@/model/robot/types';
 import { edit, readingOf, type RobotEditor } from './editor';

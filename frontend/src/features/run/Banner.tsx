@@ -2,7 +2,7 @@ import { Button, CloseButton } from '@mantine/core';
 import { IconAlertTriangle, IconHourglass, IconPlugConnectedX } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { useShallow } from 'zustand/react/shallow';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
 import { openFile, openTree } from '@/store/project/navigation';
 import { useRunStore } from '@/store/run/store';

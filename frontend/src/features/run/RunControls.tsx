@@ -1,14 +1,14 @@
 import { Button, Divider, Group, Tooltip } from '@mantine/core';
 import { IconPlayerPlayFilled } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { perform } from '@/actions/registry';
-import { shortcutLabel } from '@/actions/shortcuts';
-import { ActionButton } from '@/ui/ActionButton';
+import { perform } from '@/commands/registry';
+import { shortcutLabel } from '@/commands/shortcuts';
+import { ActionButton } from '@/ui/CommandButton';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
-import { useHindrance } from './useHindrance';
+import { useHindrance } from './useRunBlocker';
 import { RateSelects } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';

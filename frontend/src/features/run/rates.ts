@@ -1,4 +1,4 @@
-import { registerActions, type UserAction } from '@/actions/registry';
+import { registerActions, type UserAction } from '@/commands/registry';
 import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';

@@ -1,8 +1,8 @@
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { history } from '@/store/session/trace/history';
-import { BIT } from '@/store/session/trace/lane';
+import { history } from '@/store/session/trace/trace';
+import { BIT } from '@/store/session/trace/nodeTrace';
 import { useSessionStore } from '@/store/session/store';
 import classes from './timeline.module.css';
 

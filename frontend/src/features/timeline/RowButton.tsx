@@ -1,7 +1,7 @@
 import { memo, useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { history } from '@/store/session/trace/history';
+import { history } from '@/store/session/trace/trace';
 import type { TimelineRow } from './rows';
 import classes from './timeline.module.css';
 

@@ -1,4 +1,4 @@
-import { history, HISTORY_S } from '@/store/session/trace/history';
+import { history, HISTORY_S } from '@/store/session/trace/trace';
 import { AXIS_PX, drawTimeline, paletteOf } from './draw';
 import { spanOf, zoomed, type Span } from './span';
 

@@ -1,5 +1,5 @@
 import { useTranslation } from 'react-i18next';
-import { history } from '@/store/session/trace/history';
+import { history } from '@/store/session/trace/trace';
 import { statusesOf, type TimelineRow } from './rows';
 import { timeLabel } from './span';
 import classes from './timeline.module.css';

@@ -1,5 +1,5 @@
-import { BIT } from '@/store/session/trace/lane';
-import type { History } from '@/store/session/trace/history';
+import { BIT } from '@/store/session/trace/nodeTrace';
+import type { History } from '@/store/session/trace/trace';
 import { marks, timeLabel, type Span } from './span';
 
 export const ROW_PX = 22;

@@ -1,5 +1,5 @@
 import type { NodeStatus, TreeNode } from '@/generated/messages';
-import { BIT, type Stretch } from '@/store/session/trace/lane';
+import { BIT, type Stretch } from '@/store/session/trace/nodeTrace';
 
 export interface TimelineRow {
   uid: number;

@@ -2,7 +2,7 @@ import { Button, SegmentedControl } from '@mantine/core';
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
 import { Suspense, useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import { refreshTopics } from '@/store/run/topics';
 import { useSessionStore } from '@/store/session/store';
 import { useTopicsStore } from '@/store/session/topics';

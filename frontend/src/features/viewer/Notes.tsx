@@ -2,9 +2,9 @@ import { Button, CloseButton } from '@mantine/core';
 import { useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import { distances, setMeasuring, useMeasuring } from './measuring';
-import { moveBack, useMoves } from './moves';
+import { moveBack, useMoves } from './lastMove';
 import classes from './viewer.module.css';
 
 /** What a tool of the 3D view has to say, over the picture. */

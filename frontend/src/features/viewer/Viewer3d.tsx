@@ -3,7 +3,7 @@ import { IconPlayerPlayFilled } from '@tabler/icons-react';
 import { Canvas } from '@react-three/fiber';
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import type { Scene } from '@/generated/messages';
 import { frames } from '@/store/session/frames';
 import { useRunStore } from '@/store/run/store';

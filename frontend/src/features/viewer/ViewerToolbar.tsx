@@ -9,7 +9,7 @@ import {
 } from '@tabler/icons-react';
 import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions, type UserAction } from '@/actions/registry';
+import { registerActions, type UserAction } from '@/commands/registry';
 import { setDriving, useTeleop } from '@/store/run/teleop';
 import { setMeasuring, useMeasuring } from './measuring';
 import type { ViewOptions } from './viewOptions';

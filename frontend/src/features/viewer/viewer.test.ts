@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Scan, Scene, Shape } from '@/generated/messages';
 import { currentPoses } from '@/store/session/poses';
 import { Trail } from '@/store/session/trace/trail';
-import { Carried, carriable } from './scene/Carried';
+import { Carried, carriable } from './scene/DraggedBody';
 import { pyramidOf } from './scene/HelperViews';
 import { LidarView } from './scene/LidarView';
 import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring';

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/history';
+import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/undo';
 import {
   edited,
   mirrorOf,

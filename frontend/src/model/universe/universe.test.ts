@@ -15,7 +15,7 @@ import {
   type Edit,
 } from './edits';
 import { stretched, wallBetween } from './geometry';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/history';
+import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/undo';
 import { applyOps, sameValue } from '../document/ops';
 import { readUniverse } from './read';
 import { rewrite, UnwritableError } from '../document/rewrite';

@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import { produce, type Draft } from 'immer';
 import { renameUse } from '@/model/edits';
-import { emptyHistory, redo, seal, undo, type Renaming, type Travel } from '@/model/history';
+import { emptyHistory, redo, seal, undo, type Renaming, type Travel } from '@/model/undo';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { renamed as tellNavigator } from './navigation';
 import { refusingViewers } from './readOnly';

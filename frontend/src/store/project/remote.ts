@@ -1,5 +1,5 @@
 import type { ProjectDetail } from '@/api/types';
-import { emptyHistory } from '@/model/history';
+import { emptyHistory } from '@/model/undo';
 import { currentText, openFiles } from './files';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';

@@ -9,7 +9,7 @@ import type {
 } from '@/api/types';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Recipe } from '@/model/edits';
-import type { History } from '@/model/history';
+import type { History } from '@/model/undo';
 import type { Vocabulary } from '@/model/vocabulary';
 
 export interface FileEntry {

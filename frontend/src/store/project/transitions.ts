@@ -1,7 +1,7 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
 import type { CheckResult } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
-import { emptyHistory, record, type Renaming } from '@/model/history';
+import { emptyHistory, record, type Renaming } from '@/model/undo';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';

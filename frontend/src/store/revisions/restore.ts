@@ -2,7 +2,7 @@ import { produceWithPatches, type Draft } from 'immer';
 import { revisions } from '@/api/revisions';
 import type { ProjectDetail } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
-import { emptyHistory, record } from '@/model/history';
+import { emptyHistory, record } from '@/model/undo';
 import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { asSave, saveNow } from '@/store/saving/autosave';

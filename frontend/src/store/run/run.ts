@@ -8,7 +8,7 @@ import { abandonStart, ensureConnected, send } from '@/store/session/connection'
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
-import { chosenWorld, useWorldChoice } from './world';
+import { chosenWorld, useWorldChoice } from './universeChoice';
 
 /** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));

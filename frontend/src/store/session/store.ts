@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
-import { feedHistory } from './trace/historyFeed';
+import { feedHistory } from './trace/traceFeed';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';

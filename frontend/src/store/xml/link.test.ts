@@ -4,7 +4,7 @@ import { trees } from '@/api/trees';
 import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '../testing';
-import { keptXml } from './kept';
+import { keptXml } from './cache';
 import { XmlLink } from './link';
 
 const TREE = 'MainTree';

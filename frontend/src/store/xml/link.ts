@@ -5,7 +5,7 @@ import type { Diagram } from '@/model/diagram';
 import { become } from '@/model/edits';
 import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
-import { forgetXml, keepXml, keptXml } from './kept';
+import { forgetXml, keepXml, keptXml } from './cache';
 
 /** How the text and the tree stand to each other. */
 export type XmlState =

@@ -1,4 +1,4 @@
-import type { UserAction } from '@/actions/registry';
+import type { UserAction } from '@/commands/registry';
 import {
   IconArrowsExchange,
   IconBan,
@@ -32,7 +32,7 @@ import {
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { extractSelection, inlineSelection } from '@/store/project/edits/subtrees';
 import { useProjectStore } from '@/store/project';
-import { editSelected, firstSelected, openBlock, toggleFolded, toggleInside } from './blockCommands';
+import { editSelected, firstSelected, openBlock, toggleFolded, toggleInside } from './selectedBlock';
 import { pasteHere } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { openQuickAddHere } from '../quickAdd/open';

@@ -12,7 +12,7 @@ import {
 } from '@/store/project/edits/blocks';
 import { openTree } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
-import { editSelected, openBlock, toggleFolded, toggleInside } from '../commands/blockCommands';
+import { editSelected, openBlock, toggleFolded, toggleInside } from '../commands/selectedBlock';
 import { openQuickAddHere } from '../quickAdd/open';
 
 /** What presses a button that has the focus, or leaves it. */

@@ -7,7 +7,7 @@ import { isSamePlace, slotFinder, type Slot, type SlotFinder } from '@/model/slo
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { Hand } from './carrying';
+import { Hand } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 

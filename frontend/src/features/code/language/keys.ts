@@ -1,5 +1,5 @@
 import type { KeyBinding } from '@codemirror/view';
-import { perform } from '@/actions/registry';
+import { perform } from '@/commands/registry';
 import { formatPython, formatsOnSave } from './ruff';
 
 /** Formatting, and saving with it; other files are saved by the shortcut of the whole page. */

@@ -9,7 +9,7 @@ import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate
 import { forwardOf } from './aiming';
 import { Gizmo, type Handles } from './Gizmo';
 import { PointerTool, type Carrier, type Drawing } from './PointerTool';
-import { isReadOnly, showIn, type Editor } from '../session';
+import { isReadOnly, showIn, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
 /** Closer lines would be a haze. */

@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import type { Pose } from '@/model/document/values';
-import { TURN_STEP, type Mode } from '../session';
+import { TURN_STEP, type Mode } from '../editing';
 
 const MODES = { move: 'translate', turn: 'rotate', size: 'scale' } as const;
 const OF = { translate: 'move', rotate: 'turn', scale: 'size' } as const;

@@ -2,7 +2,7 @@ import type * as THREE from 'three';
 import { snapped } from '@/model/universe/geometry';
 import type { Point } from '@/model/document/values';
 import { pointAt, thingAt, type Aimed } from './aiming';
-import { isReadOnly, type Editor } from '../session';
+import { isReadOnly, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;

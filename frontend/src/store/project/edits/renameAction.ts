@@ -1,4 +1,4 @@
-import type { Renaming } from '@/model/history';
+import type { Renaming } from '@/model/undo';
 import { importsName, withName } from '@/model/pythonNames';
 import { currentText } from '../files';
 import { actionPath, type FileEntry, type ProjectData } from '../state';

@@ -1,0 +1,168 @@
+import { undoTarget } from '@/commands/undo';
+import { registerActions, type UserAction } from '@/commands/registry';
+import {
+  IconArrowBackUp,
+  IconArrowForwardUp,
+  IconArrowsHorizontal,
+  IconArrowsVertical,
+  IconFocusCentered,
+  IconLayoutDistributeHorizontal,
+  IconMap2,
+  IconMaximize,
+  IconSearch,
+  IconZoomIn,
+  IconZoomOut,
+} from '@tabler/icons-react';
+import { setLayout, tidy } from '@/model/edits';
+import { activeDiagram, change } from '@/store/project/edits/blocks';
+import { isMinimapShown, setEditor } from '@/store/project/editor';
+import { useProjectStore } from '@/store/project';
+import { blockActions } from './blockActions';
+import { followClipboard } from '../gestures/clipboard';
+import { isOnCanvas, isTreeInFront } from '../inFront';
+import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../views';
+
+const state = () => useProjectStore.getState();
+const history = () => state().histories[state().activeTree ?? ''];
+const canRedo = () => undoTarget()?.canRedo ?? (history()?.future.length ?? 0) > 0;
+/** A universe or a robot that is in front has steps of its own. */
+const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
+const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
+const hasTree = () => activeDiagram() !== null;
+const hasSelection = () => state().selection.length > 0;
+
+const rows: readonly UserAction[] = [
+  {
+    id: 'edit.undo',
+    group: 'edit',
+    labelKey: 'canvas:action.undo',
+    icon: IconArrowBackUp,
+    shortcut: '$mod+KeyZ',
+    enabled: () => undoTarget()?.canUndo ?? (history()?.past.length ?? 0) > 0,
+    run: undoInFront,
+  },
+  {
+    id: 'edit.redo',
+    group: 'edit',
+    labelKey: 'canvas:action.redo',
+    icon: IconArrowForwardUp,
+    shortcut: '$mod+KeyY',
+    enabled: canRedo,
+    run: redoInFront,
+  },
+  {
+    id: 'edit.redoShift',
+    group: 'edit',
+    labelKey: 'canvas:action.redo',
+    shortcut: '$mod+Shift+KeyZ',
+    hidden: true,
+    enabled: canRedo,
+    run: redoInFront,
+  },
+  {
+    id: 'edit.selectAll',
+    group: 'edit',
+    labelKey: 'canvas:action.selectAll',
+    shortcut: '$mod+KeyA',
+    enabled: isOnCanvas,
+    run: () => {
+      const diagram = activeDiagram();
+      if (diagram) state().select(diagram.id, Object.keys(diagram.nodes));
+    },
+  },
+  {
+    id: 'canvas.find',
+    group: 'canvas',
+    labelKey: 'canvas:action.find',
+    icon: IconSearch,
+    shortcut: '$mod+KeyF',
+    enabled: isTreeInFront,
+    run: () => {
+      setEditor({ find: true });
+    },
+  },
+  {
+    id: 'canvas.tidy',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.tidy',
+    icon: IconLayoutDistributeHorizontal,
+    enabled: hasTree,
+    run: () => {
+      change('tidy', [tidy()]);
+    },
+  },
+  ...(['vertical', 'horizontal'] as const).map((layout): UserAction => ({
+    id: `canvas.${layout}`,
+    group: 'canvas',
+    labelKey: `canvas:toolbar.${layout}`,
+    icon: layout === 'vertical' ? IconArrowsVertical : IconArrowsHorizontal,
+    enabled: () => hasTree() && activeDiagram()?.layout !== layout,
+    run: () => {
+      change('orientation', [setLayout(layout)]);
+    },
+  })),
+];
+
+/** Figma's keys for the same. */
+export const FIT_KEYS = { all: 'Shift+Digit1', selection: 'Shift+Digit2' } as const;
+
+const views: readonly UserAction[] = [
+  {
+    id: 'canvas.fit',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.fit',
+    icon: IconMaximize,
+    shortcut: FIT_KEYS.all,
+    enabled: isTreeShown,
+    run: fit,
+  },
+  {
+    id: 'canvas.fitSelection',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.fitSelection',
+    icon: IconFocusCentered,
+    shortcut: FIT_KEYS.selection,
+    enabled: () => isTreeShown() && hasSelection(),
+    run: fitSelection,
+  },
+  {
+    id: 'canvas.zoomIn',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomIn',
+    icon: IconZoomIn,
+    enabled: isTreeShown,
+    run: zoomIn,
+  },
+  {
+    id: 'canvas.zoomOut',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomOut',
+    icon: IconZoomOut,
+    enabled: isTreeShown,
+    run: zoomOut,
+  },
+  {
+    id: 'canvas.zoomReset',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.zoomReset',
+    enabled: isTreeShown,
+    run: zoomReset,
+  },
+  {
+    id: 'canvas.minimap',
+    group: 'canvas',
+    labelKey: 'canvas:toolbar.minimap',
+    icon: IconMap2,
+    enabled: hasTree,
+    run: () => {
+      const blocks = Object.keys(activeDiagram()?.nodes ?? {}).length;
+      setEditor(({ minimap }) => ({ minimap: !isMinimapShown(minimap, blocks) }));
+    },
+  },
+];
+
+/** Adds the editor's commands to the table, and the clipboard's; the returned function takes them out again. */
+export function registerCanvasActions(): () => void {
+  const ends = [registerActions([...rows, ...blockActions, ...views]), followClipboard()];
+  return () => ends.forEach((end) => end());
+}

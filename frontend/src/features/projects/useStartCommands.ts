@@ -1,0 +1,48 @@
+import { IconPlus, IconSearch, IconUpload } from '@tabler/icons-react';
+import { useEffect, useEffectEvent } from 'react';
+import { useTranslation } from 'react-i18next';
+import { everywhere } from '@/commands/global';
+import { registerActions, type UserAction } from '@/commands/registry';
+import { templateText, useSortedTemplates } from './templates';
+
+interface StartActions {
+  readonly create: (template: string) => void;
+  readonly chooseFile: () => void;
+  readonly search: () => void;
+}
+
+/** What the start page's buttons do, in the table of actions: for the command palette and for keys. */
+export function useStartActions(actions: StartActions): void {
+  const { t } = useTranslation('projects');
+  const templates = useSortedTemplates();
+  const create = useEffectEvent((template: string) => actions.create(template));
+  const chooseFile = useEffectEvent(() => actions.chooseFile());
+  const search = useEffectEvent(() => actions.search());
+  useEffect(() => {
+    const news = templates.map((template): UserAction => ({
+      id: `start.new.${template.id}`,
+      group: 'project',
+      labelKey: 'projects:newFrom',
+      labelValues: { template: templateText(t, template, 'name') },
+      icon: IconPlus,
+      run: () => create(template.id),
+    }));
+    const others: UserAction[] = [
+      {
+        id: 'start.import',
+        group: 'project',
+        labelKey: 'projects:import',
+        icon: IconUpload,
+        run: () => chooseFile(),
+      },
+      {
+        id: 'start.search',
+        group: 'go',
+        labelKey: 'projects:search',
+        icon: IconSearch,
+        run: () => search(),
+      },
+    ];
+    return registerActions([...everywhere, ...news, ...others]);
+  }, [templates, t]);
+}

@@ -1,0 +1,36 @@
+import { Button, CloseButton } from '@mantine/core';
+import { IconSteeringWheel } from '@tabler/icons-react';
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { perform } from '@/commands/registry';
+import { useSessionStore } from '@/store/session/store';
+import classes from './run.module.css';
+
+/** Another page drives the session: says so, and offers to drive it here. */
+export function LookingOn() {
+  const { t } = useTranslation('run');
+  const client = useSessionStore(({ connection, introspection }) =>
+    connection === 'open' && introspection?.role === 'viewer' ? introspection.client_id : null,
+  );
+  const wasTakenOver = useSessionStore((state) => state.wasTakenOver);
+  // It has been read; the tooltip of Run goes on saying it.
+  const [read, setRead] = useState('');
+  const key = `${client} ${wasTakenOver}`;
+  if (client === null || read === key) return null;
+  return (
+    <div className={classes['offer']} role="status" data-testid="looking-on" data-taken={wasTakenOver}>
+      <span>
+        {t(wasTakenOver ? 'takenOver' : 'hindrance.onlooker')}{' '}
+        <span className={classes['hint']}>{t('takeOverHelp')}</span>
+      </span>
+      <Button
+        size="compact-sm"
+        leftSection={<IconSteeringWheel size={15} />}
+        onClick={() => perform('run.takeOver')}
+      >
+        {t(wasTakenOver ? 'takeBack' : 'takeOver')}
+      </Button>
+      <CloseButton size="sm" aria-label={t('dismiss')} onClick={() => setRead(key)} />
+    </div>
+  );
+}

@@ -1,0 +1,63 @@
+import { useEffect, useMemo } from 'react';
+import { EditorStage } from '@/features/editor3d/scene/EditorStage';
+import { rgba } from '@/features/editor3d/scene/ThingScene';
+import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
+import { isSoftwareWebGl } from '@/features/viewer/webgl';
+import type { Universe } from '@/model/universe/types';
+import { carrierOf, wallDrawing } from './dragging';
+import type { UniverseEditor } from './editor';
+import { handlesOf } from './handles';
+import { EditorTextures, pictureName } from './textures';
+import { UniverseScene } from './UniverseScene';
+import { WallLine } from './WallLine';
+
+interface UniverseStageProps {
+  readonly editor: UniverseEditor;
+  readonly universe: Universe;
+  readonly isDark: boolean;
+}
+
+/** The universe as it is written, with what moves it. */
+export function UniverseStage({ editor, universe, isDark }: UniverseStageProps) {
+  const isSimple = isSoftwareWebGl();
+  const redraw = useThrottledInvalidate();
+  const textures = useMemo(() => new EditorTextures(redraw, isSimple ? 1 : 8), [redraw, isSimple]);
+  const scene = useMemo(() => new UniverseScene(isSimple, redraw, textures), [isSimple, redraw, textures]);
+  const wall = useMemo(() => new WallLine(), []);
+  const staged = useMemo(
+    () => ({
+      scene,
+      handles: handlesOf(editor, scene),
+      carrier: carrierOf(editor, scene),
+      drawing: wallDrawing(editor, wall),
+    }),
+    [editor, scene, wall],
+  );
+  useEffect(
+    () => () => {
+      scene.dispose();
+      wall.dispose();
+    },
+    [scene, wall],
+  );
+  const lights = useMemo(
+    () => universe.lights.map(({ direction, intensity }) => ({ direction: [...direction], intensity })),
+    [universe],
+  );
+  const { color, texture, tile } = universe.ground;
+  return (
+    <EditorStage
+      editor={editor}
+      staged={staged}
+      content={universe}
+      isDark={isDark}
+      lights={lights}
+      ground={{ color: rgba(color), picture: pictureName(texture, tile) }}
+      textures={textures}
+      reach={[0.4, 80]}
+      extent={[2.5, 40]}
+    >
+      <primitive object={wall.group} />
+    </EditorStage>
+  );
+}

@@ -1,0 +1,41 @@
+import { IconWall } from '@tabler/icons-react';
+import { useTranslation } from 'react-i18next';
+import { useStore } from 'zustand';
+import { perform } from '@/commands/registry';
+import { EditorToolbar, Tool } from '@/features/editor3d/EditorToolbar';
+import { useProjectStore } from '@/store/project';
+import { useWorldChoice } from '@/store/run/universeChoice';
+import { GRIDS, type UniverseEditor } from './editor';
+
+/** The tools of a universe: those of every editor, and walls. */
+export function UniverseToolbar({ editor }: { readonly editor: UniverseEditor }) {
+  const { t } = useTranslation('worldEditor');
+  const tool = useStore(editor.store, (state) => state.tool);
+  const runHere = () => {
+    const universe = editor.path.replace(/^universes\/|\.yaml$/g, '');
+    const { settings } = useProjectStore.getState();
+    useWorldChoice.setState({ universe: settings?.universe === universe ? null : universe });
+    perform('run.run');
+  };
+  return (
+    <EditorToolbar
+      editor={editor}
+      label={t('tools')}
+      modes={['move', 'turn', 'size']}
+      grids={GRIDS}
+      textLabel={t('text')}
+      textTestId="universe-text"
+      undoTestId="universe-undo"
+      onRun={runHere}
+    >
+      <Tool
+        label={`${t('drawWalls')} (W)`}
+        isPressed={tool === 'wall'}
+        testId="draw-walls"
+        onClick={() => editor.store.setState({ tool: tool === 'wall' ? 'select' : 'wall' })}
+      >
+        <IconWall size={18} />
+      </Tool>
+    </EditorToolbar>
+  );
+}

@@ -1,0 +1,56 @@
+import { VisuallyHidden } from '@mantine/core';
+import { useTranslation } from 'react-i18next';
+import { useStore } from 'zustand';
+import classes from '@/features/editor3d/editor3d.module.css';
+import { EditorCanvas } from '@/features/editor3d/scene/EditorCanvas';
+import { onEditorKey } from '@/features/editor3d/keys';
+import { isReadOnly } from '@/features/editor3d/editing';
+import { positionOf } from '@/model/universe/geometry';
+import { thingOf, type Universe } from '@/model/universe/types';
+import { placeThing, type Placeable } from './commands';
+import type { UniverseEditor } from './editor';
+import { keysOf } from './keyboard';
+import { Palette } from './Palette';
+import { UniverseStage } from './UniverseStage';
+
+interface UniverseViewProps {
+  readonly editor: UniverseEditor;
+  readonly universe: Universe;
+}
+
+/** The floor plan in 3D. */
+export function UniverseView({ editor, universe }: UniverseViewProps) {
+  const { t } = useTranslation('worldEditor');
+  const tool = useStore(editor.store, (state) => state.tool);
+  return (
+    <EditorCanvas
+      label={t('view')}
+      noWebGl={t('noWebGl')}
+      testId="universe-view"
+      count={universe.things.length}
+      near={0.05}
+      onKey={(event) => onEditorKey(editor, event, keysOf(editor))}
+      onDropped={(what, at) => placeThing(editor, what as Placeable, at)}
+      stage={(isDark) => <UniverseStage editor={editor} universe={universe} isDark={isDark} />}
+    >
+      {isReadOnly() ? null : <Palette editor={editor} />}
+      {universe.things.length === 0 ? <p className={classes['hint']}>{t('empty')}</p> : null}
+      {tool === 'wall' ? <p className={classes['hint']}>{t('wallHint')}</p> : null}
+      <Announcement editor={editor} universe={universe} />
+    </EditorCanvas>
+  );
+}
+
+/** Tells screen readers what is selected, and where. */
+function Announcement({ editor, universe }: UniverseViewProps) {
+  const { t } = useTranslation('worldEditor');
+  const selection = useStore(editor.store, (state) => state.selection);
+  const thing = thingOf(universe, selection[0] ?? '');
+  const [x, y] = thing ? positionOf(thing) : [0, 0];
+  return (
+    <VisuallyHidden role="status">
+      {selection.length > 1 ? t('manySelected', { count: selection.length }) : null}
+      {selection.length === 1 && thing ? t('selectedAt', { name: thing.id, x, y }) : null}
+    </VisuallyHidden>
+  );
+}

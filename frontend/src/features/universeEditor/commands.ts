@@ -1,0 +1,212 @@
+import {
+  add,
+  addWaypoint,
+  duplicate,
+  freeId,
+  move,
+  remove,
+  removeWaypoint,
+  setField,
+  setWaypoint,
+  turn,
+} from '@/model/universe/edits';
+import { middleOf, rounded, snapped, standingHeight, wallBetween } from '@/model/universe/geometry';
+import { type JsonObject, type Point } from '@/model/document/values';
+import { thingOf, type Section, type Shape, type Universe } from '@/model/universe/types';
+import { select } from '@/features/editor3d/editing';
+import { edit, readingOf, type UniverseEditor } from './editor';
+
+/** Things that the palette offers: what each is made of, but for its id and place. */
+export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;
+export type Kind = (typeof KINDS)[number];
+
+const MODELS: Readonly<
+  Record<Exclude<Kind, 'person'>, { shape: Shape; size: number[] } & Record<string, unknown>>
+> = {
+  wall: { shape: 'box', size: [2, 0.15, 1], color: '#e9e4da' },
+  box: { shape: 'box', size: [0.6, 0.6, 0.6], color: '#3f6fb5' },
+  cylinder: { shape: 'cylinder', size: [0.3, 0.8], color: '#d9a441' },
+  sphere: { shape: 'sphere', size: [0.35], color: '#4f9a6b' },
+  crate: { shape: 'box', size: [0.4, 0.4, 0.4], color: '#c28a52', mass: 2 },
+  ball: { shape: 'sphere', size: [0.12], color: '#e2543c', mass: 0.4, restitution: 0.6 },
+  floor: { shape: 'plane', size: [2, 2], color: '#b8c4cf', solid: false },
+};
+
+/** Something else to place: a mesh or model of the project, or a robot. */
+export type Placeable =
+  | { readonly kind: Kind }
+  | { readonly kind: 'file'; readonly shape: 'mesh' | 'urdf' | 'sdf'; readonly file: string }
+  | { readonly kind: 'robot'; readonly model: string };
+
+const nameOf = (file: string): string =>
+  (file.split('/').at(-1) ?? file)
+    .replace(/\.\w+$/, '')
+    .replace(/[^A-Za-z0-9_-]/g, '_')
+    .replace(/^(?![A-Za-z_])/, '_');
+
+function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: Section; item: JsonObject } {
+  if (what.kind === 'robot') {
+    const id = freeId(universe, 'robot');
+    return { section: 'robots', item: { id, model: what.model, pose: [x, y, 0, 0, 0, 0] } };
+  }
+  if (what.kind === 'person') {
+    const id = freeId(universe, 'person');
+    const path = [
+      [x, y],
+      [rounded(x + 2), y],
+      [rounded(x + 2), rounded(y + 2)],
+    ];
+    return {
+      section: 'actors',
+      item: { id, model: 'person', color: '#20c020', path, speed: 0.5, loop: true },
+    };
+  }
+  if (what.kind === 'file') {
+    const id = freeId(universe, nameOf(what.file));
+    return { section: 'models', item: { id, shape: what.shape, file: what.file, pose: [x, y, 0, 0, 0, 0] } };
+  }
+  const { shape, size, ...rest } = MODELS[what.kind];
+  const pose = [x, y, standingHeight({ shape, size }), 0, 0, 0];
+  return {
+    section: 'models',
+    item: { id: freeId(universe, what.kind), shape, size, pose, ...rest } as JsonObject,
+  };
+}
+
+/** Puts something on the floor: where it is dropped, or in the middle of what is seen. */
+export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
+  const { grid } = editor.store.getState();
+  const [x, y] = at ?? free(editor);
+  edit(editor, 'add', (universe) => {
+    const { section, item } = itemOf(universe, what, [snapped(x, grid), snapped(y, grid)]);
+    return add(universe, section, [item]);
+  });
+}
+
+/** The middle of the view, or beside it where something stands there already. */
+function free(editor: UniverseEditor): Point {
+  const [x, y] = editor.view?.center() ?? [0, 0];
+  const things = readingOf(editor).universe?.things ?? [];
+  const isTaken = (at: number) =>
+    things.some(
+      (thing) => thing.section !== 'actors' && Math.hypot(thing.pose[0] - at, thing.pose[1] - y) < 0.3,
+    );
+  let step = 0;
+  while (isTaken(x + step) && step < 10) step += 0.8;
+  return [x + step, y];
+}
+
+const WALL = { thickness: 0.15, height: 1 };
+
+/** A wall from one point of the floor to another. */
+export function placeWall(editor: UniverseEditor, from: Point, to: Point): void {
+  const { middle, length, yaw } = wallBetween(from, to);
+  if (length < 0.01) return;
+  edit(editor, 'add', (universe) =>
+    add(universe, 'models', [
+      {
+        id: freeId(universe, 'wall'),
+        shape: 'box',
+        // Half a thickness longer at each end, so that corners close.
+        size: [rounded(length + WALL.thickness), WALL.thickness, WALL.height],
+        pose: [...middle, WALL.height / 2, 0, 0, yaw],
+        color: '#e9e4da',
+        ...(universe.ceiling ? { to_ceiling: true } : {}),
+      },
+    ]),
+  );
+}
+
+const selected = (editor: UniverseEditor) => editor.store.getState().selection;
+
+export function duplicateSelected(editor: UniverseEditor): void {
+  const { grid } = editor.store.getState();
+  const step = Math.max(grid, 0.5);
+  edit(editor, 'duplicate', (universe) => duplicate(universe, selected(editor), [step, step]));
+}
+
+/** Deletes the chosen point of a way, else what is selected. */
+export function deleteSelected(editor: UniverseEditor): void {
+  const { waypoint, selection } = editor.store.getState();
+  const [key] = selection;
+  if (waypoint !== null && key !== undefined) {
+    edit(editor, 'way', (universe) => removeWaypoint(universe, key, waypoint));
+    select(editor, [key], null);
+  } else edit(editor, 'delete', (universe) => remove(universe, selection));
+}
+
+/** Moves what is selected by steps of the grid; the steps of one key in a row are one of undo. */
+export function nudge(editor: UniverseEditor, along: number, aside: number, up: number, factor = 1): void {
+  const { grid, selection, waypoint } = editor.store.getState();
+  const step = (grid || 0.01) * factor;
+  const [fx, fy] = editor.view?.forward() ?? [1, 0];
+  const dx = (fx * along - fy * aside) * step;
+  const dy = (fy * along + fx * aside) * step;
+  const [key] = selection;
+  const mergeKey = `nudge ${selection.join()} ${waypoint ?? ''}`;
+  edit(
+    editor,
+    'move',
+    (universe) => {
+      const actor = key === undefined ? undefined : thingOf(universe, key);
+      const point = actor?.section === 'actors' && waypoint !== null ? actor.path[waypoint] : undefined;
+      if (key !== undefined && point && waypoint !== null) {
+        return setWaypoint(universe, key, waypoint, [point[0] + dx, point[1] + dy]);
+      }
+      return move(universe, selection, [dx, dy, up * step]);
+    },
+    { mergeKey },
+  );
+}
+
+export function turnSelected(editor: UniverseEditor, angle: number): void {
+  const { selection } = editor.store.getState();
+  edit(
+    editor,
+    'turn',
+    (universe) => {
+      const things = universe.things.filter(({ key }) => selection.includes(key));
+      return turn(universe, selection, angle, middleOf(things));
+    },
+    { mergeKey: `turn ${selection.join()}` },
+  );
+}
+
+/** A size by its numbers; what stands on the floor goes on standing there. */
+export function resize(
+  editor: UniverseEditor,
+  key: string,
+  size: readonly number[],
+  mergeKey?: string,
+): void {
+  edit(
+    editor,
+    'size',
+    (universe) => {
+      const thing = thingOf(universe, key);
+      if (thing?.section !== 'models') return { ops: [] };
+      const [x, y, z, roll, pitch, yaw] = thing.pose;
+      const sized = setField(universe, key, 'size', [...size]);
+      const isStanding = Math.abs(z - standingHeight(thing)) < 2e-3 && roll === 0 && pitch === 0;
+      if (!isStanding || sized.ops.length === 0) return sized;
+      const height = standingHeight({ shape: thing.shape, size });
+      const stood = setField(universe, key, 'pose', [x, y, height, roll, pitch, yaw]);
+      return { ops: [...sized.ops, ...stood.ops] };
+    },
+    mergeKey === undefined ? {} : { mergeKey },
+  );
+}
+
+/** A new point of a way, half way to the next one. */
+export function extendWay(editor: UniverseEditor, key: string, after: number): void {
+  edit(editor, 'way', (universe) => {
+    const actor = thingOf(universe, key);
+    if (actor?.section !== 'actors') return { ops: [] };
+    const [x, y] = actor.path[after] ?? [0, 0];
+    const next = actor.path[after + 1] ?? (actor.loop ? actor.path[0] : undefined);
+    const isLast = !next || actor.path.length === 1;
+    const point: Point = isLast ? [x + 1, y] : [(x + next[0]) / 2, (y + next[1]) / 2];
+    return addWaypoint(universe, key, after, point);
+  });
+  select(editor, [key], after + 1);
+}

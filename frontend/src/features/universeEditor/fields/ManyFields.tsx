@@ -1,0 +1,35 @@
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+import { setFieldOfAll } from '@/model/universe/edits';
+import { thingOf } from '@/model/universe/types';
+import { select } from '@/features/editor3d/editing';
+import { edit, readingOf, type UniverseEditor } from '../editor';
+import { ColorField } from '@/features/editor3d/fields';
+import classes from '@/features/editor3d/editor3d.module.css';
+
+/** What several things have in common: a colour, and how they are handled together. */
+export function ManyFields({ editor, count }: { readonly editor: UniverseEditor; readonly count: number }) {
+  const { t } = useTranslation('worldEditor');
+  const [color, setColor] = useState('#b8c4cf');
+  const paint = (wish: string) => {
+    setColor(wish);
+    const { selection } = editor.store.getState();
+    const { universe } = readingOf(editor);
+    const painted = selection.filter((key) => universe && thingOf(universe, key)?.section !== 'robots');
+    edit(editor, 'color', (now) => setFieldOfAll(now, painted, 'color', wish), {
+      mergeKey: `color ${selection.join()}`,
+    });
+  };
+  return (
+    <div className={classes['form']}>
+      <p className={classes['note']}>{t('manySelected', { count })}</p>
+      <ColorField
+        label={t('color')}
+        value={color}
+        onChange={paint}
+        onEnd={() => select(editor, editor.store.getState().selection)}
+      />
+      <p className={classes['note']}>{t('manyHint')}</p>
+    </div>
+  );
+}

@@ -1,0 +1,22 @@
+import { create } from 'zustand';
+import { send } from '@/store/session/connection';
+import { useSessionStore } from '@/store/session/store';
+import type { BodyPose } from './scene/DraggedBody';
+
+/** The last body that was carried, and where it had been. */
+export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));
+
+/** Bodies are carried only while time stands still, and by who drives the session. */
+export function canMove(): boolean {
+  const { executor, introspection } = useSessionStore.getState();
+  return (
+    ['universe_ready', 'visualization_ready', 'paused'].includes(executor) && introspection?.role !== 'viewer'
+  );
+}
+
+export async function moveBack(): Promise<void> {
+  const { last } = useMoves.getState();
+  if (!last) return;
+  await send('move_body', { id: last.body, pose: last.from });
+  useMoves.setState({ last: null });
+}

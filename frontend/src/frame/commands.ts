@@ -1,0 +1,244 @@
+import {
+  IconAdjustments,
+  IconCode,
+  IconDeviceFloppy,
+  IconDownload,
+  IconExternalLink,
+  IconGitFork,
+  IconHistory,
+  IconHome,
+  IconKeyboard,
+  IconLayout,
+  IconLayoutSidebar,
+  IconPlus,
+  IconTerminal2,
+  IconWorld,
+  IconRobot,
+  IconSettings,
+  IconWorldPlus,
+  IconAlertTriangle,
+} from '@tabler/icons-react';
+import { everywhere } from '@/commands/global';
+import { registerActions, type UserAction } from '@/commands/registry';
+import { useProjectStore } from '@/store/project';
+import { navigate } from '@/store/route';
+import { saveNow } from '@/store/saving/autosave';
+import { openNewFile } from '@/store/dialogs/files';
+import { openTakeAway } from '@/store/dialogs/export';
+import { openShortcuts } from '@/store/dialogs/shortcuts';
+import { openSettings } from '@/store/dialogs/settings';
+import { openWorlds } from '@/store/dialogs/universeChooser';
+import { openNewRobot } from '@/store/dialogs/newRobot';
+import { openNewUniverse } from '@/store/dialogs/newUniverse';
+import { resetLayout } from './Dock';
+import { fileActions } from '@/features/explorer/fileCommands';
+import { focusInspector } from '@/workspace/focus';
+import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
+import { popOut } from './popouts';
+import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
+
+/** The tree that was edited last, with the keyboard in it. */
+function goToTree(): void {
+  const { activeTree, mainTree } = useProjectStore.getState();
+  openTab({ kind: 'tree', id: activeTree ?? mainTree });
+}
+
+/** The properties of the selected block, with the keyboard in the first of them. */
+function goToInspector(): void {
+  showPanel('inspector');
+  setTimeout(focusInspector);
+}
+
+/** Escape in a field of the inspector leads back to the block that it is about. */
+export function leaveInspector(event: KeyboardEvent): void {
+  const { target } = event;
+  if (event.key !== 'Escape' || event.defaultPrevented || !(target instanceof HTMLElement)) return;
+  if (!target.closest('[data-testid="inspector"]') || target.getAttribute('aria-expanded') === 'true') return;
+  goToTree();
+}
+
+const rows: UserAction[] = [
+  {
+    id: 'project.save',
+    group: 'project',
+    labelKey: 'frame:action.save',
+    icon: IconDeviceFloppy,
+    shortcut: '$mod+KeyS',
+    inTextFields: true,
+    run: () => void saveNow().catch(() => undefined),
+  },
+  {
+    id: 'project.newAction',
+    group: 'project',
+    labelKey: 'frame:action.newAction',
+    icon: IconPlus,
+    run: () => openNewFile('action'),
+  },
+  {
+    id: 'project.newTree',
+    group: 'project',
+    labelKey: 'frame:action.newTree',
+    icon: IconPlus,
+    run: () => openNewFile('tree'),
+  },
+  {
+    id: 'project.newFile',
+    group: 'project',
+    labelKey: 'frame:explorer.new.file',
+    icon: IconPlus,
+    run: () => openNewFile('file'),
+  },
+  {
+    id: 'project.takeAway',
+    group: 'project',
+    labelKey: 'frame:action.takeAway',
+    icon: IconDownload,
+    shortcut: '$mod+Shift+KeyS',
+    inTextFields: true,
+    run: openTakeAway,
+  },
+  {
+    id: 'project.newUniverse',
+    group: 'project',
+    labelKey: 'frame:action.newUniverse',
+    icon: IconWorldPlus,
+    run: () => openNewUniverse(),
+  },
+  {
+    id: 'project.newRobot',
+    group: 'project',
+    labelKey: 'frame:action.newRobot',
+    icon: IconRobot,
+    run: () => openNewRobot(),
+  },
+  {
+    id: 'project.settings',
+    group: 'project',
+    labelKey: 'frame:action.settings',
+    icon: IconSettings,
+    shortcut: '$mod+Comma',
+    inTextFields: true,
+    run: openSettings,
+  },
+  {
+    id: 'project.worlds',
+    group: 'project',
+    labelKey: 'frame:action.worlds',
+    icon: IconWorld,
+    shortcut: '$mod+Shift+KeyU',
+    inTextFields: true,
+    run: openWorlds,
+  },
+  {
+    id: 'project.home',
+    group: 'go',
+    labelKey: 'frame:action.home',
+    icon: IconHome,
+    run: () => navigate('/'),
+  },
+  {
+    id: 'go.tree',
+    group: 'go',
+    labelKey: 'frame:action.goToTree',
+    icon: IconGitFork,
+    shortcut: 'Alt+KeyT',
+    inTextFields: true,
+    run: goToTree,
+  },
+  {
+    id: 'go.inspector',
+    group: 'go',
+    labelKey: 'frame:action.goToInspector',
+    icon: IconAdjustments,
+    shortcut: 'F4',
+    inTextFields: true,
+    enabled: () => useProjectStore.getState().selection.length > 0,
+    run: goToInspector,
+  },
+  {
+    id: 'view.console',
+    group: 'view',
+    labelKey: 'frame:action.showConsole',
+    icon: IconTerminal2,
+    shortcut: '$mod+Backquote',
+    inTextFields: true,
+    run: () => showPanel('console'),
+  },
+  {
+    id: 'view.problems',
+    group: 'view',
+    labelKey: 'frame:action.showProblems',
+    icon: IconAlertTriangle,
+    shortcut: '$mod+Shift+KeyM',
+    inTextFields: true,
+    run: () => showPanel('problems'),
+  },
+  {
+    id: 'view.history',
+    group: 'view',
+    labelKey: 'frame:action.history',
+    icon: IconHistory,
+    shortcut: '$mod+Shift+KeyH',
+    inTextFields: true,
+    run: () => showPanel('history'),
+  },
+  {
+    id: 'view.xml',
+    group: 'view',
+    labelKey: 'frame:action.xml',
+    icon: IconCode,
+    shortcut: '$mod+Shift+KeyX',
+    inTextFields: true,
+    run: () => togglePanel('xml'),
+  },
+  {
+    id: 'view.shortcuts',
+    group: 'view',
+    labelKey: 'frame:action.shortcuts',
+    icon: IconKeyboard,
+    shortcut: '$mod+Slash',
+    inTextFields: true,
+    run: openShortcuts,
+  },
+  {
+    id: 'view.resetLayout',
+    group: 'view',
+    labelKey: 'frame:action.resetLayout',
+    icon: IconLayout,
+    run: resetLayout,
+  },
+];
+
+/** Panels that no command of their own brings to the front. */
+const PANELS: readonly PanelId[] = [
+  'explorer',
+  'outline',
+  'palette',
+  'library',
+  'inspector',
+  'blackboard',
+  'viewer3d',
+  'video',
+  'camera',
+  'timeline',
+  'topics',
+];
+
+const panels = PANELS.map((id): UserAction => ({
+  id: `panel.${id}`,
+  group: 'view',
+  labelKey: `frame:panel.${id}`,
+  icon: IconLayoutSidebar,
+  run: () => showPanel(id),
+}));
+
+const windows = WINDOWED.map((id): UserAction => ({
+  id: `view.popOut.${id}`,
+  group: 'view',
+  labelKey: `frame:ownWindow.${id}`,
+  icon: IconExternalLink,
+  run: () => popOut(id),
+}));
+
+export const registerFrameActions = () =>
+  registerActions([...everywhere, ...rows, ...fileActions, ...panels, ...windows]);

@@ -1,0 +1,59 @@
+import { history } from './trace';
+import { trail } from './trail';
+
+const KEY = 'bts.run.';
+
+let sessionId: string | null = null;
+
+/**
+ * What only this page knows of a run, kept over a reload: the way that the robot went and what the nodes
+ * did. The session itself sends everything else again.
+ */
+function keepRun(): void {
+  if (!sessionId) return;
+  try {
+    sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: history.keep() }));
+  } catch {
+    // No room: both begin anew after the reload, nothing else is lost.
+  }
+}
+
+interface Kept {
+  sessionId: string;
+  trail: string;
+  history: string;
+}
+
+let kept: Kept | null = null;
+
+/** From now on the run of this session is kept; what a reload left of it comes back. */
+export function rememberRun(id: string): void {
+  if (id === sessionId) return;
+  if (sessionId) trail.clear();
+  sessionId = id;
+  try {
+    kept = JSON.parse(sessionStorage.getItem(KEY) ?? 'null') as Kept | null;
+  } catch {
+    kept = null;
+  }
+  sessionStorage.removeItem(KEY);
+  if (kept?.sessionId !== id) kept = null;
+  trail.restore(kept?.trail ?? null);
+}
+
+export function forgetRun(): void {
+  sessionId = null;
+  kept = null;
+  trail.clear();
+  history.start([], 0);
+}
+
+/** What the history was before a reload or a lost connection; after a reload it is handed out once. */
+export function takeKeptHistory(): string | null {
+  const text = kept?.history ?? null;
+  kept = null;
+  if (text) return text;
+  return history.nodes.length > 0 ? history.keep() : null;
+}
+
+window.addEventListener('pagehide', keepRun);

@@ -1,0 +1,168 @@
+import type { NodeStatus, TreeNode } from '@/generated/messages';
+import { BIT, Lane, type Stretch } from './nodeTrace';
+
+/** How far back the timeline goes, in simulated seconds. */
+export const HISTORY_S = 600;
+
+/** How long a result shows that was gone again after its tick, s. */
+const FLASH_S = 0.05;
+const FORGET_EVERY_S = 20;
+/** Stretches that a reload keeps, over all nodes together: well within what a browser stores. */
+const KEPT_STRETCHES = 40_000;
+
+interface Open {
+  status: NodeStatus;
+  since: number;
+}
+
+interface Kept {
+  tree: string;
+  begin: number;
+  now: number;
+  lanes: [uid: number, stretches: number[]][];
+}
+
+/** What each node of the running tree did over the last ten minutes. Outside React: panels read it as they draw. */
+export class History {
+  nodes: readonly TreeNode[] = [];
+  /** Simulated time of the first and of the newest thing known. */
+  begin = 0;
+  now = 0;
+  /** Counts up with each run. */
+  run = 0;
+  private lanes = new Map<number, Lane>();
+  private open = new Map<number, Open>();
+  private forgottenAt = 0;
+
+  start(nodes: readonly TreeNode[], t: number): void {
+    this.nodes = nodes;
+    this.begin = t;
+    this.now = t;
+    this.forgottenAt = t;
+    this.run += 1;
+    this.lanes = new Map();
+    this.open = new Map();
+  }
+
+  /** Takes the changes of a tick. */
+  tick(
+    changed: readonly (readonly [number, NodeStatus])[],
+    flashed: readonly (readonly [number, NodeStatus])[],
+    t: number,
+  ): void {
+    // The world was put back to its start: times would overlap.
+    if (t < this.now - 1) this.start(this.nodes, t);
+    this.advance(t);
+    for (const [uid, status] of flashed) this.lane(uid).add(t, t + FLASH_S, BIT[status]);
+    for (const [uid, status] of changed) this.change(uid, status, t);
+  }
+
+  advance(t: number): void {
+    this.now = Math.max(this.now, t);
+    if (this.now - this.forgottenAt < FORGET_EVERY_S) return;
+    this.forgottenAt = this.now;
+    const before = this.now - HISTORY_S;
+    for (const lane of this.lanes.values()) lane.forget(before);
+    this.begin = Math.max(this.begin, before);
+  }
+
+  /** The run ended: nothing goes on any more. */
+  close(): void {
+    for (const uid of [...this.open.keys()]) this.change(uid, 'IDLE', this.now);
+  }
+
+  status(uid: number): NodeStatus {
+    return this.open.get(uid)?.status ?? 'IDLE';
+  }
+
+  /** Stretches of a node that touch a span of time, the current one last. */
+  stretches(uid: number, from: number, to: number): Stretch[] {
+    const found: Stretch[] = [];
+    const lane = this.lanes.get(uid);
+    if (lane) {
+      for (let i = lane.firstAfter(from); i < lane.count; i++) {
+        const stretch = lane.at(i);
+        if (stretch.start > to) break;
+        found.push(stretch);
+      }
+    }
+    const open = this.open.get(uid);
+    if (open && open.since <= to) found.push({ start: open.since, end: this.now, mask: BIT[open.status] });
+    return found;
+  }
+
+  /** Seconds that a node spent running, and how often it began to. */
+  runningOf(uid: number): { seconds: number; times: number } {
+    let seconds = 0;
+    let times = 0;
+    for (const { start, end, mask } of this.stretches(uid, this.begin, this.now)) {
+      if (!(mask & BIT.RUNNING)) continue;
+      seconds += end - start;
+      times += 1;
+    }
+    return { seconds, times };
+  }
+
+  keep(): string {
+    const uids = new Set([...this.lanes.keys(), ...this.open.keys()]);
+    const most = Math.max(8, Math.floor(KEPT_STRETCHES / Math.max(uids.size, 1)));
+    const lanes = [...uids].map((uid): Kept['lanes'][number] => {
+      const lane = new Lane();
+      for (const { start, end, mask } of this.stretches(uid, this.begin, this.now))
+        lane.add(start, end, mask);
+      lane.coarsen(most);
+      const numbers: number[] = [];
+      for (let i = 0; i < lane.count; i++) {
+        const { start, end, mask } = lane.at(i);
+        numbers.push(round(start), round(end), mask);
+      }
+      return [uid, numbers];
+    });
+    return JSON.stringify({
+      tree: signature(this.nodes),
+      begin: this.begin,
+      now: this.now,
+      lanes,
+    } satisfies Kept);
+  }
+
+  /** Brings back what was known before a reload, if the same tree still runs; call it after `start`. */
+  restore(text: string | null, t: number): void {
+    if (!text) return;
+    try {
+      const kept = JSON.parse(text) as Kept;
+      if (kept.tree !== signature(this.nodes) || kept.now > t + 1 || t - kept.now > HISTORY_S) return;
+      this.begin = kept.begin;
+      for (const [uid, numbers] of kept.lanes) {
+        const lane = this.lane(uid);
+        for (let i = 0; i + 2 < numbers.length; i += 3) {
+          lane.add(numbers[i] ?? 0, numbers[i + 1] ?? 0, numbers[i + 2] ?? 0);
+        }
+      }
+    } catch {
+      // Unreadable: the history begins now.
+    }
+  }
+
+  private change(uid: number, status: NodeStatus, t: number): void {
+    const before = this.open.get(uid);
+    if (before) this.lane(uid).add(before.since, t, BIT[before.status]);
+    if (status === 'IDLE') this.open.delete(uid);
+    else this.open.set(uid, { status, since: t });
+  }
+
+  private lane(uid: number): Lane {
+    let lane = this.lanes.get(uid);
+    if (!lane) this.lanes.set(uid, (lane = new Lane()));
+    return lane;
+  }
+}
+
+const round = (seconds: number) => Math.round(seconds * 100) / 100;
+
+/** The same for the same tree. */
+function signature(nodes: readonly TreeNode[]): string {
+  return nodes.map((node) => `${node.uid}:${node.tree_id}/${node.node_id}:${node.type}`).join(';');
+}
+
+export const history = new History();

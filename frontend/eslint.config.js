@@ -12,7 +12,7 @@ const layers = [
   'api',
   'i18n',
   'store',
-  'actions',
+  'commands',
   'ui',
   'workspace',
   'features',

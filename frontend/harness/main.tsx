@@ -4,7 +4,7 @@ import '@/i18n';
 import '@/ui/global.css';
 import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { Canvas } from '@/features/canvas/Canvas';
-import { registerCanvasActions } from '@/features/canvas/commands/canvasCommands';
+import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommands';
 import { Inspector } from '@/features/inspector/Inspector';
 import { Outline } from '@/features/outline/Outline';
 import { Palette } from '@/features/palette/Palette';
@@ -17,7 +17,7 @@ const query = new URLSearchParams(location.search);
 const tree = query.get('tree') ?? 'MainTree';
 useProjectStore.getState().load(fixture(Number(query.get('count') ?? 600)));
 useProjectStore.getState().setActiveTree(tree);
-registerCanvasActions();
+registerCanvasCommands();
 setNavigator({
   openTree: (id) => {
     location.search = `?tree=${id}`;

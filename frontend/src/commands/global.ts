@@ -1,12 +1,12 @@
 import { IconCommand, IconLanguage } from '@tabler/icons-react';
 import { LANGUAGES, setLanguage, type Language } from '@/i18n';
 import { togglePalette } from './palette';
-import type { UserAction } from './registry';
+import type { UserCommand } from './registry';
 
-const palette: UserAction = {
+const palette: UserCommand = {
   id: 'frame.palette',
   group: 'view',
-  labelKey: 'frame:action.commandPalette',
+  labelKey: 'frame:command.commandPalette',
   icon: IconCommand,
   shortcut: '$mod+KeyK',
   inTextFields: true,
@@ -14,7 +14,7 @@ const palette: UserAction = {
   run: togglePalette,
 };
 
-const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserAction => ({
+const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserCommand => ({
   id: `view.language.${code}`,
   group: 'view',
   labelKey: `frame:languages.${code}`,
@@ -23,4 +23,4 @@ const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserAction 
 }));
 
 /** What can be done on the start page and in a project alike. */
-export const everywhere: readonly UserAction[] = [palette, ...languages];
+export const everywhere: readonly UserCommand[] = [palette, ...languages];

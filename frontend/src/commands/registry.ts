@@ -1,13 +1,13 @@
 import type { ComponentType } from 'react';
 import { create } from 'zustand';
 
-export type ActionGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go' | 'rates';
+export type CommandGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go' | 'rates';
 
 /** Something that a user can do: the same row feeds toolbar, shortcuts and command palette. */
-export interface UserAction {
+export interface UserCommand {
   id: string;
-  group: ActionGroup;
-  /** i18n key with its namespace: `frame:action.run`. */
+  group: CommandGroup;
+  /** i18n key with its namespace: `frame:command.run`. */
   labelKey: string;
   /** What the label is filled with. */
   labelValues?: Readonly<Record<string, string | number>>;
@@ -25,16 +25,16 @@ export interface UserAction {
   inTextFields?: boolean;
 }
 
-interface ActionTable {
-  actions: Record<string, UserAction>;
+interface CommandTable {
+  commands: Record<string, UserCommand>;
 }
 
-export const useActionTable = create<ActionTable>(() => ({ actions: {} }));
+export const useCommandTable = create<CommandTable>(() => ({ commands: {} }));
 
 /** Adds rows to the table; the returned function takes them out again. */
-export function registerActions(rows: readonly UserAction[]): () => void {
-  useActionTable.setState(({ actions }) => {
-    const next = { ...actions };
+export function registerCommands(rows: readonly UserCommand[]): () => void {
+  useCommandTable.setState(({ commands }) => {
+    const next = { ...commands };
     for (const row of rows) {
       const rival = Object.values(next).find(
         (other) => row.shortcut && other.shortcut === row.shortcut && other.id !== row.id,
@@ -42,19 +42,19 @@ export function registerActions(rows: readonly UserAction[]): () => void {
       if (rival) throw new Error(`${row.id} and ${rival.id} both claim ${row.shortcut}`);
       next[row.id] = row;
     }
-    return { actions: next };
+    return { commands: next };
   });
   return () => {
-    useActionTable.setState(({ actions }) => ({
-      actions: Object.fromEntries(
-        Object.entries(actions).filter(([id, action]) => !rows.some((r) => r.id === id && r === action)),
+    useCommandTable.setState(({ commands }) => ({
+      commands: Object.fromEntries(
+        Object.entries(commands).filter(([id, command]) => !rows.some((r) => r.id === id && r === command)),
       ),
     }));
   };
 }
 
-/** Does what the action does, unless it may not be done now. */
+/** Does what the command does, unless it may not be done now. */
 export function perform(id: string, page: Document = document): void {
-  const action = useActionTable.getState().actions[id];
-  if (action && action.enabled?.() !== false) action.run(page);
+  const command = useCommandTable.getState().commands[id];
+  if (command && command.enabled?.() !== false) command.run(page);
 }

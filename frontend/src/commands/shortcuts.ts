@@ -1,6 +1,6 @@
 import { useEffect } from 'react';
 import { createKeybindingsHandler } from 'tinykeys';
-import { useActionTable, type UserAction } from './registry';
+import { useCommandTable, type UserCommand } from './registry';
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
 
@@ -14,20 +14,20 @@ function isTextField(target: EventTarget | null): boolean {
   return isContentEditable || ['TEXTAREA', 'SELECT'].includes(tagName);
 }
 
-function handler(action: UserAction) {
+function handler(command: UserCommand) {
   return (event: KeyboardEvent) => {
     if (event.defaultPrevented) return;
-    if (!action.inTextFields && isTextField(event.target)) return;
-    if (action.enabled?.() === false) return;
+    if (!command.inTextFields && isTextField(event.target)) return;
+    if (command.enabled?.() === false) return;
     event.preventDefault();
-    action.run((event.target as Node | null)?.ownerDocument ?? document);
+    command.run((event.target as Node | null)?.ownerDocument ?? document);
   };
 }
 
-function bind(target: Window, actions: readonly UserAction[]): () => void {
+function bind(target: Window, commands: readonly UserCommand[]): () => void {
   const bindings: Record<string, (event: KeyboardEvent) => void> = {};
-  for (const action of actions) {
-    if (action.shortcut) bindings[action.shortcut] = handler(action);
+  for (const command of commands) {
+    if (command.shortcut) bindings[command.shortcut] = handler(command);
   }
   const handle = createKeybindingsHandler(bindings);
   const listen = (event: KeyboardEvent): void => {
@@ -50,10 +50,10 @@ function ownCopy(event: KeyboardEvent): KeyboardEvent {
 
 /** Binds every shortcut of the table, as it is at any time, to a window; answers how to end that. */
 export function bindShortcuts(target: Window): () => void {
-  let unbind = bind(target, Object.values(useActionTable.getState().actions));
-  const unfollow = useActionTable.subscribe(({ actions }) => {
+  let unbind = bind(target, Object.values(useCommandTable.getState().commands));
+  const unfollow = useCommandTable.subscribe(({ commands }) => {
     unbind();
-    unbind = bind(target, Object.values(actions));
+    unbind = bind(target, Object.values(commands));
   });
   return () => {
     unfollow();
@@ -76,8 +76,8 @@ const KEY_NAMES: Record<string, string> = {
   Delete: 'Del',
 };
 
-/** The keys of an action as people write them; null of one that has none. */
-export function keysOf({ shortcut, keys }: UserAction): string | null {
+/** The keys of a command as people write them; null of one that has none. */
+export function keysOf({ shortcut, keys }: UserCommand): string | null {
   const known = shortcut ?? keys;
   return known === undefined ? null : shortcutLabel(known);
 }

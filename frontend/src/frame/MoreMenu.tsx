@@ -1,7 +1,7 @@
 import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconMenu2 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
-import { perform, useActionTable } from '@/commands/registry';
+import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { currentLanguage, LANGUAGES, setLanguage, type Language } from '@/i18n';
 
@@ -25,7 +25,7 @@ const ROWS = [
 
 export function MoreMenu() {
   const { t } = useTranslation('frame');
-  const table = useActionTable((state) => state.actions);
+  const table = useCommandTable((state) => state.commands);
   return (
     <Menu position="bottom-end" width={260}>
       <Tooltip label={t('more')}>

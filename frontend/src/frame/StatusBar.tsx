@@ -8,9 +8,9 @@ import {
 } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { Hint } from '@/features/onboarding/Hint';
-import { openWorlds } from '@/store/dialogs/universeChooser';
+import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { useMotion } from '@/store/session/motion';
 import { useSessionStore } from '@/store/session/store';
 import classes from './frame.module.css';
@@ -21,7 +21,7 @@ export function StatusBar() {
   return (
     <footer className={classes['statusBar']} aria-label={t('status.label')}>
       <ConnectionStatus />
-      <WorldButton />
+      <UniverseButton />
       <ProblemCount />
       <Hint />
       <span className={classes['spacer']} />
@@ -51,11 +51,11 @@ function titleOf(universe: string): string {
 }
 
 /** Where the robot will be; a click chooses another place. */
-function WorldButton() {
+function UniverseButton() {
   const { t } = useTranslation('frame');
   const own = useProjectStore((state) => state.settings?.universe ?? '');
   const { t: title } = useTranslation('worlds');
-  const once = useWorldChoice((state) => state.universe);
+  const once = useUniverseChoice((state) => state.universe);
   const id = once ?? own;
   const isOwn = useProjectStore((state) => `universes/${id}.yaml` in state.files);
   const plain = titleOf(id);
@@ -64,8 +64,8 @@ function WorldButton() {
       type="button"
       className={classes['statusButton']}
       data-testid="open-worlds"
-      title={t('action.worlds')}
-      onClick={openWorlds}
+      title={t('command.worlds')}
+      onClick={openUniverseChooser}
     >
       <IconWorld size={14} aria-hidden="true" />
       {isOwn || id === '' ? plain : title(`universe.${id}.name`, { defaultValue: plain })}

@@ -5,30 +5,30 @@ import { useTranslation } from 'react-i18next';
 import { ApiError } from '@/api/errors';
 import { closePalette } from '@/commands/palette';
 import { useShortcuts } from '@/commands/shortcuts';
-import { registerCanvasActions } from '@/features/canvas/commands/canvasCommands';
+import { registerCanvasCommands } from '@/features/canvas/commands/canvasCommands';
 import { ConflictDialog } from '@/features/code/ConflictDialog';
 import { FileDialog } from '@/features/code/FileDialog';
-import { TakeAway } from '@/features/export/ExportDialog';
+import { ExportDialog } from '@/features/export/ExportDialog';
 import { Shortcuts } from '@/features/onboarding/Shortcuts';
 import { Banner } from '@/features/run/Banner';
-import { LookingOn } from '@/features/run/ViewerNotice';
+import { ViewerNotice } from '@/features/run/ViewerNotice';
 import { RestartOffer } from '@/features/run/RestartOffer';
 import { RunProgress } from '@/features/run/RunProgress';
-import { registerRunActions } from '@/features/run/commands';
-import { registerRateActions } from '@/features/run/rates';
+import { registerRunCommands } from '@/features/run/commands';
+import { registerRateCommands } from '@/features/run/rates';
 import { useRunReactions } from '@/features/run/useRunReactions';
-import { registerTopicActions } from '@/features/topics/commands';
+import { registerTopicCommands } from '@/features/topics/commands';
 import { ConnectDialog } from '@/features/topics/ConnectDialog';
 import { PublishDialog } from '@/features/topics/PublishDialog';
 import { NewRobot } from '@/features/robotEditor/NewRobot';
 import { Settings } from '@/features/settings/Settings';
-import { Worlds } from '@/features/universe/UniverseDialog';
+import { UniverseDialog } from '@/features/universe/UniverseDialog';
 import { NewUniverse } from '@/features/universeEditor/NewUniverse';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { useProjectStore } from '@/store/project';
 import { setNavigator } from '@/store/project/navigation';
 import { navigate } from '@/store/route';
-import { leaveInspector, registerFrameActions } from './commands';
+import { leaveInspector, registerFrameCommands } from './commands';
 import { CommandPalette } from '@/workspace/CommandPalette';
 import { Dock } from './Dock';
 import classes from './frame.module.css';
@@ -92,11 +92,11 @@ function Workbench({ projectId }: StudioProps) {
 
   useEffect(() => {
     const unregister = [
-      registerCanvasActions(),
-      registerRunActions(),
-      registerRateActions(),
-      registerTopicActions(),
-      registerFrameActions(),
+      registerCanvasCommands(),
+      registerRunCommands(),
+      registerRateCommands(),
+      registerTopicCommands(),
+      registerFrameCommands(),
     ];
     setNavigator({
       openTree: (id) => openTab({ kind: 'tree', id }),
@@ -133,7 +133,7 @@ function Workbench({ projectId }: StudioProps) {
       <TopBar />
       <RunProgress />
       <Banner />
-      <LookingOn />
+      <ViewerNotice />
       <RestartOffer />
       <main className={classes['dock']}>
         {model && modelWidth ? <Dock model={model} width={modelWidth} key={modelWidth} /> : null}
@@ -142,8 +142,8 @@ function Workbench({ projectId }: StudioProps) {
       <CommandPalette />
       <ConflictDialog />
       <FileDialog />
-      <TakeAway />
-      <Worlds />
+      <ExportDialog />
+      <UniverseDialog />
       <NewUniverse />
       <NewRobot />
       <Settings />

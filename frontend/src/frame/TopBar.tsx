@@ -11,7 +11,7 @@ import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
 import { Logo } from '@/ui/Logo';
 import { ThemeToggle } from '@/ui/ThemeToggle';
-import { ActionButton } from '@/ui/CommandButton';
+import { CommandButton } from '@/ui/CommandButton';
 import classes from './frame.module.css';
 import { MoreMenu } from './MoreMenu';
 import { SaveIndicator } from './SaveIndicator';
@@ -53,13 +53,13 @@ export function TopBar() {
         {role === 'viewer' ? <ReadOnlyBadge /> : <SaveIndicator />}
       </Group>
       <Group gap={4} wrap="nowrap" className={classes['controls']}>
-        <ActionButton action="edit.undo" testId="undo" isDisabled={!(target?.canUndo ?? canUndo)} />
-        <ActionButton action="edit.redo" testId="redo" isDisabled={!(target?.canRedo ?? canRedo)} />
+        <CommandButton command="edit.undo" testId="undo" isDisabled={!(target?.canUndo ?? canUndo)} />
+        <CommandButton command="edit.redo" testId="redo" isDisabled={!(target?.canRedo ?? canRedo)} />
         <Divider orientation="vertical" mx={4} my={8} />
         <RunControls />
       </Group>
       <Group gap={2} wrap="nowrap" className={classes['right']}>
-        <ActionButton action="project.takeAway" testId="open-take-away" />
+        <CommandButton command="project.takeAway" testId="open-take-away" />
         <ShareButton />
         <ThemeToggle />
         <MoreMenu />

@@ -19,19 +19,19 @@ import {
   IconAlertTriangle,
 } from '@tabler/icons-react';
 import { everywhere } from '@/commands/global';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
 import { navigate } from '@/store/route';
 import { saveNow } from '@/store/saving/autosave';
 import { openNewFile } from '@/store/dialogs/files';
-import { openTakeAway } from '@/store/dialogs/export';
+import { openExportDialog } from '@/store/dialogs/export';
 import { openShortcuts } from '@/store/dialogs/shortcuts';
 import { openSettings } from '@/store/dialogs/settings';
-import { openWorlds } from '@/store/dialogs/universeChooser';
+import { openUniverseChooser } from '@/store/dialogs/universeChooser';
 import { openNewRobot } from '@/store/dialogs/newRobot';
 import { openNewUniverse } from '@/store/dialogs/newUniverse';
 import { resetLayout } from './Dock';
-import { fileActions } from '@/features/explorer/fileCommands';
+import { fileCommands } from '@/features/explorer/fileCommands';
 import { focusInspector } from '@/workspace/focus';
 import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
@@ -57,11 +57,11 @@ export function leaveInspector(event: KeyboardEvent): void {
   goToTree();
 }
 
-const rows: UserAction[] = [
+const rows: UserCommand[] = [
   {
     id: 'project.save',
     group: 'project',
-    labelKey: 'frame:action.save',
+    labelKey: 'frame:command.save',
     icon: IconDeviceFloppy,
     shortcut: '$mod+KeyS',
     inTextFields: true,
@@ -70,14 +70,14 @@ const rows: UserAction[] = [
   {
     id: 'project.newAction',
     group: 'project',
-    labelKey: 'frame:action.newAction',
+    labelKey: 'frame:command.newAction',
     icon: IconPlus,
     run: () => openNewFile('action'),
   },
   {
     id: 'project.newTree',
     group: 'project',
-    labelKey: 'frame:action.newTree',
+    labelKey: 'frame:command.newTree',
     icon: IconPlus,
     run: () => openNewFile('tree'),
   },
@@ -91,30 +91,30 @@ const rows: UserAction[] = [
   {
     id: 'project.takeAway',
     group: 'project',
-    labelKey: 'frame:action.takeAway',
+    labelKey: 'frame:command.takeAway',
     icon: IconDownload,
     shortcut: '$mod+Shift+KeyS',
     inTextFields: true,
-    run: openTakeAway,
+    run: openExportDialog,
   },
   {
     id: 'project.newUniverse',
     group: 'project',
-    labelKey: 'frame:action.newUniverse',
+    labelKey: 'frame:command.newUniverse',
     icon: IconWorldPlus,
     run: () => openNewUniverse(),
   },
   {
     id: 'project.newRobot',
     group: 'project',
-    labelKey: 'frame:action.newRobot',
+    labelKey: 'frame:command.newRobot',
     icon: IconRobot,
     run: () => openNewRobot(),
   },
   {
     id: 'project.settings',
     group: 'project',
-    labelKey: 'frame:action.settings',
+    labelKey: 'frame:command.settings',
     icon: IconSettings,
     shortcut: '$mod+Comma',
     inTextFields: true,
@@ -123,23 +123,23 @@ const rows: UserAction[] = [
   {
     id: 'project.worlds',
     group: 'project',
-    labelKey: 'frame:action.worlds',
+    labelKey: 'frame:command.worlds',
     icon: IconWorld,
     shortcut: '$mod+Shift+KeyU',
     inTextFields: true,
-    run: openWorlds,
+    run: openUniverseChooser,
   },
   {
     id: 'project.home',
     group: 'go',
-    labelKey: 'frame:action.home',
+    labelKey: 'frame:command.home',
     icon: IconHome,
     run: () => navigate('/'),
   },
   {
     id: 'go.tree',
     group: 'go',
-    labelKey: 'frame:action.goToTree',
+    labelKey: 'frame:command.goToTree',
     icon: IconGitFork,
     shortcut: 'Alt+KeyT',
     inTextFields: true,
@@ -148,7 +148,7 @@ const rows: UserAction[] = [
   {
     id: 'go.inspector',
     group: 'go',
-    labelKey: 'frame:action.goToInspector',
+    labelKey: 'frame:command.goToInspector',
     icon: IconAdjustments,
     shortcut: 'F4',
     inTextFields: true,
@@ -158,7 +158,7 @@ const rows: UserAction[] = [
   {
     id: 'view.console',
     group: 'view',
-    labelKey: 'frame:action.showConsole',
+    labelKey: 'frame:command.showConsole',
     icon: IconTerminal2,
     shortcut: '$mod+Backquote',
     inTextFields: true,
@@ -167,7 +167,7 @@ const rows: UserAction[] = [
   {
     id: 'view.problems',
     group: 'view',
-    labelKey: 'frame:action.showProblems',
+    labelKey: 'frame:command.showProblems',
     icon: IconAlertTriangle,
     shortcut: '$mod+Shift+KeyM',
     inTextFields: true,
@@ -176,7 +176,7 @@ const rows: UserAction[] = [
   {
     id: 'view.history',
     group: 'view',
-    labelKey: 'frame:action.history',
+    labelKey: 'frame:command.history',
     icon: IconHistory,
     shortcut: '$mod+Shift+KeyH',
     inTextFields: true,
@@ -185,7 +185,7 @@ const rows: UserAction[] = [
   {
     id: 'view.xml',
     group: 'view',
-    labelKey: 'frame:action.xml',
+    labelKey: 'frame:command.xml',
     icon: IconCode,
     shortcut: '$mod+Shift+KeyX',
     inTextFields: true,
@@ -194,7 +194,7 @@ const rows: UserAction[] = [
   {
     id: 'view.shortcuts',
     group: 'view',
-    labelKey: 'frame:action.shortcuts',
+    labelKey: 'frame:command.shortcuts',
     icon: IconKeyboard,
     shortcut: '$mod+Slash',
     inTextFields: true,
@@ -203,7 +203,7 @@ const rows: UserAction[] = [
   {
     id: 'view.resetLayout',
     group: 'view',
-    labelKey: 'frame:action.resetLayout',
+    labelKey: 'frame:command.resetLayout',
     icon: IconLayout,
     run: resetLayout,
   },
@@ -224,7 +224,7 @@ const PANELS: readonly PanelId[] = [
   'topics',
 ];
 
-const panels = PANELS.map((id): UserAction => ({
+const panels = PANELS.map((id): UserCommand => ({
   id: `panel.${id}`,
   group: 'view',
   labelKey: `frame:panel.${id}`,
@@ -232,7 +232,7 @@ const panels = PANELS.map((id): UserAction => ({
   run: () => showPanel(id),
 }));
 
-const windows = WINDOWED.map((id): UserAction => ({
+const windows = WINDOWED.map((id): UserCommand => ({
   id: `view.popOut.${id}`,
   group: 'view',
   labelKey: `frame:ownWindow.${id}`,
@@ -240,5 +240,5 @@ const windows = WINDOWED.map((id): UserAction => ({
   run: () => popOut(id),
 }));
 
-export const registerFrameActions = () =>
-  registerActions([...everywhere, ...rows, ...fileActions, ...panels, ...windows]);
+export const registerFrameCommands = () =>
+  registerCommands([...everywhere, ...rows, ...fileCommands, ...panels, ...windows]);

@@ -24,7 +24,9 @@ import { Waiting } from './Waiting';
 
 const Viewer3d = lazyPart(async () => (await import('@/features/viewer/Viewer3d')).Viewer3d);
 const XmlPanel = lazyPart(async () => (await import('@/features/xml/XmlPanel')).XmlPanel);
-const HistoryPanel = lazyPart(async () => (await import('@/features/revisions/RevisionsPanel')).HistoryPanel);
+const RevisionsPanel = lazyPart(
+  async () => (await import('@/features/revisions/RevisionsPanel')).RevisionsPanel,
+);
 const CompareTab = lazyPart(async () => (await import('@/features/revisions/CompareTab')).CompareTab);
 const UniverseTab = lazyPart(async () => (await import('@/features/universeEditor/UniverseTab')).UniverseTab);
 const RobotTab = lazyPart(async () => (await import('@/features/robotEditor/RobotTab')).RobotTab);
@@ -50,7 +52,7 @@ const panels: Record<PanelId, () => ReactNode> = {
   topics: () => <TopicsPanel />,
   history: () => (
     <Suspense fallback={<Waiting reason="loadingEditor" />}>
-      <HistoryPanel />
+      <RevisionsPanel />
     </Suspense>
   ),
   xml: () => (

@@ -4,7 +4,7 @@ import { t } from '@/i18n';
 const ID = 'server-notice';
 
 /** Says what the server tells all its users, until it is over or read; the words are the administrator's. */
-export function tellServer(text: string): void {
+export function showServerNotice(text: string): void {
   notifications.hide(ID);
   if (text) {
     notifications.show({

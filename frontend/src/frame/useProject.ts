@@ -4,8 +4,8 @@ import { useProjectStore } from '@/store/project';
 import { startAutosave, stopAutosave } from '@/store/saving/autosave';
 import { restoreDraft } from '@/store/saving/conflicts';
 import { followRevisions } from '@/store/saving/live';
-import { tellServer } from './showServerNotice';
-import { tellTaken } from './notifyRemoteSave';
+import { showServerNotice } from './showServerNotice';
+import { notifyRemoteSave } from './notifyRemoteSave';
 import { leave, reattach } from '@/store/session/connection';
 
 type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
@@ -22,7 +22,7 @@ export function useProject(projectId: string): Opening {
         startAutosave();
         restoreDraft(detail);
         setOpening({ kind: 'open' });
-        unfollow = followRevisions(projectId, tellTaken, tellServer);
+        unfollow = followRevisions(projectId, notifyRemoteSave, showServerNotice);
         void reattach(projectId);
       },
       (error: Error) => {

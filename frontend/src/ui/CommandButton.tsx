@@ -1,22 +1,22 @@
 import { ActionIcon, Tooltip, type ActionIconProps } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { perform, useActionTable } from '@/commands/registry';
+import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 
-interface ActionButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
-  readonly action: string;
+interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' | 'size'> {
+  readonly command: string;
   readonly isDisabled?: boolean;
   readonly testId?: string;
 }
 
-/** A button of the table of user actions: its icon, its text and shortcut as tooltip. */
-export function ActionButton({ action: id, isDisabled = false, testId, ...look }: ActionButtonProps) {
+/** A button of the table of user commands: its icon, its text and shortcut as tooltip. */
+export function CommandButton({ command: id, isDisabled = false, testId, ...look }: CommandButtonProps) {
   const { t } = useTranslation();
-  const action = useActionTable((table) => table.actions[id]);
-  if (!action) return null;
-  const label = t(action.labelKey);
-  const keys = keysOf(action);
-  const Icon = action.icon;
+  const command = useCommandTable((table) => table.commands[id]);
+  if (!command) return null;
+  const label = t(command.labelKey);
+  const keys = keysOf(command);
+  const Icon = command.icon;
   return (
     <Tooltip label={keys ? `${label} (${keys})` : label}>
       <ActionIcon

@@ -1,4 +1,4 @@
-import { registerActions } from '@/commands/registry';
+import { registerCommands } from '@/commands/registry';
 import { ActionIcon, Tooltip, useComputedColorScheme, useMantineColorScheme } from '@mantine/core';
 import { IconMoon, IconSun } from '@tabler/icons-react';
 import { useEffect } from 'react';
@@ -13,7 +13,7 @@ export function ThemeToggle() {
   const toggle = () => setColorScheme(isDark ? 'light' : 'dark');
   useEffect(
     () =>
-      registerActions([
+      registerCommands([
         {
           id: 'view.theme',
           group: 'view',

@@ -4,7 +4,7 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState, type ComponentTy
 import { createPortal } from 'react-dom';
 import { useTranslation } from 'react-i18next';
 import { closePalette, usePalette } from '@/commands/palette';
-import { perform, useActionTable, type ActionGroup } from '@/commands/registry';
+import { perform, useCommandTable, type CommandGroup } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { matchScore } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
@@ -12,7 +12,7 @@ import classes from './commandPalette.module.css';
 import { openTab, useTabs, type DocumentTab } from './tabs';
 
 /** What is wanted most often comes first. */
-const GROUPS: ActionGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
+const GROUPS: CommandGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
 
 interface Command {
   readonly id: string;
@@ -27,28 +27,28 @@ interface Command {
 /** Everything that can be done, and every file. */
 function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
-  const table = useActionTable((state) => state.actions);
+  const table = useCommandTable((state) => state.commands);
   // On the start page no document can be opened, though the store still knows those of the last project.
   const hasDocuments = useTabs((state) => state.model !== null);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
   // Asked once, before the palette has taken the focus from where it was; what joins the table later can be done.
   const [unready] = useState(() => {
-    const rows = Object.values(table).filter((action) => action.enabled?.() === false);
+    const rows = Object.values(table).filter((command) => command.enabled?.() === false);
     return new Set(rows.map(({ id }) => id));
   });
   return useMemo(() => {
-    const actions = Object.values(table)
-      .filter((action) => !action.hidden)
+    const commands = Object.values(table)
+      .filter((command) => !command.hidden)
       .sort((a, b) => GROUPS.indexOf(a.group) - GROUPS.indexOf(b.group))
-      .map((action): Command => {
-        const { id, labelKey, labelValues, icon } = action;
+      .map((command): Command => {
+        const { id, labelKey, labelValues, icon } = command;
         const label = t(labelKey, { ...labelValues });
         return {
           id,
           label,
           icon,
-          keys: keysOf(action),
+          keys: keysOf(command),
           isReady: !unready.has(id),
           run: () => perform(id, page),
         };
@@ -64,7 +64,7 @@ function useCommands(page: Document): Command[] {
       .map(({ path }) =>
         open(`file:${path}`, t('palette.openFile', { name: path }), IconFileCode, { kind: 'file', path }),
       );
-    return hasDocuments ? [...actions, ...trees, ...texts] : actions;
+    return hasDocuments ? [...commands, ...trees, ...texts] : commands;
   }, [table, files, diagrams, hasDocuments, t, page, unready]);
 }
 

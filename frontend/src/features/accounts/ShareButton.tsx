@@ -2,7 +2,7 @@ import { Button } from '@mantine/core';
 import { IconShare3 } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions } from '@/commands/registry';
+import { registerCommands } from '@/commands/registry';
 import { useProjectStore } from '@/store/project';
 import { ShareDialog } from './ShareDialog';
 import { useMe } from './useMe';
@@ -19,7 +19,7 @@ export function ShareButton() {
   useEffect(
     () =>
       canShare
-        ? registerActions([
+        ? registerCommands([
             {
               id: 'project.share',
               group: 'project',

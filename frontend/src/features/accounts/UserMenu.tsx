@@ -2,7 +2,7 @@ import { Avatar, Button, Menu, Text, UnstyledButton, VisuallyHidden } from '@man
 import { IconChartPie, IconLogout, IconSettings, IconShield, IconUsers } from '@tabler/icons-react';
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { DataDialog } from './DataDialog';
 import { GroupsDialog } from './GroupsDialog';
 import { useMe } from './useMe';
@@ -10,8 +10,8 @@ import { useMe } from './useMe';
 type Opened = 'groups' | 'data';
 
 /** What the menu does, for the command palette. */
-function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): UserAction[] {
-  const row = (id: string, icon: typeof IconUsers, run: () => void): UserAction => {
+function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): UserCommand[] {
+  const row = (id: string, icon: typeof IconUsers, run: () => void): UserCommand => {
     return { id: `account.${id}`, group: 'go', labelKey: `accounts:${id}`, icon, run };
   };
   const goTo = (address: string) => () => {
@@ -34,7 +34,7 @@ export function UserMenu() {
   const hasAccount = me !== undefined && me.mode !== 'local' && me.role !== 'guest';
   const isAdministrator = hasAccount && me.role === 'administrator';
   useEffect(
-    () => (hasAccount ? registerActions(rowsFor(isAdministrator, setOpen)) : undefined),
+    () => (hasAccount ? registerCommands(rowsFor(isAdministrator, setOpen)) : undefined),
     [hasAccount, isAdministrator],
   );
   if (!me || me.mode === 'local') return null;

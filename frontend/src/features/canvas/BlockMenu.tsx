@@ -2,7 +2,7 @@ import { Menu } from '@mantine/core';
 import { Fragment } from 'react';
 import { useTranslation } from 'react-i18next';
 import { keysOf } from '@/commands/shortcuts';
-import { blockActions, type BlockAction } from './commands/blockActions';
+import { blockCommands, type BlockCommand } from './commands/blockCommands';
 
 export interface MenuPoint {
   readonly x: number;
@@ -10,7 +10,7 @@ export interface MenuPoint {
   readonly isOnBlock: boolean;
 }
 
-/** The rows of the menu, between its lines: `id` of the table of actions. */
+/** The rows of the menu, between its lines: `id` of the table of commands. */
 const ON_BLOCK = [
   ['canvas.fix'],
   ['canvas.look'],
@@ -33,10 +33,10 @@ const DANGEROUS: ReadonlySet<string> = new Set(['edit.delete']);
 
 interface Item {
   readonly words: string;
-  readonly action: BlockAction;
+  readonly action: BlockCommand;
 }
 
-const byId = new Map(blockActions.map((action) => [action.id, action]));
+const byId = new Map(blockCommands.map((action) => [action.id, action]));
 
 /** What can be done now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {

@@ -15,7 +15,7 @@ import { useReactFlow, useStore } from '@xyflow/react';
 import { memo, useEffect } from 'react';
 import { useTranslation } from 'react-i18next';
 import { shortcutLabel } from '@/commands/shortcuts';
-import { ActionButton } from '@/ui/CommandButton';
+import { CommandButton } from '@/ui/CommandButton';
 import { setLayout, tidy } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
 import { isMinimapShown, setEditor, useEditorStore } from '@/store/project/editor';
@@ -134,7 +134,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
           setEditor({ minimap: !minimap });
         }}
       />
-      <ActionButton action="view.xml" size={30} testId="toggle-xml" />
+      <CommandButton command="view.xml" size={30} testId="toggle-xml" />
     </div>
   );
 });

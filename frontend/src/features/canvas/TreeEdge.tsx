@@ -2,7 +2,7 @@ import { BaseEdge, type EdgeProps } from '@xyflow/react';
 import { memo } from 'react';
 import { liveKey, useLiveStore } from '@/store/project/live';
 import { elbow } from '@/ui/shapes';
-import { useCarried } from './gestures/draggedBlocks';
+import { useDraggedBlocks } from './gestures/draggedBlocks';
 import type { TreeEdge as TreeEdgeType } from './flow';
 import classes from './TreeEdge.module.css';
 
@@ -10,8 +10,8 @@ function TreeEdgeView(props: EdgeProps<TreeEdgeType>) {
   const { target, data, sourceX, sourceY, targetX, targetY, selected } = props;
   const key = liveKey(data?.tree ?? '', data?.node ?? target);
   const status = useLiveStore((state) => state.statuses.get(key) ?? 'IDLE');
-  const dx = useCarried((state) => (state.tops.has(target) ? state.dx : 0));
-  const dy = useCarried((state) => (state.tops.has(target) ? state.dy : 0));
+  const dx = useDraggedBlocks((state) => (state.tops.has(target) ? state.dx : 0));
+  const dy = useDraggedBlocks((state) => (state.tops.has(target) ? state.dy : 0));
   return (
     <g className={classes['edge']} data-status={status} data-selected={selected || undefined}>
       <BaseEdge

@@ -1,7 +1,7 @@
 import { useProjectStore } from '@/store/project';
 import { filesOf, followDocument, kindOf, pathNamed } from '@/store/project/moving';
 import { openFile, renamed } from '@/store/project/navigation';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 
 /** Gives a universe, a robot with all its files, or another file a new name. */
@@ -18,7 +18,7 @@ export async function renameDocument(path: string, name: string): Promise<void> 
   }
   followDocument(path, name);
   if (kindOf(path) === 'universe' || kindOf(path) === 'robot')
-    useWorldChoice.setState({ universe: null, robot: null });
+    useUniverseChoice.setState({ universe: null, robot: null });
   // The new ones are saved before the old ones go.
   await putBinaries(binaries.map(({ path: file, data }) => ({ path: moved(file), data })));
   for (const file of files) {

@@ -15,7 +15,7 @@ import {
 import type { ReactNode } from 'react';
 import { useTranslation } from 'react-i18next';
 import { useStore } from 'zustand';
-import { useActionTable } from '@/commands/registry';
+import { useCommandTable } from '@/commands/registry';
 import { useRunStore } from '@/store/run/store';
 import classes from './editor3d.module.css';
 import { travel, type Editor, type Mode } from './editing';
@@ -46,9 +46,9 @@ const gridLabel = (step: number): string => (step < 0.05 ? `${step * 1000} mm` :
 export function EditorToolbar(props: EditorToolbarProps) {
   const { editor, label, modes, grids, textLabel, textTestId, undoTestId, onRun, children } = props;
   const { t } = useTranslation('editor3d');
-  const { mode, tool, grid, history, isTextShown } = useStore(editor.store);
-  const isHindered = useRunStore((state) => state.hindrance !== null);
-  const canRun = useActionTable(({ actions }) => actions['run.run'] !== undefined) && !isHindered;
+  const { mode, tool, grid, undoStack, isTextShown } = useStore(editor.store);
+  const isBlocked = useRunStore((state) => state.runBlocker !== null);
+  const canRun = useCommandTable(({ commands }) => commands['run.run'] !== undefined) && !isBlocked;
   const { setState } = editor.store;
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={label}>
@@ -99,13 +99,17 @@ export function EditorToolbar(props: EditorToolbarProps) {
       <Divider orientation="vertical" my={4} />
       <Tool
         label={t('undo')}
-        isDisabled={history.past.length === 0}
+        isDisabled={undoStack.past.length === 0}
         testId={undoTestId}
         onClick={() => travel(editor, 'undo')}
       >
         <IconArrowBackUp size={18} />
       </Tool>
-      <Tool label={t('redo')} isDisabled={history.future.length === 0} onClick={() => travel(editor, 'redo')}>
+      <Tool
+        label={t('redo')}
+        isDisabled={undoStack.future.length === 0}
+        onClick={() => travel(editor, 'redo')}
+      >
         <IconArrowForwardUp size={18} />
       </Tool>
       <span className={classes['space']} />

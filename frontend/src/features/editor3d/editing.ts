@@ -2,7 +2,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { notifications } from '@mantine/notifications';
 import { hasWebGl } from '@/features/viewer/webgl';
 import { t } from '@/i18n';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '@/model/document/undo';
+import { record, redo, seal, startUndo, undo, type TextUndo } from '@/model/document/undo';
 import type { Point } from '@/model/document/values';
 import { useProjectStore } from '@/store/project';
 
@@ -22,7 +22,7 @@ export interface ViewHandle {
 }
 
 export interface EditorData {
-  readonly history: TextHistory;
+  readonly undoStack: TextUndo;
   readonly selection: readonly string[];
   /** The chosen point of the way of the selected person. */
   readonly waypoint: number | null;
@@ -64,7 +64,7 @@ export function editorFor(path: string, kind: Kind): Editor {
   let editor = known.get(key);
   if (!editor) {
     const store = createStore<EditorData>(() => ({
-      history: startHistory(textsAt(path, kind)),
+      undoStack: startUndo(textsAt(path, kind)),
       selection: [],
       waypoint: null,
       mode: 'move',
@@ -98,10 +98,10 @@ export function showIn(editor: Editor, view: ViewHandle | null): void {
 
 /** Notes what was typed in the text beside, or came from elsewhere, as a step like any other. */
 export function followTexts(editor: Editor): void {
-  const { history, selection } = editor.store.getState();
+  const { undoStack, selection } = editor.store.getState();
   const step = { label: 'text', mergeKey: 'text', before: selection, after: selection };
-  const next = record(history, textsOf(editor), step);
-  if (next !== history) editor.store.setState({ history: next });
+  const next = record(undoStack, textsOf(editor), step);
+  if (next !== undoStack) editor.store.setState({ undoStack: next });
 }
 
 /** What an edit comes to. */
@@ -122,13 +122,13 @@ export function change(editor: Editor, label: string, make: () => Change | null,
   }
   if (!made) return;
   followTexts(editor);
-  const { history, selection } = editor.store.getState();
+  const { undoStack, selection } = editor.store.getState();
   const after = made.select ?? selection;
-  const start = mergeKey === undefined ? seal(history) : history;
+  const start = mergeKey === undefined ? seal(undoStack) : undoStack;
   const step = { label, mergeKey: mergeKey ?? null, before: selection, after };
   const isSame = after.length === selection.length && after.every((key, index) => key === selection[index]);
   editor.store.setState({
-    history: record(start, made.texts, step),
+    undoStack: record(start, made.texts, step),
     selection: after,
     ...(isSame ? {} : { waypoint: null }),
   });
@@ -146,14 +146,14 @@ function write({ path, kind }: Editor, texts: readonly string[]): void {
 
 export function travel(editor: Editor, direction: 'undo' | 'redo'): void {
   if (isReadOnly()) return;
-  const { history } = editor.store.getState();
-  const next = direction === 'undo' ? undo(history) : redo(history);
-  const step = direction === 'undo' ? history.past.at(-1) : history.future[0];
+  const { undoStack } = editor.store.getState();
+  const next = direction === 'undo' ? undo(undoStack) : redo(undoStack);
+  const step = direction === 'undo' ? undoStack.past.at(-1) : undoStack.future[0];
   if (!next || !step) return;
   const wanted = direction === 'undo' ? step.before : step.after;
   const keys = new Set(editor.kind.keysOf(next.texts));
   editor.store.setState({
-    history: next,
+    undoStack: next,
     selection: wanted.filter((key) => keys.has(key)),
     waypoint: null,
   });
@@ -161,8 +161,8 @@ export function travel(editor: Editor, direction: 'undo' | 'redo'): void {
 }
 
 export function select(editor: Editor, selection: readonly string[], waypoint: number | null = null): void {
-  const { history } = editor.store.getState();
-  editor.store.setState({ selection, waypoint, history: seal(history) });
+  const { undoStack } = editor.store.getState();
+  editor.store.setState({ selection, waypoint, undoStack: seal(undoStack) });
 }
 
 /** Adds one to the selection, or takes it out. */

@@ -21,7 +21,7 @@ export async function bringMesh(file: File, folder: string): Promise<Brought | n
   const { projectId, files } = useProjectStore.getState();
   if (!projectId) return null;
   try {
-    if (file.size > LARGEST) throw new Error(t('worldEditor:tooLarge', { mb: LARGEST / 1_000_000 }));
+    if (file.size > LARGEST) throw new Error(t('universeEditor:tooLarge', { mb: LARGEST / 1_000_000 }));
     const data = await file.arrayBuffer();
     const extent = extentOf(await readMesh(file.name, data));
     const path = freePath(folder, file.name, new Set(Object.keys(files)));
@@ -29,7 +29,10 @@ export async function bringMesh(file: File, folder: string): Promise<Brought | n
     return { path, extent };
   } catch (error) {
     const reason = error instanceof Error ? error.message : String(error);
-    notifications.show({ color: 'red', message: t('worldEditor:meshRefused', { name: file.name, reason }) });
+    notifications.show({
+      color: 'red',
+      message: t('universeEditor:meshRefused', { name: file.name, reason }),
+    });
     return null;
   }
 }

@@ -7,8 +7,8 @@ import { isReadOnly, travel, type Editor } from './editing';
 /** Has undo and redo of the frame work on this editor while it is the document in front. */
 export function useUndoInFront(editor: Editor): void {
   const isInFront = useTabs(({ front }) => front?.kind === 'file' && front.path === editor.path);
-  const canUndo = useStore(editor.store, ({ history }) => history.past.length > 0);
-  const canRedo = useStore(editor.store, ({ history }) => history.future.length > 0);
+  const canUndo = useStore(editor.store, ({ undoStack }) => undoStack.past.length > 0);
+  const canRedo = useStore(editor.store, ({ undoStack }) => undoStack.future.length > 0);
   useEffect(() => {
     if (!isInFront) return;
     const target = {

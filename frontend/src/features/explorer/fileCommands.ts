@@ -1,5 +1,5 @@
 import { IconHistory, IconPencil, IconStar, IconTrash } from '@tabler/icons-react';
-import type { UserAction } from '@/commands/registry';
+import type { UserCommand } from '@/commands/registry';
 import { openRename } from '@/store/dialogs/files';
 import { setScope } from '@/store/revisions/scope';
 import { useProjectStore } from '@/store/project';
@@ -27,11 +27,11 @@ const onFile = (act: (path: string) => void) => () => {
 };
 
 /** What the explorer's menu does, for the document in front. */
-export const fileActions: readonly UserAction[] = [
+export const fileCommands: readonly UserCommand[] = [
   {
     id: 'file.rename',
     group: 'project',
-    labelKey: 'frame:action.renameFile',
+    labelKey: 'frame:command.renameFile',
     icon: IconPencil,
     enabled: hasFile,
     run: onFile(openRename),
@@ -39,7 +39,7 @@ export const fileActions: readonly UserAction[] = [
   {
     id: 'file.makeMain',
     group: 'project',
-    labelKey: 'frame:action.makeMain',
+    labelKey: 'frame:command.makeMain',
     icon: IconStar,
     enabled: hasSpareTree,
     run: onFile((path) => useProjectStore.getState().setSettings({ main_tree: treeIdOf(path) ?? '' })),
@@ -47,7 +47,7 @@ export const fileActions: readonly UserAction[] = [
   {
     id: 'file.history',
     group: 'project',
-    labelKey: 'frame:action.fileHistory',
+    labelKey: 'frame:command.fileHistory',
     icon: IconHistory,
     enabled: hasFile,
     run: onFile(() => {
@@ -58,7 +58,7 @@ export const fileActions: readonly UserAction[] = [
   {
     id: 'file.delete',
     group: 'project',
-    labelKey: 'frame:action.deleteFile',
+    labelKey: 'frame:command.deleteFile',
     icon: IconTrash,
     enabled: hasSpareFile,
     run: onFile((path) => void removeDocument(path)),

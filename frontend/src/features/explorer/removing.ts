@@ -4,7 +4,7 @@ import { t } from '@/i18n';
 import { useProjectStore } from '@/store/project';
 import { documentName, filesOf, followDocument } from '@/store/project/moving';
 import { treeIdOf } from '@/store/project/state';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 import { closeTab } from '@/workspace/tabs';
 
@@ -27,8 +27,8 @@ export async function removeDocument(path: string): Promise<void> {
       project.deleteFile(file);
     }
     const refollow = followDocument(path);
-    const { universe, robot } = useWorldChoice.getState();
-    if (universe === name || robot === name) useWorldChoice.setState({ universe: null, robot: null });
+    const { universe, robot } = useUniverseChoice.getState();
+    if (universe === name || robot === name) useUniverseChoice.setState({ universe: null, robot: null });
     const others = files.length - 1;
     undoNotification({
       message: [

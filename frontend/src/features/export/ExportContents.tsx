@@ -8,7 +8,7 @@ import { OtherDownloads } from './OtherDownloads';
 import { PackageSection } from './PackageSection';
 
 /** Saves first: what is taken away is what is on the screen. */
-export function TakeAwayContents() {
+export function ExportContents() {
   const { t } = useTranslation('export');
   const projectId = useProjectStore((state) => state.projectId);
   const [saved, setSaved] = useState<'saving' | 'saved' | 'failed'>('saving');

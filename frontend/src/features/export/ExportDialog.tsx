@@ -2,18 +2,18 @@ import { Modal } from '@mantine/core';
 import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lazyPart } from '@/ui/parts';
-import { closeTakeAway, useTakeAway } from '@/store/dialogs/export';
+import { closeExportDialog, useExportDialog } from '@/store/dialogs/export';
 
-const Contents = lazyPart(async () => (await import('./ExportContents')).TakeAwayContents);
+const Contents = lazyPart(async () => (await import('./ExportContents')).ExportContents);
 
 /** Shows what can be taken along, before it is. */
-export function TakeAway() {
+export function ExportDialog() {
   const { t } = useTranslation('export');
-  const isOpen = useTakeAway((state) => state.isOpen);
+  const isOpen = useExportDialog((state) => state.isOpen);
   return (
     <Modal
       opened={isOpen}
-      onClose={closeTakeAway}
+      onClose={closeExportDialog}
       title={t('title')}
       size="xl"
       closeButtonProps={{ 'aria-label': t('close') }}

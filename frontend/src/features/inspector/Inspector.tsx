@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import type { Diagram, NodeId } from '@/model/diagram';
 import { NodeStatistics } from '@/features/timeline/NodeStatistics';
 import { useProjectStore } from '@/store/project';
-import { ActionButton } from '@/ui/CommandButton';
+import { CommandButton } from '@/ui/CommandButton';
 import { ActionSource } from './ActionSource';
 import { CommentField } from './CommentField';
 import { ConditionList } from './ConditionList';
@@ -50,7 +50,7 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
         {count > 1 && (
           <div className={classes['together']}>
             {TOGETHER.map((action) => (
-              <ActionButton key={action} action={action} />
+              <CommandButton key={action} command={action} />
             ))}
           </div>
         )}

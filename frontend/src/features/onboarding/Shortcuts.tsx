@@ -1,11 +1,11 @@
 import { Kbd, Modal, Table, Title } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
-import { useActionTable, type ActionGroup } from '@/commands/registry';
+import { useCommandTable, type CommandGroup } from '@/commands/registry';
 import { keysOf, shortcutLabel } from '@/commands/shortcuts';
 import classes from './onboarding.module.css';
 import { closeShortcuts, useShortcutsDialog } from '@/store/dialogs/shortcuts';
 
-const GROUPS: readonly ActionGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
+const GROUPS: readonly CommandGroup[] = ['run', 'edit', 'canvas', 'project', 'view', 'go'];
 
 /** Keys of the canvas that no command of the table has; their texts are `key.<id>`. */
 const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
@@ -16,15 +16,15 @@ const CANVAS_KEYS: readonly (readonly [id: string, keys: string])[] = [
   ['menu', 'Shift+F10'],
 ];
 
-/** Every shortcut, from the table of user actions: none can be missing here. */
+/** Every shortcut, from the table of user commands: none can be missing here. */
 export function Shortcuts() {
   const { t } = useTranslation('onboarding');
   const isOpen = useShortcutsDialog((state) => state.isOpen);
-  const actions = useActionTable((state) => state.actions);
-  const rowsOf = (group: ActionGroup) =>
-    Object.values(actions)
-      .filter((action) => action.group === group && keysOf(action) !== null)
-      .map((action) => ({ id: action.id, label: t(action.labelKey), keys: keysOf(action) }));
+  const commands = useCommandTable((state) => state.commands);
+  const rowsOf = (group: CommandGroup) =>
+    Object.values(commands)
+      .filter((command) => command.group === group && keysOf(command) !== null)
+      .map((command) => ({ id: command.id, label: t(command.labelKey), keys: keysOf(command) }));
   const sections = [
     ...GROUPS.map((group) => ({ id: group as string, rows: rowsOf(group) })),
     {

@@ -10,12 +10,12 @@ import classes from './projects.module.css';
 import { reasonOf } from './reason';
 import { timeAgo } from './timeAgo';
 import { TreePicture } from './TreePicture';
-import type { useProjectActions } from './useProjects';
+import type { useProjectCommands } from './useProjects';
 
 interface ProjectCardProps {
   readonly project: ProjectSummary;
   readonly shelf: ProjectShelf;
-  readonly actions: ReturnType<typeof useProjectActions>;
+  readonly actions: ReturnType<typeof useProjectCommands>;
 }
 
 /** Ready to type another name as soon as the field is there. */

@@ -17,10 +17,10 @@ import { useTranslation } from 'react-i18next';
 import type { ProjectShelf, ProjectSort } from '@/api/client';
 import { ProjectCard } from './ProjectCard';
 import classes from './projects.module.css';
-import { useProjects, type useProjectActions } from './useProjects';
+import { useProjects, type useProjectCommands } from './useProjects';
 
 interface ProjectListProps {
-  readonly actions: ReturnType<typeof useProjectActions>;
+  readonly actions: ReturnType<typeof useProjectCommands>;
   readonly searchField: RefObject<HTMLInputElement | null>;
 }
 

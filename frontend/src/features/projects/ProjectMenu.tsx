@@ -11,12 +11,12 @@ import {
 import { useTranslation } from 'react-i18next';
 import { api, type ProjectShelf } from '@/api/client';
 import type { ProjectSummary } from '@/api/types';
-import type { useProjectActions } from './useProjects';
+import type { useProjectCommands } from './useProjects';
 
 interface ProjectMenuProps {
   readonly project: ProjectSummary;
   readonly shelf: ProjectShelf;
-  readonly actions: ReturnType<typeof useProjectActions>;
+  readonly actions: ReturnType<typeof useProjectCommands>;
   readonly onRename: () => void;
 }
 

@@ -15,8 +15,8 @@ import { RepairDialog } from './RepairDialog';
 import { TemplateCards } from './TemplateCards';
 import { useFileDrop } from './useFileDrop';
 import { useImport } from './useImport';
-import { useProjectActions } from './useProjects';
-import { useStartActions } from './useStartCommands';
+import { useProjectCommands } from './useProjects';
+import { useStartCommands } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
@@ -26,7 +26,7 @@ const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
 /** Where the user chooses or makes a project. */
 export function StartPage() {
   const { t } = useTranslation('projects');
-  const actions = useProjectActions();
+  const actions = useProjectCommands();
   const { importFile, isImporting, offer, repair, decline } = useImport();
   const isDropping = useFileDrop(importFile);
   const pending = actions.create.isPending ? actions.create.variables : null;
@@ -35,7 +35,7 @@ export function StartPage() {
   const importButton = useRef<HTMLButtonElement>(null);
   const searchField = useRef<HTMLInputElement>(null);
   useShortcuts();
-  useStartActions({
+  useStartCommands({
     create: (template) => actions.create.mutate(template),
     chooseFile: () => importButton.current?.click(),
     search: () => searchField.current?.focus(),

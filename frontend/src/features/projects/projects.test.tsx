@@ -8,7 +8,7 @@ import type { ProjectSummary } from '@/api/types';
 import '@/i18n';
 import { theme } from '@/ui/theme';
 import { ProjectList } from './ProjectList';
-import { useProjectActions } from './useProjects';
+import { useProjectCommands } from './useProjects';
 
 function answer(...names: string[]): void {
   const items = names.map((name) => ({ id: name, name, updated_at: '2026-01-01T00:00:00Z' }));
@@ -17,7 +17,7 @@ function answer(...names: string[]): void {
 }
 
 function List() {
-  return <ProjectList actions={useProjectActions()} searchField={{ current: null }} />;
+  return <ProjectList actions={useProjectCommands()} searchField={{ current: null }} />;
 }
 
 function open(): void {

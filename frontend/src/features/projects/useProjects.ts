@@ -19,7 +19,7 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
 }
 
 /** What can be done with projects from the start page; failures are told in a notification. */
-export function useProjectActions() {
+export function useProjectCommands() {
   const { t } = useTranslation('projects');
   const queries = useQueryClient();
   const refresh = () => queries.invalidateQueries({ queryKey: ['projects'] });

@@ -2,24 +2,24 @@ import { IconPlus, IconSearch, IconUpload } from '@tabler/icons-react';
 import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
 import { everywhere } from '@/commands/global';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { templateText, useSortedTemplates } from './templates';
 
-interface StartActions {
+interface StartCommands {
   readonly create: (template: string) => void;
   readonly chooseFile: () => void;
   readonly search: () => void;
 }
 
-/** What the start page's buttons do, in the table of actions: for the command palette and for keys. */
-export function useStartActions(actions: StartActions): void {
+/** What the start page's buttons do, in the table of commands: for the command palette and for keys. */
+export function useStartCommands(actions: StartCommands): void {
   const { t } = useTranslation('projects');
   const templates = useSortedTemplates();
   const create = useEffectEvent((template: string) => actions.create(template));
   const chooseFile = useEffectEvent(() => actions.chooseFile());
   const search = useEffectEvent(() => actions.search());
   useEffect(() => {
-    const news = templates.map((template): UserAction => ({
+    const news = templates.map((template): UserCommand => ({
       id: `start.new.${template.id}`,
       group: 'project',
       labelKey: 'projects:newFrom',
@@ -27,7 +27,7 @@ export function useStartActions(actions: StartActions): void {
       icon: IconPlus,
       run: () => create(template.id),
     }));
-    const others: UserAction[] = [
+    const others: UserCommand[] = [
       {
         id: 'start.import',
         group: 'project',
@@ -43,6 +43,6 @@ export function useStartActions(actions: StartActions): void {
         run: () => search(),
       },
     ];
-    return registerActions([...everywhere, ...news, ...others]);
+    return registerCommands([...everywhere, ...news, ...others]);
   }, [templates, t]);
 }

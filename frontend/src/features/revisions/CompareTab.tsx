@@ -9,12 +9,12 @@ import classes from './history.module.css';
 import { LabelButton } from './LabelButton';
 import { restore } from './restoring';
 import { useDifferences } from './useSides';
-import { useHistory } from './useRevisions';
+import { useRevisions } from './useRevisions';
 import { sayRevision } from './words';
 
 /** A revision beside what it is compared with, and the way back to it. */
 export function CompareTab() {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const comparison = useComparison((state) => state.comparison);
   if (comparison) return <Compared comparison={comparison} />;
   return (
@@ -25,13 +25,13 @@ export function CompareTab() {
 }
 
 function Compared({ comparison }: { readonly comparison: Comparison }) {
-  const { t, i18n } = useTranslation('history');
+  const { t, i18n } = useTranslation('revisions');
   const present = useProjectStore((state) => state.revision);
   const canEdit = useProjectStore((state) => state.role !== 'viewer');
   const sides = sidesOf(comparison, present);
   const { data: files = [], error, isSuccess } = useDifferences(sides);
   const shown = files.find((file) => file.path === comparison.path) ?? files[0];
-  const known = useHistory('', true).items;
+  const known = useRevisions('', true).items;
   const revision = known.find((item) => item.number === comparison.revision.number) ?? comparison.revision;
   const isAlone = known.every((item) => item.author === revision.author);
   const when = new Date(revision.created_at).toLocaleString(i18n.language);
@@ -81,8 +81,8 @@ interface AgainstSelectProps {
 
 /** What the revision is compared with: its past, the present, or any other revision. */
 function AgainstSelect({ comparison, present }: AgainstSelectProps) {
-  const { t } = useTranslation('history');
-  const { items } = useHistory('', true);
+  const { t } = useTranslation('revisions');
+  const { items } = useRevisions('', true);
   const { number } = comparison.revision;
   const others = items
     .filter((item) => item.number !== number)
@@ -120,7 +120,7 @@ function AgainstSelect({ comparison, present }: AgainstSelectProps) {
 }
 
 function RestoreMenu({ number, path }: { readonly number: number; readonly path: string | null }) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   return (
     <Menu position="bottom-end">
       <Menu.Target>
@@ -150,7 +150,7 @@ function RestoreMenu({ number, path }: { readonly number: number; readonly path:
 const SIGN = { added: '+', removed: '−', changed: '≠' } as const;
 
 function FileList({ files, shown }: { readonly files: readonly FileDifference[]; readonly shown: string }) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   return (
     <ul className={classes['files']} aria-label={t('files')}>
       {files.map((file) => (

@@ -18,7 +18,7 @@ interface FileDifferenceViewProps {
 
 /** What differs in one file: a picture of a tree, or the text of anything else. */
 export function FileDifferenceView({ path, sides }: FileDifferenceViewProps) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const found = useFileSides(path, sides);
   if (found.error) return <Said>{t('failed', { reason: found.error.message })}</Said>;
   if (!found.data) return <Loading />;
@@ -36,7 +36,7 @@ interface TreeDifferenceViewProps extends FileDifferenceViewProps {
 }
 
 function TreeDifferenceView({ path, treeId, files, sides }: TreeDifferenceViewProps) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const [wanted, setView] = useState<View>('picture');
   const before = useMemo(() => diagramOf(files.before, treeId), [files, treeId]);
   const after = useMemo(() => diagramOf(files.after, treeId), [files, treeId]);
@@ -70,7 +70,7 @@ interface XmlDifferenceProps {
 }
 
 function XmlDifference({ before, after, sides }: XmlDifferenceProps) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const found = useXmlSides(before, after, sides);
   if (found.error) return <Said>{t('failed', { reason: found.error.message })}</Said>;
   if (!found.data) return <Loading />;
@@ -86,7 +86,7 @@ function Said({ children }: { readonly children: ReactNode }) {
 }
 
 function Loading() {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   return (
     <Said>
       <Loader size={14} mr={8} /> {t('loading')}

@@ -8,7 +8,7 @@ import { useLabel } from './useRevisions';
 
 /** Names a revision, so that it is found again. */
 export function LabelButton({ revision }: { readonly revision: Revision }) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const [isOpen, setOpen] = useState(false);
   const [text, setText] = useState(revision.label);
   const label = useLabel();

@@ -31,7 +31,7 @@ export function RevisionRow({
   onChoose,
   onUnfold,
 }: RevisionRowProps) {
-  const { t, i18n } = useTranslation('history');
+  const { t, i18n } = useTranslation('revisions');
   const canEdit = useProjectStore((state) => state.role !== 'viewer');
   const when = new Date(revision.created_at);
   const Fold = isUnfolded ? IconChevronDown : IconChevronRight;

@@ -11,18 +11,18 @@ import { groupRevisions, type RevisionGroup } from './groups';
 import classes from './history.module.css';
 import { RevisionRow } from './RevisionRow';
 import { setScope, useScope } from '@/store/revisions/scope';
-import { useHistory } from './useRevisions';
+import { useRevisions } from './useRevisions';
 
 /** Every state that the document in front, or the project, was saved in. */
-export function HistoryPanel() {
-  const { t } = useTranslation('history');
+export function RevisionsPanel() {
+  const { t } = useTranslation('revisions');
   const panel = useRef<HTMLDivElement>(null);
   const isVisible = useVisible(panel);
   const scope = useScope((state) => state.scope);
   const front = useTabs((state) => state.front);
   const file = front?.kind === 'tree' ? treePath(front.id) : front?.kind === 'file' ? front.path : null;
   const path = scope === 'file' && file !== null ? file : '';
-  const history = useHistory(path, isVisible);
+  const history = useRevisions(path, isVisible);
   const groups = groupRevisions(history.items);
   const isAlone = new Set(history.items.map((item) => item.author)).size <= 1;
   const name =

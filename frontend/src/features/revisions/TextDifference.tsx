@@ -21,7 +21,7 @@ const COLLAPSE = { margin: 3, minSize: 6 };
 
 /** Two texts side by side; one below the other where the window is narrow. */
 export function TextDifference({ path, before, after }: TextDifferenceProps) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const host = useRef<HTMLDivElement>(null);
   const isNarrow = useMediaQuery('(max-width: 900px)', false, { getInitialValueInEffect: false });
   useEffect(() => {

@@ -31,7 +31,7 @@ const onThePage = (name: string) => `var(--bts-${name})`;
 
 /** Both states of a tree in one picture: what came, went, changed and moved; and the same in words. */
 export function TreePicture({ before, after }: TreePictureProps) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const [isLarge, setLarge] = useState(false);
   const [chosen, setChosen] = useState<string | null>(null);
@@ -92,7 +92,7 @@ export function TreePicture({ before, after }: TreePictureProps) {
 }
 
 function Change({ name, change }: { readonly name: string; readonly change: NodeDifference }) {
-  const { t } = useTranslation('history');
+  const { t } = useTranslation('revisions');
   return (
     <>
       <span className={classes['sign']} style={{ color: COLORS[change.kind] }} aria-hidden="true">

@@ -8,16 +8,16 @@ export async function restore(number: number, paths: readonly string[]): Promise
   try {
     const { previous, isChanged } = await restoreRevision(number, paths);
     if (!isChanged) {
-      notifications.show({ message: t('history:alreadySo', { number }) });
+      notifications.show({ message: t('revisions:alreadySo', { number }) });
       return;
     }
     undoNotification({
-      message: t('history:restored', { number }),
-      undoLabel: t('history:undo'),
+      message: t('revisions:restored', { number }),
+      undoLabel: t('revisions:undo'),
       undo: () => void restore(previous, paths),
     });
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
-    notifications.show({ color: 'red', title: t('history:restoreFailed'), message });
+    notifications.show({ color: 'red', title: t('revisions:restoreFailed'), message });
   }
 }

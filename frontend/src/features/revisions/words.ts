@@ -14,7 +14,7 @@ const KNOWN: readonly (readonly [RegExp, string])[] = [
 ];
 
 /** What a revision did, in the page's language where it is one of our own sentences. */
-export function sayRevision({ message, number }: Revision, t: TFunction<'history'>): string {
+export function sayRevision({ message, number }: Revision, t: TFunction<'revisions'>): string {
   for (const [pattern, key] of KNOWN) {
     const found = pattern.exec(message);
     if (found) return t(key as 'message.edit', { what: (found[1] ?? '').replaceAll('.json', '') });

@@ -148,7 +148,7 @@ function BodyForm({ editor, name, index, body, isSized, meshes }: BodyFormProps)
       {isSized && shape === 'mesh' ? (
         <Select
           size="xs"
-          label={t('worldEditor:file')}
+          label={t('universeEditor:file')}
           value={file}
           data-testid={`shape-${index}-file`}
           disabled={isReadOnly()}

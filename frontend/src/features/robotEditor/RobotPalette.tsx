@@ -70,7 +70,7 @@ function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
         ))}
         <Menu.Divider />
         <Menu.Item leftSection={<IconUpload size={16} />} onClick={ask}>
-          {t('worldEditor:bringMesh')}
+          {t('universeEditor:bringMesh')}
         </Menu.Item>
       </PlaceMenu>
       {input}

@@ -41,7 +41,7 @@ export class RobotScene extends ThingScene<Part> {
   }
 
   /** What moves when parts move: they, and all that hangs on them. */
-  carriedBy(keys: readonly string[]): THREE.Object3D[] {
+  heldNodesOf(keys: readonly string[]): THREE.Object3D[] {
     const { robot } = this;
     if (!robot) return [];
     const links = new Set(

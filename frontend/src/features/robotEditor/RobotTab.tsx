@@ -6,7 +6,7 @@ import { EditorToolbar } from '@/features/editor3d/EditorToolbar';
 import { followTexts } from '@/features/editor3d/editing';
 import { readRobot } from '@/model/robot/read';
 import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { editorOf, GRIDS, urdfPathOf, type RobotEditor } from './editor';
 import { RobotPanel } from './RobotPanel';
 import { RobotView } from './RobotView';
@@ -53,7 +53,7 @@ function RobotToolbar({ editor }: { readonly editor: RobotEditor }) {
   const runHere = () => {
     const id = editor.path.split('/')[1] ?? '';
     const { settings } = useProjectStore.getState();
-    useWorldChoice.setState({ robot: settings?.robot === id ? null : id });
+    useUniverseChoice.setState({ robot: settings?.robot === id ? null : id });
     perform('run.run');
   };
   return (

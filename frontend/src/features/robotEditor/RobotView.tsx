@@ -12,7 +12,7 @@ import type { Addable } from '@/model/robot/parts';
 import { partOf, type Robot } from '@/model/robot/types';
 import { duplicateSelected, nudge, placePart, removeSelected, turnSelected } from './commands';
 import { readingOf, type RobotEditor } from './editor';
-import { carrierOf, handlesOf } from './gestures';
+import { dragHandlerOf, handlesOf } from './gestures';
 import { urdfFolder } from './meshes';
 import { RobotPalette } from './RobotPalette';
 import { RobotScene } from './RobotScene';
@@ -70,7 +70,7 @@ function RobotStage({ editor, robot, isDark }: RobotViewProps & { readonly isDar
   const folder = urdfFolder(editor);
   const scene = useMemo(() => new RobotScene(isSimple, redraw, folder), [isSimple, redraw, folder]);
   const staged = useMemo(
-    () => ({ scene, handles: handlesOf(editor, scene), carrier: carrierOf(editor, scene) }),
+    () => ({ scene, handles: handlesOf(editor, scene), dragHandler: dragHandlerOf(editor, scene) }),
     [editor, scene],
   );
   useEffect(() => () => scene.dispose(), [scene]);

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 import { poseOf, type Handles } from '@/features/editor3d/scene/Gizmo';
-import type { Carrier } from '@/features/editor3d/scene/PointerTool';
+import type { DragHandler } from '@/features/editor3d/scene/PointerTool';
 import { select, toggle } from '@/features/editor3d/editing';
 import { jointOf, move, place } from '@/model/robot/edits';
 import { partOf, type Part } from '@/model/robot/types';
@@ -31,7 +31,7 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
         grid,
       };
     },
-    held: () => scene.carriedBy(movable(editor).map(({ key }) => key)),
+    held: () => scene.heldNodesOf(movable(editor).map(({ key }) => key)),
     show: () => {
       const { robot } = readingOf(editor);
       if (robot) scene.showRobot(robot);
@@ -57,7 +57,7 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
 }
 
 /** What the pointer does to the parts of a robot: the base stays, everything else is carried at its height. */
-export function carrierOf(editor: RobotEditor, scene: RobotScene): Carrier {
+export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {
   return {
     take: (hit) => {
       const { robot } = readingOf(editor);
@@ -65,7 +65,7 @@ export function carrierOf(editor: RobotEditor, scene: RobotScene): Carrier {
       if (!robot || !part || !jointOf(robot, part)) return null;
       const { selection } = editor.store.getState();
       const keys = selection.includes(hit.key) ? selection : [hit.key];
-      return { keys, anchor: [part.pose[0], part.pose[1]], nodes: scene.carriedBy(keys) };
+      return { keys, anchor: [part.pose[0], part.pose[1]], nodes: scene.heldNodesOf(keys) };
     },
     drop: (keys, [dx, dy]) => {
       if (!keys.every((key) => editor.store.getState().selection.includes(key))) select(editor, keys);

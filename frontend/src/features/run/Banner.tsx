@@ -56,7 +56,7 @@ export function Banner() {
       {banner.link ? <GoButton link={banner.link} /> : null}
       {banner.kind === 'connection' && banner.tone === 'error' ? (
         <Button size="compact-sm" variant="white" onClick={() => perform('run.run')}>
-          {t('action.run')}
+          {t('command.run')}
         </Button>
       ) : null}
       {banner.tone === 'error' ? <CloseButton size="sm" aria-label={t('dismiss')} onClick={dismiss} /> : null}

@@ -69,7 +69,7 @@ function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
   const speed = useSessionStore((state) => state.speed);
-  const isDisabled = useRunStore((state) => state.hindrance !== null);
+  const isDisabled = useRunStore((state) => state.runBlocker !== null);
   return [
     {
       label: t('tickRate'),

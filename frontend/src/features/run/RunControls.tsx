@@ -3,12 +3,12 @@ import { IconPlayerPlayFilled } from '@tabler/icons-react';
 import { useTranslation } from 'react-i18next';
 import { perform } from '@/commands/registry';
 import { shortcutLabel } from '@/commands/shortcuts';
-import { ActionButton } from '@/ui/CommandButton';
+import { CommandButton } from '@/ui/CommandButton';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 import { ExecutorState } from './ExecutorState';
 import { RunMenu } from './RunMenu';
-import { useHindrance } from './useRunBlocker';
+import { useRunBlocker } from './useRunBlocker';
 import { RateSelects } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
@@ -22,19 +22,19 @@ export function RunControls() {
   const isRunning = executor === 'application_running';
   const isPaused = executor === 'paused';
   const hasApplication = isRunning || isPaused;
-  const hindrance = useHindrance();
-  const isHindered = hindrance !== null;
+  const runBlocker = useRunBlocker();
+  const isBlocked = runBlocker !== null;
   const hasChanged = useHasChanged();
   const help = hasApplication ? (hasChanged ? 'changedHelp' : 'runAgainHelp') : 'runHelp';
-  const runLabel = t(hasApplication ? 'runAgain' : 'action.run');
+  const runLabel = t(hasApplication ? 'runAgain' : 'command.run');
 
   return (
     <Group gap={4} wrap="nowrap">
       <Tooltip
-        label={hindrance ? t(`hindrance.${hindrance}`) : `${t(help)} (${shortcutLabel('F5')})`}
+        label={runBlocker ? t(`runBlocker.${runBlocker}`) : `${t(help)} (${shortcutLabel('F5')})`}
         multiline
         maw={340}
-        events={{ hover: true, focus: isHindered, touch: isHindered }}
+        events={{ hover: true, focus: isBlocked, touch: isBlocked }}
       >
         <Button
           className={classes['runButton']}
@@ -45,8 +45,8 @@ export function RunControls() {
           variant={hasApplication && !hasChanged ? 'light' : 'filled'}
           loading={stage !== null}
           // It stays in the order of the keyboard, and can be asked why it does nothing.
-          data-disabled={isHindered}
-          aria-disabled={isHindered}
+          data-disabled={isBlocked}
+          aria-disabled={isBlocked}
           data-testid="run"
           onClick={() => perform('run.run')}
         >
@@ -54,14 +54,14 @@ export function RunControls() {
         </Button>
       </Tooltip>
       {isPaused ? (
-        <ActionButton action="run.resume" testId="resume" isDisabled={isHindered} />
+        <CommandButton command="run.resume" testId="resume" isDisabled={isBlocked} />
       ) : (
-        <ActionButton action="run.pause" testId="pause" isDisabled={!isRunning || isHindered} />
+        <CommandButton command="run.pause" testId="pause" isDisabled={!isRunning || isBlocked} />
       )}
-      <ActionButton action="run.step" testId="step" isDisabled={!hasApplication || isHindered} />
-      <RunMenu isDisabled={isHindered} />
-      <ActionButton action="run.stop" testId="stop" isDisabled={!hasApplication || isHindered} />
-      <ActionButton action="run.end" testId="end-session" isDisabled={connection === 'off' || isHindered} />
+      <CommandButton command="run.step" testId="step" isDisabled={!hasApplication || isBlocked} />
+      <RunMenu isDisabled={isBlocked} />
+      <CommandButton command="run.stop" testId="stop" isDisabled={!hasApplication || isBlocked} />
+      <CommandButton command="run.end" testId="end-session" isDisabled={connection === 'off' || isBlocked} />
       <Divider orientation="vertical" mx={4} my={8} className={classes['rates']} />
       <div className={classes['rates']}>
         <RateSelects />

@@ -2,7 +2,7 @@ import { ActionIcon, Kbd, Menu, Tooltip } from '@mantine/core';
 import { IconCheck, IconChevronDown } from '@tabler/icons-react';
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
-import { perform, useActionTable } from '@/commands/registry';
+import { perform, useCommandTable } from '@/commands/registry';
 import { keysOf } from '@/commands/shortcuts';
 import { setStatusRate, STATUS_RATES, useStatusRate } from '@/store/session/statusRate';
 import { RateMenus } from './RateSelects';
@@ -13,7 +13,7 @@ const COMMANDS = ['run.step10', 'run.restart', 'run.resetWorld', 'run.teleop', '
 /** What is not needed often enough for a button, and how the run is shown on the blocks. */
 export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
   const { t } = useTranslation('run');
-  const table = useActionTable((state) => state.actions);
+  const table = useCommandTable((state) => state.commands);
   const isFollowing = useFollowing((state) => state.isOn);
   const hz = useStatusRate((state) => state.hz);
   const [isOpen, setOpen] = useState(false);
@@ -49,7 +49,7 @@ export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
           checked={isFollowing}
           onChange={() => perform('run.followRunning')}
         >
-          {t('action.followRunning')}
+          {t('command.followRunning')}
         </Menu.CheckboxItem>
         <RateMenus />
         <Menu.Label>{t('statusRate')}</Menu.Label>

@@ -7,7 +7,7 @@ import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 
 /** Another page drives the session: says so, and offers to drive it here. */
-export function LookingOn() {
+export function ViewerNotice() {
   const { t } = useTranslation('run');
   const client = useSessionStore(({ connection, introspection }) =>
     connection === 'open' && introspection?.role === 'viewer' ? introspection.client_id : null,
@@ -20,7 +20,7 @@ export function LookingOn() {
   return (
     <div className={classes['offer']} role="status" data-testid="looking-on" data-taken={wasTakenOver}>
       <span>
-        {t(wasTakenOver ? 'takenOver' : 'hindrance.onlooker')}{' '}
+        {t(wasTakenOver ? 'takenOver' : 'runBlocker.viewer')}{' '}
         <span className={classes['hint']}>{t('takeOverHelp')}</span>
       </span>
       <Button

@@ -11,11 +11,11 @@ import {
   IconRotateClockwise,
   IconSteeringWheel,
 } from '@tabler/icons-react';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import {
   hasApplication,
   hasSession,
-  isLookingOn,
+  isViewer,
   isPaused,
   isRunning,
   pause,
@@ -33,21 +33,21 @@ import { setDriving, useTeleop } from '@/store/run/teleop';
 import { useRunStore } from '@/store/run/store';
 import { useSessionStore } from '@/store/session/store';
 
-const rows: UserAction[] = [
+const rows: UserCommand[] = [
   {
     id: 'run.run',
     group: 'run',
-    labelKey: 'run:action.run',
+    labelKey: 'run:command.run',
     icon: IconPlayerPlayFilled,
     shortcut: 'F5',
     inTextFields: true,
-    enabled: () => useRunStore.getState().stage === null && useRunStore.getState().hindrance === null,
+    enabled: () => useRunStore.getState().stage === null && useRunStore.getState().runBlocker === null,
     run: () => void runProject(),
   },
   {
     id: 'run.pause',
     group: 'run',
-    labelKey: 'run:action.pause',
+    labelKey: 'run:command.pause',
     icon: IconPlayerPauseFilled,
     shortcut: 'F6',
     inTextFields: true,
@@ -57,7 +57,7 @@ const rows: UserAction[] = [
   {
     id: 'run.resume',
     group: 'run',
-    labelKey: 'run:action.resume',
+    labelKey: 'run:command.resume',
     icon: IconPlayerPlayFilled,
     shortcut: 'F7',
     inTextFields: true,
@@ -67,7 +67,7 @@ const rows: UserAction[] = [
   {
     id: 'run.step',
     group: 'run',
-    labelKey: 'run:action.step',
+    labelKey: 'run:command.step',
     icon: IconPlayerSkipForwardFilled,
     shortcut: 'F10',
     inTextFields: true,
@@ -77,7 +77,7 @@ const rows: UserAction[] = [
   {
     id: 'run.stop',
     group: 'run',
-    labelKey: 'run:action.stop',
+    labelKey: 'run:command.stop',
     icon: IconPlayerStopFilled,
     shortcut: 'Shift+F5',
     inTextFields: true,
@@ -87,7 +87,7 @@ const rows: UserAction[] = [
   {
     id: 'run.step10',
     group: 'run',
-    labelKey: 'run:action.step10',
+    labelKey: 'run:command.step10',
     icon: IconPlayerTrackNextFilled,
     shortcut: 'Shift+F10',
     inTextFields: true,
@@ -97,21 +97,21 @@ const rows: UserAction[] = [
   {
     id: 'run.followRunning',
     group: 'run',
-    labelKey: 'run:action.followRunning',
+    labelKey: 'run:command.followRunning',
     icon: IconFocus2,
     run: toggleFollowing,
   },
   {
     id: 'run.teleop',
     group: 'run',
-    labelKey: 'run:action.teleop',
+    labelKey: 'run:command.teleop',
     icon: IconDeviceGamepad2,
     run: () => setDriving(!useTeleop.getState().isOn),
   },
   {
     id: 'run.restart',
     group: 'run',
-    labelKey: 'run:action.restart',
+    labelKey: 'run:command.restart',
     icon: IconRotateClockwise,
     shortcut: '$mod+Shift+F5',
     inTextFields: true,
@@ -121,7 +121,7 @@ const rows: UserAction[] = [
   {
     id: 'run.resetWorld',
     group: 'run',
-    labelKey: 'run:action.resetWorld',
+    labelKey: 'run:command.resetWorld',
     icon: IconRefresh,
     enabled: () => !['idle', 'connected'].includes(useSessionStore.getState().executor),
     run: () => void resetWorld(),
@@ -129,19 +129,19 @@ const rows: UserAction[] = [
   {
     id: 'run.takeOver',
     group: 'run',
-    labelKey: 'run:action.takeOver',
+    labelKey: 'run:command.takeOver',
     icon: IconSteeringWheel,
-    enabled: isLookingOn,
+    enabled: isViewer,
     run: () => void takeOver(),
   },
   {
     id: 'run.end',
     group: 'run',
-    labelKey: 'run:action.end',
+    labelKey: 'run:command.end',
     icon: IconPower,
     enabled: hasSession,
     run: () => void end(),
   },
 ];
 
-export const registerRunActions = () => registerActions(rows);
+export const registerRunCommands = () => registerCommands(rows);

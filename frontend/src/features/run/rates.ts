@@ -1,4 +1,4 @@
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';
@@ -10,32 +10,32 @@ export const DEFAULT_TICK_HZ = 20;
 /** How fast time may pass; zero is as fast as the machine can. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0] as const;
 
-const mayRun = () => useRunStore.getState().hindrance === null;
+const mayRun = () => useRunStore.getState().runBlocker === null;
 
-const rows: readonly UserAction[] = [
-  ...TICK_RATES.map((hz): UserAction => ({
+const rows: readonly UserCommand[] = [
+  ...TICK_RATES.map((hz): UserCommand => ({
     id: `run.tickRate.${hz}`,
     group: 'rates',
-    labelKey: 'run:action.tickRate',
+    labelKey: 'run:command.tickRate',
     labelValues: { hz },
     enabled: mayRun,
     run: () => setTickRate(hz),
   })),
-  ...SPEEDS.map((speed): UserAction => ({
+  ...SPEEDS.map((speed): UserCommand => ({
     id: `run.speed.${speed}`,
     group: 'rates',
-    labelKey: speed === 0 ? 'run:action.fullSpeed' : 'run:action.speed',
+    labelKey: speed === 0 ? 'run:command.fullSpeed' : 'run:command.speed',
     labelValues: { speed },
     enabled: mayRun,
     run: () => setSpeed(speed),
   })),
-  ...STATUS_RATES.map((hz): UserAction => ({
+  ...STATUS_RATES.map((hz): UserCommand => ({
     id: `run.statusRate.${hz}`,
     group: 'rates',
-    labelKey: hz === 0 ? 'run:action.everyStatus' : 'run:action.statusRate',
+    labelKey: hz === 0 ? 'run:command.everyStatus' : 'run:command.statusRate',
     labelValues: { hz },
     run: () => setStatusRate(hz),
   })),
 ];
 
-export const registerRateActions = () => registerActions(rows);
+export const registerRateCommands = () => registerCommands(rows);

@@ -1,7 +1,7 @@
 import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { history } from '@/store/session/trace/trace';
+import { trace } from '@/store/session/trace/trace';
 import { BIT } from '@/store/session/trace/nodeTrace';
 import { useSessionStore } from '@/store/session/store';
 import classes from './timeline.module.css';
@@ -59,9 +59,9 @@ export function NodeStatistics({ tree, node }: NodeStatisticsProps) {
 function statisticsOf(uids: readonly number[]): Statistics {
   const sum: Statistics = { status: 'IDLE', runs: 0, seconds: 0, successes: 0, failures: 0 };
   for (const uid of uids) {
-    const status = history.status(uid);
+    const status = trace.status(uid);
     if (status !== 'IDLE') sum.status = status;
-    for (const { start, end, mask } of history.stretches(uid, history.begin, history.now)) {
+    for (const { start, end, mask } of trace.stretches(uid, trace.begin, trace.now)) {
       if (mask & BIT.RUNNING) {
         sum.runs += 1;
         sum.seconds += end - start;

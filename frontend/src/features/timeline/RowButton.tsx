@@ -1,7 +1,7 @@
 import { memo, useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import type { NodeStatus } from '@/generated/messages';
-import { history } from '@/store/session/trace/trace';
+import { trace } from '@/store/session/trace/trace';
 import type { TimelineRow } from './rows';
 import classes from './timeline.module.css';
 
@@ -48,10 +48,10 @@ export const RowButton = memo(function RowButton(props: RowButtonProps) {
 
 /** What a node is doing and has done, once a second. */
 function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
-  const [summary, setSummary] = useState(() => ({ status: history.status(uid), ...history.runningOf(uid) }));
+  const [summary, setSummary] = useState(() => ({ status: trace.status(uid), ...trace.runningOf(uid) }));
   useEffect(() => {
     const timer = setInterval(() => {
-      const next = { status: history.status(uid), ...history.runningOf(uid) };
+      const next = { status: trace.status(uid), ...trace.runningOf(uid) };
       setSummary((old) =>
         old.status === next.status && old.times === next.times && Math.abs(old.seconds - next.seconds) < 0.1
           ? old

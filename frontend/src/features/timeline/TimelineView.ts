@@ -1,4 +1,4 @@
-import { history, HISTORY_S } from '@/store/session/trace/trace';
+import { trace, HISTORY_S } from '@/store/session/trace/trace';
 import { AXIS_PX, drawTimeline, paletteOf } from './draw';
 import { spanOf, zoomed, type Span } from './span';
 
@@ -24,8 +24,8 @@ export class TimelineView {
     this.redraw();
     let drawnAt = -1;
     const timer = setInterval(() => {
-      if (history.now === drawnAt) return;
-      drawnAt = history.now;
+      if (trace.now === drawnAt) return;
+      drawnAt = trace.now;
       this.redraw();
     }, REDRAW_MS);
     const resized = new ResizeObserver(this.redraw);
@@ -49,7 +49,7 @@ export class TimelineView {
   }
 
   span(): Span {
-    return spanOf(this.end, this.length, history.begin, history.now);
+    return spanOf(this.end, this.length, trace.begin, trace.now);
   }
 
   readonly redraw = (): void => {
@@ -58,7 +58,7 @@ export class TimelineView {
 
   /** Zooms about a share of the width. */
   zoom(factor: number, share = 1): void {
-    const longest = Math.min(HISTORY_S, history.now - history.begin);
+    const longest = Math.min(HISTORY_S, trace.now - trace.begin);
     this.show(zoomed(this.span(), factor, share, longest));
   }
 
@@ -70,7 +70,7 @@ export class TimelineView {
   }
 
   showAll(): void {
-    this.show({ from: history.begin, to: history.now });
+    this.show({ from: trace.begin, to: trace.now });
   }
 
   follow(): void {
@@ -79,7 +79,7 @@ export class TimelineView {
 
   private show({ from, to }: Span): void {
     this.length = to - from;
-    this.setEnd(to >= history.now ? null : Math.max(to, history.begin + this.length));
+    this.setEnd(to >= trace.now ? null : Math.max(to, trace.begin + this.length));
   }
 
   private setEnd(end: number | null): void {
@@ -98,7 +98,7 @@ export class TimelineView {
     if (canvas.width !== Math.round(width * ratio)) canvas.width = Math.round(width * ratio);
     if (canvas.height !== Math.round(height * ratio)) canvas.height = Math.round(height * ratio);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    drawTimeline(history, {
+    drawTimeline(trace, {
       context,
       width,
       height: Math.max(height, AXIS_PX),

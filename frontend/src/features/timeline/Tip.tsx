@@ -1,5 +1,5 @@
 import { useTranslation } from 'react-i18next';
-import { history } from '@/store/session/trace/trace';
+import { trace } from '@/store/session/trace/trace';
 import { statusesOf, type TimelineRow } from './rows';
 import { timeLabel } from './span';
 import classes from './timeline.module.css';
@@ -18,7 +18,7 @@ const WIDTH_PX = 260;
 /** What the node did at the time under the pointer. */
 export function Tip({ x, y, row, time }: TipAt) {
   const { t } = useTranslation(['timeline', 'run']);
-  const stretch = history.stretches(row.uid, time, time).find((s) => s.start <= time && s.end >= time);
+  const stretch = trace.stretches(row.uid, time, time).find((s) => s.start <= time && s.end >= time);
   const left = Math.min(x + OFFSET_PX, window.innerWidth - WIDTH_PX);
   return (
     <div className={classes['tip']} style={{ left, top: y - 44 }} role="presentation">

@@ -1,5 +1,5 @@
 import { BIT } from '@/store/session/trace/nodeTrace';
-import type { History } from '@/store/session/trace/trace';
+import type { Trace } from '@/store/session/trace/trace';
 import { marks, timeLabel, type Span } from './span';
 
 export const ROW_PX = 22;
@@ -42,7 +42,7 @@ interface Picture {
 }
 
 /** Draws the axis and the strips of the rows that can be seen; the cost does not depend on the others. */
-export function drawTimeline(history: History, picture: Picture): void {
+export function drawTimeline(trace: Trace, picture: Picture): void {
   const { context, width, height, span, uids, scrollTop, palette } = picture;
   context.clearRect(0, 0, width, height);
   const scale = width / (span.to - span.from);
@@ -68,14 +68,14 @@ export function drawTimeline(history: History, picture: Picture): void {
   const last = Math.min(uids.length, Math.ceil((scrollTop + height - AXIS_PX) / ROW_PX));
   for (let row = first; row < last; row++) {
     const top = AXIS_PX + row * ROW_PX - scrollTop;
-    for (const { start, end, mask } of history.stretches(uids[row] ?? -1, span.from, span.to)) {
+    for (const { start, end, mask } of trace.stretches(uids[row] ?? -1, span.from, span.to)) {
       const left = Math.max(xOf(start), 0);
       drawStretch(context, mask, left, Math.max(xOf(end) - left, 1), top, palette);
     }
   }
   context.restore();
 
-  const now = xOf(history.now);
+  const now = xOf(trace.now);
   if (now >= 0 && now <= width) {
     context.fillStyle = palette.text;
     context.fillRect(Math.min(Math.round(now), width - 1), AXIS_PX - 5, 1, height);

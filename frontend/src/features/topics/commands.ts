@@ -1,25 +1,25 @@
 import { IconPlugConnected, IconSend } from '@tabler/icons-react';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { useSessionStore } from '@/store/session/store';
 import { openConnect } from './ConnectDialog';
 import { openPublish } from './publishing';
 
-const rows: UserAction[] = [
+const rows: UserCommand[] = [
   {
     id: 'run.connectRos',
     group: 'run',
-    labelKey: 'topics:action.connect',
+    labelKey: 'topics:command.connect',
     icon: IconPlugConnected,
     run: openConnect,
   },
   {
     id: 'run.publish',
     group: 'run',
-    labelKey: 'topics:action.publish',
+    labelKey: 'topics:command.publish',
     icon: IconSend,
     enabled: () => !['idle', 'connected'].includes(useSessionStore.getState().executor),
     run: () => openPublish('', ''),
   },
 ];
 
-export const registerTopicActions = () => registerActions(rows);
+export const registerTopicCommands = () => registerCommands(rows);

@@ -8,11 +8,11 @@ import type { UniverseInfo } from '@/api/types';
 import { ownRobots, openNewRobot } from '@/store/dialogs/newRobot';
 import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { ChoiceCards } from './ChoiceCards';
 import { OUTSIDE, titled } from './titles';
 import classes from './universe.module.css';
-import { closeWorlds } from '@/store/dialogs/universeChooser';
+import { closeUniverseChooser } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
 /** The robot that the universe itself names. */
@@ -21,12 +21,12 @@ const OF_UNIVERSE = '';
 type Scope = 'project' | 'once';
 
 /** Universe, robot and seed: for the project, or only as long as this page is open. */
-export function WorldChooser() {
+export function UniverseChooser() {
   const { t } = useTranslation('universe');
   const { t: title } = useTranslation('worlds');
   const settings = useProjectStore((state) => state.settings);
   const paths = useProjectStore((state) => state.files);
-  const once = useWorldChoice();
+  const once = useUniverseChoice();
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
   const robots = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });
   const [scope, setScope] = useState<Scope>(once.universe === null ? 'project' : 'once');
@@ -63,18 +63,18 @@ export function WorldChooser() {
 
   const confirm = () => {
     const wanted = robot === OF_UNIVERSE ? null : robot;
-    if (scope === 'once') useWorldChoice.setState({ universe, robot: wanted, seed });
+    if (scope === 'once') useUniverseChoice.setState({ universe, robot: wanted, seed });
     else {
-      useWorldChoice.setState({ universe: null, robot: null, seed });
+      useUniverseChoice.setState({ universe: null, robot: null, seed });
       const { setSettings } = useProjectStore.getState();
       setSettings({ universe, robot: wanted ?? undefined });
     }
-    closeWorlds();
+    closeUniverseChooser();
   };
 
   /** Opens a robot of the project in its editor, or a copy of one that we ship. */
   const changeRobot = () => {
-    closeWorlds();
+    closeUniverseChooser();
     if (ownMachines.includes(robot)) openFile(`robots/${robot}/robot.yaml`);
     else openNewRobot(robot);
   };

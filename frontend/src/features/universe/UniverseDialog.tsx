@@ -2,18 +2,18 @@ import { Modal } from '@mantine/core';
 import { Suspense } from 'react';
 import { useTranslation } from 'react-i18next';
 import { lazyPart } from '@/ui/parts';
-import { closeWorlds, useWorlds } from '@/store/dialogs/universeChooser';
+import { closeUniverseChooser, useUniverseChooser } from '@/store/dialogs/universeChooser';
 
-const Chooser = lazyPart(async () => (await import('./UniverseChooser')).WorldChooser);
+const Chooser = lazyPart(async () => (await import('./UniverseChooser')).UniverseChooser);
 
 /** Where the robot will be, and which robot. */
-export function Worlds() {
+export function UniverseDialog() {
   const { t } = useTranslation('universe');
-  const isOpen = useWorlds((state) => state.isOpen);
+  const isOpen = useUniverseChooser((state) => state.isOpen);
   return (
     <Modal
       opened={isOpen}
-      onClose={closeWorlds}
+      onClose={closeUniverseChooser}
       title={t('title')}
       size={960}
       closeButtonProps={{ 'aria-label': t('close') }}

@@ -11,7 +11,7 @@ import { closeNewUniverse, useNewUniverse } from '@/store/dialogs/newUniverse';
 
 /** Makes a universe of the project out of one that we ship. */
 export function NewUniverse() {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const base = useNewUniverse((state) => state.base);
   return (
     <CopyDialog title={t('new.title')} isOpen={base !== null} onClose={closeNewUniverse}>
@@ -31,7 +31,7 @@ async function create(base: string, name: string, isUsed: boolean): Promise<void
 }
 
 function Form({ first }: { readonly first: string }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const { t: title } = useTranslation('worlds');
   const files = useProjectStore((state) => state.files);
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });

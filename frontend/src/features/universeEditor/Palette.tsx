@@ -37,7 +37,7 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
 
 /** Things to place: clicked, they come to stand in the middle of the view; dragged, where they are let go. */
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   return (
     <PaletteBar label={t('palette')}>
       {KINDS.map((kind) => {
@@ -60,7 +60,7 @@ export function Palette({ editor }: { readonly editor: UniverseEditor }) {
 }
 
 function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const robots = useRobots();
   return (
     <PlaceMenu icon={IconRobot} label={t('robots')} testId="place-robot" position="right-start">
@@ -87,7 +87,7 @@ export function useRobots(): readonly { readonly id: string; readonly name: stri
 const SHAPES = ['mesh', 'urdf', 'sdf'] as const;
 
 function FileMenu({ editor }: { readonly editor: UniverseEditor }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const input = useRef<HTMLInputElement>(null);
   const files = useProjectStore((state) => state.files);
   const found = Object.keys(files)

@@ -20,7 +20,7 @@ import { deleteSelected, duplicateSelected } from './commands';
 import { edit, type UniverseEditor } from './editor';
 import { ManyFields } from './fields/ManyFields';
 import { ThingFields } from './fields/ThingFields';
-import { WorldFields } from './fields/UniverseFields';
+import { UniverseFields } from './fields/UniverseFields';
 
 interface UniversePanelProps {
   readonly editor: UniverseEditor;
@@ -44,7 +44,7 @@ function iconOf(thing: Thing): typeof IconBox {
 
 /** The list of things, and the numbers of what is selected; of the world itself where nothing is. */
 export function UniversePanel({ editor, universe }: UniversePanelProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);
   const [key] = selection;
   const thing = key === undefined ? undefined : thingOf(universe, key);
@@ -75,7 +75,7 @@ export function UniversePanel({ editor, universe }: UniversePanelProps) {
         {selection.length === 1 && thing ? (
           <ThingFields key={thing.key} editor={editor} universe={universe} thing={thing} />
         ) : null}
-        {selection.length === 0 ? <WorldFields editor={editor} universe={universe} /> : null}
+        {selection.length === 0 ? <UniverseFields editor={editor} universe={universe} /> : null}
       </div>
     </div>
   );

@@ -4,7 +4,7 @@ import { rgba } from '@/features/editor3d/scene/ThingScene';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { isSoftwareWebGl } from '@/features/viewer/webgl';
 import type { Universe } from '@/model/universe/types';
-import { carrierOf, wallDrawing } from './dragging';
+import { dragHandlerOf, wallDrawing } from './dragging';
 import type { UniverseEditor } from './editor';
 import { handlesOf } from './handles';
 import { EditorTextures, pictureName } from './textures';
@@ -28,7 +28,7 @@ export function UniverseStage({ editor, universe, isDark }: UniverseStageProps) 
     () => ({
       scene,
       handles: handlesOf(editor, scene),
-      carrier: carrierOf(editor, scene),
+      dragHandler: dragHandlerOf(editor, scene),
       drawing: wallDrawing(editor, wall),
     }),
     [editor, scene, wall],

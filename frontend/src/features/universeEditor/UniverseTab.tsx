@@ -11,7 +11,7 @@ import { UniverseView } from './UniverseView';
 
 /** A universe of the project: seen and changed in 3D, with its text beside. */
 export function UniverseTab({ path }: { readonly path: string }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const editor = useMemo(() => editorOf(path), [path]);
   const text = useProjectStore((state) => state.currentText(path));
   const { universe, problems } = useMemo(() => readUniverse(text ?? ''), [text]);

@@ -4,17 +4,17 @@ import { useStore } from 'zustand';
 import { perform } from '@/commands/registry';
 import { EditorToolbar, Tool } from '@/features/editor3d/EditorToolbar';
 import { useProjectStore } from '@/store/project';
-import { useWorldChoice } from '@/store/run/universeChoice';
+import { useUniverseChoice } from '@/store/run/universeChoice';
 import { GRIDS, type UniverseEditor } from './editor';
 
 /** The tools of a universe: those of every editor, and walls. */
 export function UniverseToolbar({ editor }: { readonly editor: UniverseEditor }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const tool = useStore(editor.store, (state) => state.tool);
   const runHere = () => {
     const universe = editor.path.replace(/^universes\/|\.yaml$/g, '');
     const { settings } = useProjectStore.getState();
-    useWorldChoice.setState({ universe: settings?.universe === universe ? null : universe });
+    useUniverseChoice.setState({ universe: settings?.universe === universe ? null : universe });
     perform('run.run');
   };
   return (

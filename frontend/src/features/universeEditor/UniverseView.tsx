@@ -20,7 +20,7 @@ interface UniverseViewProps {
 
 /** The floor plan in 3D. */
 export function UniverseView({ editor, universe }: UniverseViewProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const tool = useStore(editor.store, (state) => state.tool);
   return (
     <EditorCanvas
@@ -43,7 +43,7 @@ export function UniverseView({ editor, universe }: UniverseViewProps) {
 
 /** Tells screen readers what is selected, and where. */
 function Announcement({ editor, universe }: UniverseViewProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);
   const thing = thingOf(universe, selection[0] ?? '');
   const [x, y] = thing ? positionOf(thing) : [0, 0];

@@ -1,5 +1,5 @@
 import * as THREE from 'three';
-import type { Carrier, Drawing } from '@/features/editor3d/scene/PointerTool';
+import type { DragHandler, Drawing } from '@/features/editor3d/scene/PointerTool';
 import { select, toggle } from '@/features/editor3d/editing';
 import type { Point } from '@/model/document/values';
 import { move } from '@/model/universe/edits';
@@ -14,7 +14,7 @@ import type { WallLine } from './WallLine';
 const LARGEST_M = 3;
 
 /** What the pointer does to the things of a universe. */
-export function carrierOf(editor: UniverseEditor, scene: UniverseScene): Carrier {
+export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());
     return Math.max(size.x, size.y) > LARGEST_M;

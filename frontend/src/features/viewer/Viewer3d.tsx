@@ -88,14 +88,14 @@ function NoWorld() {
   const { t } = useTranslation(['viewer', 'run']);
   const isLaunching = useSessionStore((state) => state.isLaunching);
   const executor = useSessionStore((state) => state.executor);
-  const hindrance = useRunStore((state) => state.hindrance);
+  const runBlocker = useRunStore((state) => state.runBlocker);
   const isWaiting = isLaunching || (executor !== 'idle' && executor !== 'connected');
   return (
     <div className={classes['empty']}>
       <Text size="sm" c="dimmed">
-        {t(isWaiting ? 'waiting' : hindrance ? `run:hindrance.${hindrance}` : 'press')}
+        {t(isWaiting ? 'waiting' : runBlocker ? `run:runBlocker.${runBlocker}` : 'press')}
       </Text>
-      {isWaiting || hindrance ? null : (
+      {isWaiting || runBlocker ? null : (
         <Button
           size="xs"
           mt="sm"

@@ -9,7 +9,7 @@ import {
 } from '@tabler/icons-react';
 import { useEffect, useEffectEvent } from 'react';
 import { useTranslation } from 'react-i18next';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import { setDriving, useTeleop } from '@/store/run/teleop';
 import { setMeasuring, useMeasuring } from './measuring';
 import type { ViewOptions } from './viewOptions';
@@ -26,7 +26,7 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   const { t } = useTranslation('viewer');
   const isDriving = useTeleop((state) => state.isOn);
   const isMeasuring = useMeasuring((state) => state.isOn);
-  useViewerActions(options, onChange);
+  useViewerCommands(options, onChange);
   return (
     <div className={classes['toolbar']} role="toolbar" aria-label={t('tools')}>
       <Menu position="left-start" closeOnItemClick={false}>
@@ -81,8 +81,8 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   );
 }
 
-/** The tools in the table of actions, for as long as there is a world to look at. */
-function useViewerActions(
+/** The tools in the table of commands, for as long as there is a world to look at. */
+function useViewerCommands(
   options: ViewerToolbarProps['options'],
   onChange: ViewerToolbarProps['onChange'],
 ): void {
@@ -91,14 +91,14 @@ function useViewerActions(
     onChange({ [key]: !options[key] }),
   );
   useEffect(() => {
-    const row = (id: string, labelKey: string, icon: typeof IconEye, run: () => void): UserAction => ({
+    const row = (id: string, labelKey: string, icon: typeof IconEye, run: () => void): UserCommand => ({
       id: `view3d.${id}`,
       group: 'view',
       labelKey: `viewer:${labelKey}`,
       icon,
       run,
     });
-    return registerActions([
+    return registerCommands([
       row('follow', 'follow', IconCurrentLocation, () => toggle('follow')),
       row('top', 'top', IconFocusCentered, () => act({ viewpoint: { kind: 'top' } })),
       row('reset', 'reset', IconView360Arrow, () => act({ viewpoint: { kind: 'default' } })),

@@ -3,10 +3,10 @@ import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 import type { BodyPose } from './scene/DraggedBody';
 
-/** The last body that was carried, and where it had been. */
+/** The last body that was dragged, and where it had been. */
 export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));
 
-/** Bodies are carried only while time stands still, and by who drives the session. */
+/** Bodies are dragged only while time stands still, and by who drives the session. */
 export function canMove(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return (

@@ -4,7 +4,7 @@ import { useEffect } from 'react';
 import type { OrbitControls } from '@react-three/drei/core/OrbitControls';
 import type { ComponentRef } from 'react';
 import { send } from '@/store/session/connection';
-import { Carried, carriable } from './scene/DraggedBody';
+import { DraggedBody, carriable } from './scene/DraggedBody';
 import { canMove, useMoves } from './lastMove';
 import { pointedAt, pointedAtHeight } from './pointing';
 import { addMeasured, useMeasuring } from './measuring';
@@ -22,7 +22,7 @@ export function useTools(world: World, controls: Controls): void {
   const invalidate = useThree((state) => state.invalidate);
 
   useEffect(() => {
-    let carried: Carried | null = null;
+    let dragged: DraggedBody | null = null;
     let from = { x: 0, y: 0, height: 0 };
     let pressed = { x: 0, y: 0 };
 
@@ -30,9 +30,9 @@ export function useTools(world: World, controls: Controls): void {
       if (controls.current) controls.current.enabled = isFree;
     };
     const end = (isKept: boolean) => {
-      if (!carried) return;
-      const done = carried;
-      carried = null;
+      if (!dragged) return;
+      const done = dragged;
+      dragged = null;
       freeView(true);
       canvas.style.cursor = '';
       const pose = done.pose();
@@ -55,7 +55,7 @@ export function useTools(world: World, controls: Controls): void {
       const hit = pointedAt(event, canvas, camera, world);
       const body = hit && carriable(world, hit.objectId);
       if (!hit || !body) return;
-      carried = new Carried(world, body);
+      dragged = new DraggedBody(world, body);
       from = { x: hit.point.x, y: hit.point.y, height: hit.point.z };
       freeView(false);
       canvas.setPointerCapture(event.pointerId);
@@ -64,9 +64,9 @@ export function useTools(world: World, controls: Controls): void {
       invalidate();
     };
     const onMove = (event: PointerEvent) => {
-      if (!carried) return showCursor(event);
+      if (!dragged) return showCursor(event);
       const at = pointedAtHeight(event, canvas, camera, from.height);
-      if (at) carried.moveBy(at.x - from.x, at.y - from.y);
+      if (at) dragged.moveBy(at.x - from.x, at.y - from.y);
       invalidate();
     };
     const showCursor = (event: PointerEvent) => {
@@ -76,7 +76,7 @@ export function useTools(world: World, controls: Controls): void {
       canvas.style.cursor = isMeasuring ? 'crosshair' : hit && carriable(world, hit.objectId) ? 'grab' : '';
     };
     const onUp = (event: PointerEvent) => {
-      if (carried) return end(true);
+      if (dragged) return end(true);
       const isClick = Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < CLICK_PX;
       if (!isClick || event.button !== 0 || !useMeasuring.getState().isOn) return;
       const hit = pointedAt(event, canvas, camera, world);
@@ -84,10 +84,10 @@ export function useTools(world: World, controls: Controls): void {
       invalidate();
     };
     const onKey = (event: KeyboardEvent) => {
-      if (!carried) return;
+      if (!dragged) return;
       if (event.key === 'Escape') end(false);
       else if (event.key === 'q' || event.key === 'e')
-        carried.turnBy(event.key === 'q' ? TURN_RAD : -TURN_RAD);
+        dragged.turnBy(event.key === 'q' ? TURN_RAD : -TURN_RAD);
       else return;
       event.preventDefault();
       invalidate();

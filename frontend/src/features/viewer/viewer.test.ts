@@ -3,7 +3,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import type { Scan, Scene, Shape } from '@/generated/messages';
 import { currentPoses } from '@/store/session/poses';
 import { Trail } from '@/store/session/trace/trail';
-import { Carried, carriable } from './scene/DraggedBody';
+import { DraggedBody, carriable } from './scene/DraggedBody';
 import { pyramidOf } from './scene/HelperViews';
 import { LidarView } from './scene/LidarView';
 import { addMeasured, distances, setMeasuring, useMeasuring } from './measuring';
@@ -82,14 +82,14 @@ describe('TrailView', () => {
   });
 });
 
-describe('Carried', () => {
-  const carried = () => {
+describe('DraggedBody', () => {
+  const dragged = () => {
     const world = new World(scene, true);
-    return { world, body: new Carried(world, 'robot') };
+    return { world, body: new DraggedBody(world, 'robot') };
   };
 
   it('takes a body along and turns it about itself; what it was stays known', () => {
-    const { world, body } = carried();
+    const { world, body } = dragged();
     body.moveBy(1, 2);
     body.turnBy(Math.PI / 2);
     expect(body.pose().slice(0, 3)).toEqual([1, 2, 0]);

@@ -12,7 +12,7 @@ export interface TextStep {
 }
 
 /** The steps of a document that is written in one file or in several. */
-export interface TextHistory {
+export interface TextUndo {
   /** The texts that the next step goes out from. */
   readonly texts: readonly string[];
   readonly past: readonly TextStep[];
@@ -22,7 +22,7 @@ export interface TextHistory {
 
 const LIMIT = 300;
 
-export const startHistory = (texts: readonly string[]): TextHistory => ({
+export const startUndo = (texts: readonly string[]): TextUndo => ({
   texts,
   past: [],
   future: [],
@@ -45,38 +45,38 @@ const differences = (before: readonly string[], after: readonly string[]): Splic
   after.map((text, index) => difference(before[index] ?? '', text));
 
 /** Notes that the texts are now others; the same texts are no step. */
-export function record(history: TextHistory, texts: readonly string[], step: NewStep): TextHistory {
-  if (texts.every((text, index) => text === history.texts[index])) return history;
-  const last = history.past.at(-1);
-  const start = last ? splicedEach(history.texts, back(last)) : null;
+export function record(undoStack: TextUndo, texts: readonly string[], step: NewStep): TextUndo {
+  if (texts.every((text, index) => text === undoStack.texts[index])) return undoStack;
+  const last = undoStack.past.at(-1);
+  const start = last ? splicedEach(undoStack.texts, back(last)) : null;
   if (
     last &&
     start !== null &&
-    !history.sealed &&
+    !undoStack.sealed &&
     step.mergeKey !== null &&
     last.mergeKey === step.mergeKey
   ) {
     const merged = { ...last, splices: differences(start, texts), after: step.after };
-    return { texts, past: [...history.past.slice(0, -1), merged], future: [], sealed: false };
+    return { texts, past: [...undoStack.past.slice(0, -1), merged], future: [], sealed: false };
   }
-  const next = { ...step, splices: differences(history.texts, texts) };
-  return { texts, past: [...history.past, next].slice(-LIMIT), future: [], sealed: false };
+  const next = { ...step, splices: differences(undoStack.texts, texts) };
+  return { texts, past: [...undoStack.past, next].slice(-LIMIT), future: [], sealed: false };
 }
 
 /** Ends a gesture: the next step stands for itself. */
-export const seal = (history: TextHistory): TextHistory =>
-  history.sealed ? history : { ...history, sealed: true };
+export const seal = (undoStack: TextUndo): TextUndo =>
+  undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 
-export function undo(history: TextHistory): TextHistory | null {
-  const step = history.past.at(-1);
-  const texts = step ? splicedEach(history.texts, back(step)) : null;
+export function undo(undoStack: TextUndo): TextUndo | null {
+  const step = undoStack.past.at(-1);
+  const texts = step ? splicedEach(undoStack.texts, back(step)) : null;
   if (!step || texts === null) return null;
-  return { texts, past: history.past.slice(0, -1), future: [step, ...history.future], sealed: true };
+  return { texts, past: undoStack.past.slice(0, -1), future: [step, ...undoStack.future], sealed: true };
 }
 
-export function redo(history: TextHistory): TextHistory | null {
-  const [step, ...future] = history.future;
-  const texts = step ? splicedEach(history.texts, step.splices) : null;
+export function redo(undoStack: TextUndo): TextUndo | null {
+  const [step, ...future] = undoStack.future;
+  const texts = step ? splicedEach(undoStack.texts, step.splices) : null;
   if (!step || texts === null) return null;
-  return { texts, past: [...history.past, step], future, sealed: true };
+  return { texts, past: [...undoStack.past, step], future, sealed: true };
 }

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/undo';
+import { record, redo, seal, startUndo, undo, type TextUndo } from '../document/undo';
 import {
   edited,
   mirrorOf,
@@ -275,22 +275,22 @@ describe('any sequence of edits', () => {
     const comments = (both: readonly string[]) => both.join('\n').match(/# .*|<!--[^]*?-->/g) ?? [];
     fc.assert(
       fc.property(fc.constantFrom(...robots), fc.array(gesture, { maxLength: 6 }), ([, start], gestures) => {
-        let history = startHistory(start);
+        let undoStack = startUndo(start);
         for (const each of gestures) {
-          const next = edited(history.texts, editOf(robotOf(history.texts), each));
+          const next = edited(undoStack.texts, editOf(robotOf(undoStack.texts), each));
           expect(problemsOf(next)).toEqual([]);
-          history = seal(record(history, next, { label: 'x', mergeKey: null, before: [], after: [] }));
+          undoStack = seal(record(undoStack, next, { label: 'x', mergeKey: null, before: [], after: [] }));
         }
-        const end = history.texts;
+        const end = undoStack.texts;
         expect(comments(end)).toEqual(comments(start));
         let steps = 0;
-        for (let back: TextHistory | null = undo(history); back; back = undo(back)) {
-          history = back;
+        for (let back: TextUndo | null = undo(undoStack); back; back = undo(back)) {
+          undoStack = back;
           steps += 1;
         }
-        expect(history.texts).toEqual(start);
-        for (; steps > 0; steps -= 1) history = redo(history) ?? history;
-        expect(history.texts).toEqual(end);
+        expect(undoStack.texts).toEqual(start);
+        for (; steps > 0; steps -= 1) undoStack = redo(undoStack) ?? undoStack;
+        expect(undoStack.texts).toEqual(end);
       }),
       { numRuns: 40 },
     );

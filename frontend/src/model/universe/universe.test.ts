@@ -15,7 +15,7 @@ import {
   type Edit,
 } from './edits';
 import { stretched, wallBetween } from './geometry';
-import { record, redo, seal, startHistory, undo, type TextHistory } from '../document/undo';
+import { record, redo, seal, startUndo, undo, type TextUndo } from '../document/undo';
 import { applyOps, sameValue } from '../document/ops';
 import { readUniverse } from './read';
 import { rewrite, UnwritableError } from '../document/rewrite';
@@ -288,23 +288,23 @@ describe('any sequence of edits', () => {
   it('says in the text what it does to the value, and undoes to the byte', () => {
     fc.assert(
       fc.property(texts, fc.array(gesture, { maxLength: 8 }), (start, gestures) => {
-        let history = startHistory([start]);
+        let undoStack = startUndo([start]);
         for (const each of gestures) {
-          const universe = universeOf(history.texts[0]!);
+          const universe = universeOf(undoStack.texts[0]!);
           const { ops } = editOf(universe, each);
-          const text = rewrite(history.texts[0]!, ops);
+          const text = rewrite(undoStack.texts[0]!, ops);
           expect(sameValue(universeOf(text).raw, applyOps(universe.raw, ops))).toBe(true);
-          history = seal(record(history, [text], { label: 'x', mergeKey: null, before: [], after: [] }));
+          undoStack = seal(record(undoStack, [text], { label: 'x', mergeKey: null, before: [], after: [] }));
         }
-        const end = history.texts[0];
+        const end = undoStack.texts[0];
         let steps = 0;
-        for (let back: TextHistory | null = undo(history); back; back = undo(back)) {
-          history = back;
+        for (let back: TextUndo | null = undo(undoStack); back; back = undo(back)) {
+          undoStack = back;
           steps += 1;
         }
-        expect(history.texts[0]).toBe(start);
-        for (; steps > 0; steps -= 1) history = redo(history) ?? history;
-        expect(history.texts[0]).toBe(end);
+        expect(undoStack.texts[0]).toBe(start);
+        for (; steps > 0; steps -= 1) undoStack = redo(undoStack) ?? undoStack;
+        expect(undoStack.texts[0]).toBe(end);
       }),
       { numRuns: 30 },
     );
@@ -333,10 +333,10 @@ describe('any sequence of edits', () => {
 
   it('joins steps of one gesture until it is sealed', () => {
     const step = { label: 'x', mergeKey: 'drag', before: ['a'], after: ['b'] };
-    let history = record(record(startHistory(['1']), ['12'], step), ['123'], step);
-    expect(history.past).toHaveLength(1);
-    history = record(seal(history), ['1234'], step);
-    expect(history.past).toHaveLength(2);
-    expect(undo(undo(history)!)?.texts).toEqual(['1']);
+    let undoStack = record(record(startUndo(['1']), ['12'], step), ['123'], step);
+    expect(undoStack.past).toHaveLength(1);
+    undoStack = record(seal(undoStack), ['1234'], step);
+    expect(undoStack.past).toHaveLength(2);
+    expect(undo(undo(undoStack)!)?.texts).toEqual(['1']);
   });
 });

@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import { produce, type Draft } from 'immer';
 import { renameUse } from '@/model/edits';
-import { emptyHistory, redo, seal, undo, type Renaming, type Travel } from '@/model/undo';
+import { emptyUndo, redo, seal, undo, type Renaming, type Travel } from '@/model/undo';
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { renamed as tellNavigator } from './navigation';
 import { refusingViewers } from './readOnly';
@@ -29,7 +29,7 @@ const tellRenamed = ({ from, to }: Renaming): void => {
 /** Everything about the open project that is saved, and what is selected in it. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
   const set = refusingViewers(setState);
-  /** Records a change of trees as one step of `owner`'s history. */
+  /** Records a change of trees as one step on the undo stack of `owner`. */
   const commit = (owner: string, label: string, change: Change, options: ChangeOptions = {}): void => {
     set((state) => changeDiagrams(state, owner, label, change, options));
   };
@@ -39,13 +39,13 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     set((state) => {
       const owner = state.activeTree;
       if (owner === null) return state;
-      const history = state.histories[owner] ?? emptyHistory;
+      const undoStack = state.histories[owner] ?? emptyUndo;
       let moved: Travel<Diagrams> | null;
       try {
-        moved = go(state.diagrams, history);
+        moved = go(state.diagrams, undoStack);
       } catch {
         // The step names something that another tree's edit has removed: it cannot be replayed.
-        return { histories: { ...state.histories, [owner]: emptyHistory } };
+        return { histories: { ...state.histories, [owner]: emptyUndo } };
       }
       if (!moved) return state;
       const { renamed } = moved.entry;
@@ -56,7 +56,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const diagram = moved.document[owner];
       return {
         ...knowing({ ...(files ?? state), diagrams: moved.document }),
-        histories: { ...state.histories, [owner]: moved.history },
+        histories: { ...state.histories, [owner]: moved.undoStack },
         selection: chosen.filter((id) => diagram !== undefined && id in diagram.nodes),
         changeCounter: state.changeCounter + 1,
       };
@@ -106,11 +106,11 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
           state.selection.length === ids.length &&
           ids.every((id, index) => state.selection[index] === id);
         if (same) return state;
-        const history = state.histories[treeId];
+        const undoStack = state.histories[treeId];
         return {
           activeTree: treeId,
           selection: ids,
-          ...(history ? { histories: { ...state.histories, [treeId]: seal(history) } } : {}),
+          ...(undoStack ? { histories: { ...state.histories, [treeId]: seal(undoStack) } } : {}),
         };
       });
     },
@@ -141,9 +141,9 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     seal: (treeId) => {
       set((state) => {
         const owner = treeId ?? state.activeTree;
-        const history = owner === null ? undefined : state.histories[owner];
-        return owner !== null && history
-          ? { histories: { ...state.histories, [owner]: seal(history) } }
+        const undoStack = owner === null ? undefined : state.histories[owner];
+        return owner !== null && undoStack
+          ? { histories: { ...state.histories, [owner]: seal(undoStack) } }
           : state;
       });
     },
@@ -170,10 +170,10 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const diagrams = { ...others, [to]: { ...moved, id: to } };
       // Before the old name goes: what shows a tree that is no more is closed.
       if (state.role !== 'viewer') tellNavigator('tree', from, to);
-      const { [from]: _history, ...histories } = state.histories;
+      const { [from]: _undoStack, ...histories } = state.histories;
       set({
         ...knowing({ ...state, diagrams }),
-        histories: { ...histories, [to]: emptyHistory },
+        histories: { ...histories, [to]: emptyUndo },
         activeTree: state.activeTree === from ? to : state.activeTree,
         selection: state.selection,
         changeCounter: state.changeCounter + 1,
@@ -183,7 +183,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
     deleteTree: (id) => {
       set((state) => {
         const { [id]: _gone, ...diagrams } = state.diagrams;
-        const { [id]: _history, ...histories } = state.histories;
+        const { [id]: _undoStack, ...histories } = state.histories;
         return {
           ...knowing({ ...state, diagrams }),
           histories,

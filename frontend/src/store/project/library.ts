@@ -105,7 +105,7 @@ export function differencesOf(behaviour: Reusable): readonly Difference[] {
     .filter(({ mine, theirs }) => mine !== theirs);
 }
 
-/** Takes over the newest version: a save like any other, so that the history has the one before. */
+/** Takes over the newest version: a save like any other, so that the revisions have the one before. */
 export function updateBehaviour(behaviour: Reusable): void {
   for (const { path, theirs } of differencesOf(behaviour)) write(path, theirs);
   remember(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {});

@@ -1,5 +1,5 @@
 import type { ProjectDetail } from '@/api/types';
-import { emptyHistory } from '@/model/undo';
+import { emptyUndo } from '@/model/undo';
 import { currentText, openFiles } from './files';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
@@ -50,7 +50,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     if (tree !== null && diagram) {
       diagrams[tree] = diagram;
       // Steps back would undo on top of somebody else's work.
-      histories[tree] = emptyHistory;
+      histories[tree] = emptyUndo;
     }
     taken.push(theirs.path);
   }

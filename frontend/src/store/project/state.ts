@@ -9,7 +9,7 @@ import type {
 } from '@/api/types';
 import type { Diagram, NodeId } from '@/model/diagram';
 import type { Recipe } from '@/model/edits';
-import type { History } from '@/model/undo';
+import type { UndoStack } from '@/model/undo';
 import type { Vocabulary } from '@/model/vocabulary';
 
 export interface FileEntry {
@@ -39,7 +39,7 @@ export interface ProjectData {
   readonly actions: readonly ActionModel[];
   readonly diagnostics: readonly Diagnostic[];
   readonly vocabulary: Vocabulary;
-  readonly histories: Readonly<Record<string, History>>;
+  readonly histories: Readonly<Record<string, UndoStack>>;
   readonly activeTree: string | null;
   /** Selected blocks of the active tree, in the order of selecting. */
   readonly selection: readonly NodeId[];
@@ -64,7 +64,7 @@ export interface ProjectActions {
   setActiveTree(id: string | null): void;
   select(treeId: string, ids: readonly NodeId[]): void;
   reveal(treeId: string, node: NodeId): void;
-  /** Changes a tree by recipes: one step of its history, called `label` (an i18n key of `canvas:edit`). */
+  /** Changes a tree by recipes: one step on its undo stack, called `label` (an i18n key of `canvas:edit`). */
   apply(treeId: string, label: string, recipes: readonly Recipe[], options?: EditOptions): void;
   /** Ends a gesture, so that the next edit is a step of its own. */
   seal(treeId?: string): void;

@@ -1,7 +1,7 @@
 import { enablePatches, produceWithPatches, type Draft } from 'immer';
 import type { CheckResult } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
-import { emptyHistory, record, type Renaming } from '@/model/undo';
+import { emptyUndo, record, type Renaming } from '@/model/undo';
 import { sameFacts, treeFacts } from '@/model/treeFacts';
 import { makeVocabulary, type Vocabulary } from '@/model/vocabulary';
 import { catalog } from './catalog';
@@ -100,7 +100,7 @@ export interface ChangeOptions {
   readonly renamed?: Renaming;
 }
 
-/** Changes trees as one step of a tree's history. */
+/** Changes trees as one step on a tree's undo stack. */
 export function changeDiagrams(
   data: ProjectData,
   owner: string,
@@ -115,7 +115,7 @@ export function changeDiagrams(
   const mine = data.activeTree === owner ? data.selection : [];
   const after = (options.select ?? mine).filter((id) => diagram !== undefined && id in diagram.nodes);
   if (patches.length === 0) return data.activeTree === owner ? { selection: after } : {};
-  const history = record(data.histories[owner] ?? emptyHistory, {
+  const undoStack = record(data.histories[owner] ?? emptyUndo, {
     label,
     mergeKey: options.mergeKey ?? null,
     patches,
@@ -130,7 +130,7 @@ export function changeDiagrams(
   const files = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
   return {
     ...knowing({ ...data, files, diagrams }),
-    histories: { ...data.histories, [owner]: history },
+    histories: { ...data.histories, [owner]: undoStack },
     ...(data.activeTree === owner ? { selection: after } : {}),
     changeCounter: data.changeCounter + 1,
   };

@@ -2,7 +2,7 @@ import { produceWithPatches, type Draft } from 'immer';
 import { revisions } from '@/api/revisions';
 import type { ProjectDetail } from '@/api/types';
 import type { Diagram } from '@/model/diagram';
-import { emptyHistory, record } from '@/model/undo';
+import { emptyUndo, record } from '@/model/undo';
 import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { asSave, saveNow } from '@/store/saving/autosave';
@@ -15,7 +15,7 @@ export interface Restored {
 
 /**
  * Puts files (all, when none are named) back to what they were, as a new revision. Edits that wait are
- * saved before, so that they are in the history, too.
+ * saved before, so that they are revisions, too.
  */
 export async function restoreRevision(number: number, paths: readonly string[]): Promise<Restored> {
   const { projectId } = useProjectStore.getState();
@@ -41,7 +41,7 @@ function takeRestored(detail: ProjectDetail): void {
       (draft as Record<string, Draft<Diagram>>)[id] = now as Draft<Diagram>;
     });
     const entry = { label: 'restore', mergeKey: null, patches, inverse, before: [], after: [] };
-    histories[id] = record(state.histories[id] ?? emptyHistory, entry);
+    histories[id] = record(state.histories[id] ?? emptyUndo, entry);
   }
   useProjectStore.setState({ ...data, histories });
 }

@@ -22,7 +22,7 @@ export const isRunning = () => useSessionStore.getState().executor === 'applicat
 export const isPaused = () => useSessionStore.getState().executor === 'paused';
 export const hasApplication = () => isRunning() || isPaused();
 const isWorldUp = () => !['idle', 'connected'].includes(useSessionStore.getState().executor);
-export const isLookingOn = () => useSessionStore.getState().introspection?.role === 'viewer';
+export const isViewer = () => useSessionStore.getState().introspection?.role === 'viewer';
 export const hasSession = () => useSessionStore.getState().connection !== 'off';
 
 export const pause = () => reported(send('pause', {}));

@@ -8,7 +8,7 @@ import { abandonStart, ensureConnected, send } from '@/store/session/connection'
 import { CommandError, isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
-import { chosenWorld, useWorldChoice } from './universeChoice';
+import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
 /** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
@@ -32,7 +32,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await saveNow();
     useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
     enter('checking');
-    const app = await api.app(projectId, useWorldChoice.getState().universe);
+    const app = await api.app(projectId, useUniverseChoice.getState().universe);
     enter('starting');
     await ensureConnected(projectId);
     enter('launching');
@@ -65,7 +65,7 @@ function runCommand(app: AppBundle): Commands['run'] {
   const { speed } = useSessionStore.getState();
   useSessionStore.setState({ tickHz: app.tick_hz });
   return {
-    universe: { ...chosenWorld(app), speed },
+    universe: { ...chosenUniverse(app), speed },
     application: applicationOf(app),
   };
 }

@@ -14,19 +14,19 @@ export interface LaunchFailure {
 }
 
 /** Why someone may not run a project: they came by a read-only link, or look on at another's session. */
-export type Hindrance = 'guest' | 'onlooker';
+export type RunBlocker = 'guest' | 'viewer';
 
 interface RunData {
   stage: LaunchStage | null;
   failure: LaunchFailure | null;
   /** The project's edits that the running application has. */
   ranAt: number;
-  hindrance: Hindrance | null;
+  runBlocker: RunBlocker | null;
 }
 
 export const useRunStore = create<RunData>(() => ({
   stage: null,
   failure: null,
   ranAt: 0,
-  hindrance: null,
+  runBlocker: null,
 }));

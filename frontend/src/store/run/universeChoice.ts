@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 
 /** Where the next runs take place, when that differs from the project's own setting. */
-interface WorldChoice {
+interface UniverseChoice {
   /** Null: the project's universe. */
   universe: string | null;
   robot: string | null;
@@ -10,14 +10,14 @@ interface WorldChoice {
 }
 
 /** Lives as long as the page: a world tried once is not written into the project. */
-export const useWorldChoice = create<WorldChoice>(() => ({ universe: null, robot: null, seed: 0 }));
+export const useUniverseChoice = create<UniverseChoice>(() => ({ universe: null, robot: null, seed: 0 }));
 
 /** The universe, as the server sent it for this choice, and the robot of the next run. */
-export function chosenWorld<T>(own: { universe: T; robot: string | null }): {
+export function chosenUniverse<T>(own: { universe: T; robot: string | null }): {
   universe: T;
   robot: string | null;
   seed: number;
 } {
-  const { robot, seed } = useWorldChoice.getState();
+  const { robot, seed } = useUniverseChoice.getState();
   return { universe: own.universe, robot: robot ?? own.robot, seed };
 }

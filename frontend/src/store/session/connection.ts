@@ -6,7 +6,7 @@ import { t } from '@/i18n';
 import type { Commands, Introspection, ServerMessage, State } from '@/generated/messages';
 import { CommandError, ControlSocket } from './control';
 import { forgetRun, rememberRun } from './trace/overReload';
-import { Pulse, PULSE_MS } from './heartbeat';
+import { Heartbeat, HEARTBEAT_MS } from './heartbeat';
 import { note, receive, resetSession, useSessionStore } from './store';
 import { streams } from './streams';
 import { resetTopics, useTopicsStore } from './topics';
@@ -103,7 +103,7 @@ export function leave(): void {
 
 function disconnect(): void {
   clearTimeout(retryTimer);
-  stopPulse();
+  stopHeartbeat();
   giveUp?.(new CommandError('cancelled', 'The start was cancelled.', ''));
   socket?.close();
   socket = null;
@@ -130,7 +130,7 @@ function openSocket(info: SessionInfo): Promise<void> {
     let isIntroduced = false;
     const opened = new ControlSocket(addressFor(info.control_url), {
       onOpen: () => undefined,
-      onHeard: () => pulse?.heard(performance.now()),
+      onHeard: () => heartbeat?.heard(performance.now()),
       onMessage: (message) => {
         receive(message);
         // A later one says that the client's role has changed, or what the world can do.
@@ -160,37 +160,37 @@ function onIntroduced(info: SessionInfo, introspection: Introspection): void {
   streams.open(addressFor(info.stream_url));
   followStreams(introspection.state);
   followTopics(introspection.state);
-  startPulse();
+  startHeartbeat();
 }
 
-let pulse: Pulse | null = null;
-let pulseTimer: ReturnType<typeof setInterval> | undefined;
+let heartbeat: Heartbeat | null = null;
+let heartbeatTimer: ReturnType<typeof setInterval> | undefined;
 let isPinging = false;
 
 /** From now on the session is asked every second whether it answers. */
-function startPulse(): void {
-  stopPulse();
-  pulse = new Pulse(performance.now());
-  pulseTimer = setInterval(beat, PULSE_MS);
+function startHeartbeat(): void {
+  stopHeartbeat();
+  heartbeat = new Heartbeat(performance.now());
+  heartbeatTimer = setInterval(beat, HEARTBEAT_MS);
 }
 
-function stopPulse(): void {
-  clearInterval(pulseTimer);
-  pulse = null;
+function stopHeartbeat(): void {
+  clearInterval(heartbeatTimer);
+  heartbeat = null;
   isPinging = false;
 }
 
 function beat(): void {
-  if (!socket || !pulse) return;
+  if (!socket || !heartbeat) return;
   const now = performance.now();
   // As long as this page's own words are on their way out (a large program), it waits for no answer yet.
-  if (!isPinging || socket.isSending) pulse.heard(now);
-  showSilence(pulse.beat(now));
+  if (!isPinging || socket.isSending) heartbeat.heard(now);
+  showSilence(heartbeat.beat(now));
   if (isPinging) return;
   isPinging = true;
-  const asked = pulse;
+  const asked = heartbeat;
   const answered = () => {
-    if (asked === pulse) isPinging = false;
+    if (asked === heartbeat) isPinging = false;
   };
   // A refusal is an answer, too.
   socket.send('ping', {}).then(answered, answered);
@@ -242,7 +242,7 @@ function followStreams(state: State): void {
 function onLost(reason: string): void {
   isStreaming = false;
   isWorldUp = false;
-  stopPulse();
+  stopHeartbeat();
   streams.disconnect();
   set({
     connection: 'reconnecting',
@@ -309,7 +309,7 @@ window.addEventListener('online', onOnline);
 
 /** The session is gone: its processes ended, and another Run starts a new one. */
 function onEnded(reason: string): void {
-  stopPulse();
+  stopHeartbeat();
   streams.close();
   socket = null;
   session = null;

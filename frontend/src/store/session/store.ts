@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { ServerMessage } from '@/generated/messages';
 import { useLiveStore } from '@/store/project/live';
-import { feedHistory } from './trace/traceFeed';
+import { feedTrace } from './trace/traceFeed';
 import { feedLive, forgetPending, showDueStatuses } from './liveFeed';
 import { appendLogs, initialSession, reduceAll } from './reduce';
 import { feedTopics } from './topics';
@@ -32,7 +32,7 @@ export function flush(): void {
   useSessionStore.setState((state) => reduceAll(state, messages));
   for (const message of messages) {
     feedLive(message);
-    feedHistory(message);
+    feedTrace(message);
     feedTopics(message);
   }
   showDueStatuses();

@@ -1,5 +1,5 @@
 /** The text that its author sees, and the state of the tree that it was last in step with. */
-export interface KeptXml {
+export interface CachedXml {
   readonly text: string;
   readonly agreed: { readonly text: string; readonly ids: readonly string[]; readonly diagram: string };
 }
@@ -7,7 +7,7 @@ export interface KeptXml {
 const key = (projectId: string, treeId: string) => `bts.xml.${projectId}.${treeId}`;
 
 /** Keeps a text in the browser: what does not parse yet, and comments, which a tree cannot hold. */
-export function keepXml(projectId: string, treeId: string, kept: KeptXml): void {
+export function keepXml(projectId: string, treeId: string, kept: CachedXml): void {
   try {
     localStorage.setItem(key(projectId, treeId), JSON.stringify(kept));
   } catch {
@@ -15,11 +15,11 @@ export function keepXml(projectId: string, treeId: string, kept: KeptXml): void 
   }
 }
 
-export function keptXml(projectId: string, treeId: string): KeptXml | null {
+export function cachedXml(projectId: string, treeId: string): CachedXml | null {
   const json = localStorage.getItem(key(projectId, treeId));
   if (json === null) return null;
   try {
-    const kept = JSON.parse(json) as KeptXml;
+    const kept = JSON.parse(json) as CachedXml;
     return typeof kept.text === 'string' && typeof kept.agreed.text === 'string' ? kept : null;
   } catch {
     return null;

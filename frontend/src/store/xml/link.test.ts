@@ -4,7 +4,7 @@ import { trees } from '@/api/trees';
 import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '../testing';
-import { keptXml } from './cache';
+import { cachedXml } from './cache';
 import { XmlLink } from './link';
 
 const TREE = 'MainTree';
@@ -126,7 +126,7 @@ describe('the text of a tree', () => {
     link.keepTree();
     await settle();
     expect(link.get()).toMatchObject({ text: '<C/>', state: { kind: 'inStep' } });
-    expect(keptXml('p1', TREE)?.text).toBe('<C/>');
+    expect(cachedXml('p1', TREE)?.text).toBe('<C/>');
   });
 
   it('asks also when the canvas was changed while nobody looked', async () => {
@@ -144,7 +144,7 @@ describe('the text of a tree', () => {
     link.edited('<B/>');
     await settle();
     expect(link.get().state).toMatchObject({ kind: 'failed' });
-    expect(keptXml('p1', TREE)?.text).toBe('<B/>');
+    expect(cachedXml('p1', TREE)?.text).toBe('<B/>');
     await vi.advanceTimersByTimeAsync(5000);
     expect([type(), link.get().state.kind]).toEqual(['B', 'inStep']);
   });

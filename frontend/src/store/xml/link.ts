@@ -5,7 +5,7 @@ import type { Diagram } from '@/model/diagram';
 import { become } from '@/model/edits';
 import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
-import { forgetXml, keepXml, keptXml } from './cache';
+import { forgetXml, keepXml, cachedXml } from './cache';
 
 /** How the text and the tree stand to each other. */
 export type XmlState =
@@ -129,7 +129,7 @@ export class XmlLink {
   }
 
   private restore(): void {
-    const kept = keptXml(this.projectId, this.treeId);
+    const kept = cachedXml(this.projectId, this.treeId);
     const now = this.diagram();
     if (!kept || !now) return void this.write();
     this.isOwn = true;

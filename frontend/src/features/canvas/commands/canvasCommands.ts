@@ -1,5 +1,5 @@
 import { undoTarget } from '@/commands/undo';
-import { registerActions, type UserAction } from '@/commands/registry';
+import { registerCommands, type UserCommand } from '@/commands/registry';
 import {
   IconArrowBackUp,
   IconArrowForwardUp,
@@ -17,34 +17,34 @@ import { setLayout, tidy } from '@/model/edits';
 import { activeDiagram, change } from '@/store/project/edits/blocks';
 import { isMinimapShown, setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { blockActions } from './blockActions';
+import { blockCommands } from './blockCommands';
 import { followClipboard } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../views';
 
 const state = () => useProjectStore.getState();
-const history = () => state().histories[state().activeTree ?? ''];
-const canRedo = () => undoTarget()?.canRedo ?? (history()?.future.length ?? 0) > 0;
+const undoStack = () => state().histories[state().activeTree ?? ''];
+const canRedo = () => undoTarget()?.canRedo ?? (undoStack()?.future.length ?? 0) > 0;
 /** A universe or a robot that is in front has steps of its own. */
 const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
 const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;
 const hasSelection = () => state().selection.length > 0;
 
-const rows: readonly UserAction[] = [
+const rows: readonly UserCommand[] = [
   {
     id: 'edit.undo',
     group: 'edit',
-    labelKey: 'canvas:action.undo',
+    labelKey: 'canvas:command.undo',
     icon: IconArrowBackUp,
     shortcut: '$mod+KeyZ',
-    enabled: () => undoTarget()?.canUndo ?? (history()?.past.length ?? 0) > 0,
+    enabled: () => undoTarget()?.canUndo ?? (undoStack()?.past.length ?? 0) > 0,
     run: undoInFront,
   },
   {
     id: 'edit.redo',
     group: 'edit',
-    labelKey: 'canvas:action.redo',
+    labelKey: 'canvas:command.redo',
     icon: IconArrowForwardUp,
     shortcut: '$mod+KeyY',
     enabled: canRedo,
@@ -53,7 +53,7 @@ const rows: readonly UserAction[] = [
   {
     id: 'edit.redoShift',
     group: 'edit',
-    labelKey: 'canvas:action.redo',
+    labelKey: 'canvas:command.redo',
     shortcut: '$mod+Shift+KeyZ',
     hidden: true,
     enabled: canRedo,
@@ -62,7 +62,7 @@ const rows: readonly UserAction[] = [
   {
     id: 'edit.selectAll',
     group: 'edit',
-    labelKey: 'canvas:action.selectAll',
+    labelKey: 'canvas:command.selectAll',
     shortcut: '$mod+KeyA',
     enabled: isOnCanvas,
     run: () => {
@@ -73,7 +73,7 @@ const rows: readonly UserAction[] = [
   {
     id: 'canvas.find',
     group: 'canvas',
-    labelKey: 'canvas:action.find',
+    labelKey: 'canvas:command.find',
     icon: IconSearch,
     shortcut: '$mod+KeyF',
     enabled: isTreeInFront,
@@ -91,7 +91,7 @@ const rows: readonly UserAction[] = [
       change('tidy', [tidy()]);
     },
   },
-  ...(['vertical', 'horizontal'] as const).map((layout): UserAction => ({
+  ...(['vertical', 'horizontal'] as const).map((layout): UserCommand => ({
     id: `canvas.${layout}`,
     group: 'canvas',
     labelKey: `canvas:toolbar.${layout}`,
@@ -106,7 +106,7 @@ const rows: readonly UserAction[] = [
 /** Figma's keys for the same. */
 export const FIT_KEYS = { all: 'Shift+Digit1', selection: 'Shift+Digit2' } as const;
 
-const views: readonly UserAction[] = [
+const views: readonly UserCommand[] = [
   {
     id: 'canvas.fit',
     group: 'canvas',
@@ -162,7 +162,7 @@ const views: readonly UserAction[] = [
 ];
 
 /** Adds the editor's commands to the table, and the clipboard's; the returned function takes them out again. */
-export function registerCanvasActions(): () => void {
-  const ends = [registerActions([...rows, ...blockActions, ...views]), followClipboard()];
+export function registerCanvasCommands(): () => void {
+  const ends = [registerCommands([...rows, ...blockCommands, ...views]), followClipboard()];
   return () => ends.forEach((end) => end());
 }

@@ -2,20 +2,20 @@ import { create } from 'zustand';
 import type { NodeId } from '@/model/diagram';
 
 /** How far the blocks in a hand are from where they rest; edges to `tops` are drawn anew. */
-interface Carried {
+interface DraggedBlocks {
   readonly tops: ReadonlySet<NodeId>;
   readonly dx: number;
   readonly dy: number;
 }
 
-export const useCarried = create<Carried>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
+export const useDraggedBlocks = create<DraggedBlocks>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
 
 /**
  * Moves blocks with the hand that holds them. The browser moves what is drawn, by the property
  * `translate`, which React does not set: no block renders, however many are moved and however large
  * the tree is. Blocks that come into view on the way are found, since each step looks anew.
  */
-export class Hand {
+export class BlockDrag {
   constructor(
     private readonly canvas: HTMLElement,
     readonly holds: NodeId,
@@ -25,12 +25,12 @@ export class Hand {
 
   moveBy(dx: number, dy: number): void {
     this.translate(`${dx}px ${dy}px`);
-    useCarried.setState({ tops: this.tops, dx, dy });
+    useDraggedBlocks.setState({ tops: this.tops, dx, dy });
   }
 
   letGo(): void {
     this.translate('');
-    useCarried.setState({ tops: new Set(), dx: 0, dy: 0 });
+    useDraggedBlocks.setState({ tops: new Set(), dx: 0, dy: 0 });
   }
 
   private translate(by: string): void {

@@ -97,7 +97,7 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
 export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
   key === 'ContextMenu' || (key === 'F10' && shiftKey);
 
-/** The canvas's own keys; those with Ctrl that the whole frame has are in the table of actions. */
+/** The canvas's own keys; those with Ctrl that the whole frame has are in the table of commands. */
 export function onCanvasKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
   // A menu stands elsewhere in the page, though React tells of its keys here, too.

@@ -7,7 +7,7 @@ import { isSamePlace, slotFinder, type Slot, type SlotFinder } from '@/model/slo
 import { change } from '@/store/project/edits/blocks';
 import { setEditor, useEditorStore } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
-import { Hand } from './draggedBlocks';
+import { BlockDrag } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 
@@ -16,7 +16,7 @@ const DEAD_ZONE = 6;
 
 /** What is worked out once when blocks are taken, for all steps of the hand. */
 interface Grip {
-  readonly hand: Hand;
+  readonly hand: BlockDrag;
   /** The blocks in the hand that are below none of the others, in execution order. */
   readonly tops: readonly NodeId[];
   readonly layout: unknown;
@@ -40,7 +40,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
       const tops =
         selection.length > 1 && selection.includes(node.id) ? topmost(diagram, selection) : [node.id];
       const ids = new Set(tops.flatMap((top) => subtreeOf(shown.diagram, top)));
-      const hand = new Hand(canvas.current, node.id, new Set(tops), ids);
+      const hand = new BlockDrag(canvas.current, node.id, new Set(tops), ids);
       const findSlot = slotFinder({ diagram, layout, vocabulary, moving: tops });
       setHeld(node.id);
       return (grip.current = { hand, tops, layout, findSlot });

@@ -8,7 +8,7 @@ import type { Pictures } from '@/features/viewer/scene/TextureCache';
 import { useThrottledInvalidate } from '@/features/viewer/useThrottledInvalidate';
 import { forwardOf } from './aiming';
 import { Gizmo, type Handles } from './Gizmo';
-import { PointerTool, type Carrier, type Drawing } from './PointerTool';
+import { PointerTool, type DragHandler, type Drawing } from './PointerTool';
 import { isReadOnly, showIn, type Editor } from '../editing';
 import type { ThingScene } from './ThingScene';
 
@@ -19,7 +19,7 @@ const FINEST_LINES_M = 0.05;
 export interface Staged {
   readonly scene: ThingScene<{ readonly key: string }>;
   readonly handles: Handles;
-  readonly carrier: Carrier;
+  readonly dragHandler: DragHandler;
   readonly drawing?: Drawing;
 }
 
@@ -41,7 +41,7 @@ interface EditorStageProps {
 /** A document in 3D as it is written, with what moves its things. */
 export function EditorStage(props: EditorStageProps) {
   const { editor, staged, content, isDark, lights, ground, textures, reach, extent } = props;
-  const { scene, handles, carrier, drawing } = staged;
+  const { scene, handles, dragHandler, drawing } = staged;
   const redraw = useThrottledInvalidate();
   const controls = useRef<Orbit | null>(null);
   const gizmo = useRef<Gizmo | null>(null);
@@ -59,7 +59,7 @@ export function EditorStage(props: EditorStageProps) {
     gizmo.current = made;
     root.add(made.root);
     const isTaken = () => made.controls.enabled && made.controls.axis !== null;
-    const gestures = drawing ? { carrier, drawing } : { carrier };
+    const gestures = drawing ? { dragHandler, drawing } : { dragHandler };
     const pointer = new PointerTool({ editor, scene, ...gestures, camera, canvas, isTaken, hold, redraw });
     showIn(editor, {
       center: () => {
@@ -75,7 +75,7 @@ export function EditorStage(props: EditorStageProps) {
       pointer.dispose();
       made.dispose();
     };
-  }, [editor, scene, handles, carrier, drawing, camera, canvas, root, redraw]);
+  }, [editor, scene, handles, dragHandler, drawing, camera, canvas, root, redraw]);
 
   useEffect(() => {
     handles.show();

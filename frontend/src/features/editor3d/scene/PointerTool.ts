@@ -16,7 +16,7 @@ interface Load {
 }
 
 /** What the pointer does to the things of an editor. */
-export interface Carrier {
+export interface DragHandler {
   /** Null: what is under the pointer stays where it is. */
   take(hit: Aimed): Load | null;
   drop(keys: readonly string[], by: Point): void;
@@ -35,7 +35,7 @@ export interface Drawing {
 interface Parts {
   readonly editor: Editor;
   readonly scene: Pick<ThingScene<{ key: string }>, 'group' | 'keyOf'>;
-  readonly carrier: Carrier;
+  readonly dragHandler: DragHandler;
   readonly drawing?: Drawing;
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
@@ -45,7 +45,7 @@ interface Parts {
   readonly redraw: () => void;
 }
 
-interface Carrying extends Load {
+interface Dragging extends Load {
   readonly from: Point;
   readonly height: number;
   readonly starts: readonly { readonly node: THREE.Object3D; readonly at: THREE.Vector3 }[];
@@ -55,7 +55,7 @@ interface Carrying extends Load {
 /** What the pointer does on the floor plan: selects, carries, and draws. */
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
-  private carrying: Carrying | null = null;
+  private dragging: Dragging | null = null;
   private readonly listening = new AbortController();
 
   constructor(private readonly parts: Parts) {
@@ -69,9 +69,9 @@ export class PointerTool {
 
   /** Ends what is under way without doing it; tells whether there was something. */
   cancel(): boolean {
-    const wasBusy = this.carrying !== null;
-    for (const { node, at } of this.carrying?.starts ?? []) node.position.copy(at);
-    this.carrying = null;
+    const wasBusy = this.dragging !== null;
+    for (const { node, at } of this.dragging?.starts ?? []) node.position.copy(at);
+    this.dragging = null;
     this.pressed = null;
     const wasDrawing = this.parts.drawing?.end() ?? false;
     this.parts.hold(false);
@@ -91,13 +91,13 @@ export class PointerTool {
   };
 
   private take(event: PointerEvent): void {
-    const { scene, camera, canvas, hold, carrier } = this.parts;
+    const { scene, camera, canvas, hold, dragHandler } = this.parts;
     const hit = thingAt(event, canvas, camera, scene);
-    const load = hit ? carrier.take(hit) : null;
+    const load = hit ? dragHandler.take(hit) : null;
     const from = hit ? pointAt(event, canvas, camera, hit.height) : null;
     if (!hit || !load || !from) return;
     const starts = load.nodes.map((node) => ({ node, at: node.position.clone() }));
-    this.carrying = { ...load, from, height: hit.height, starts, offset: [0, 0] };
+    this.dragging = { ...load, from, height: hit.height, starts, offset: [0, 0] };
     hold(true);
     canvas.setPointerCapture(event.pointerId);
     event.stopImmediatePropagation();
@@ -113,20 +113,20 @@ export class PointerTool {
       redraw();
       return;
     }
-    const { carrying } = this;
-    if (!carrying) {
+    const { dragging } = this;
+    if (!dragging) {
       if (event.buttons === 0) canvas.style.cursor = thingAt(event, canvas, camera, scene) ? 'pointer' : '';
       return;
     }
     if (!this.isDragged(event)) return;
-    const at = pointAt(event, canvas, camera, carrying.height);
+    const at = pointAt(event, canvas, camera, dragging.height);
     if (!at) return;
     canvas.style.cursor = 'grabbing';
     const along = (axis: 0 | 1) =>
-      snapped(carrying.anchor[axis] + at[axis] - carrying.from[axis], grid) - carrying.anchor[axis];
-    carrying.offset = [along(0), along(1)];
-    const [dx, dy] = carrying.offset;
-    for (const { node, at: start } of carrying.starts) node.position.set(start.x + dx, start.y + dy, start.z);
+      snapped(dragging.anchor[axis] + at[axis] - dragging.from[axis], grid) - dragging.anchor[axis];
+    dragging.offset = [along(0), along(1)];
+    const [dx, dy] = dragging.offset;
+    for (const { node, at: start } of dragging.starts) node.position.set(start.x + dx, start.y + dy, start.z);
     redraw();
   };
 
@@ -139,24 +139,24 @@ export class PointerTool {
   }
 
   private readonly onUp = (event: PointerEvent): void => {
-    const { carrying, pressed } = this;
-    const { canvas, hold, carrier } = this.parts;
+    const { dragging, pressed } = this;
+    const { canvas, hold, dragHandler } = this.parts;
     const isClick = pressed !== null && !this.isDragged(event);
-    this.carrying = null;
+    this.dragging = null;
     this.pressed = null;
-    if (carrying) hold(false);
-    if (carrying && !isClick) {
+    if (dragging) hold(false);
+    if (dragging && !isClick) {
       canvas.style.cursor = '';
-      carrier.drop(carrying.keys, carrying.offset);
+      dragHandler.drop(dragging.keys, dragging.offset);
       return;
     }
     if (isClick && event.button === 0) this.click(event);
   };
 
   private click(event: PointerEvent): void {
-    const { scene, camera, canvas, redraw, drawing, carrier } = this.parts;
+    const { scene, camera, canvas, redraw, drawing, dragHandler } = this.parts;
     if (!drawing?.isOn()) {
-      carrier.click(thingAt(event, canvas, camera, scene), isAdding(event));
+      dragHandler.click(thingAt(event, canvas, camera, scene), isAdding(event));
       return;
     }
     drawing.click(this.floorPoint(event));

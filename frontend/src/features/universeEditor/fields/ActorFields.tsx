@@ -17,7 +17,7 @@ interface ActorFieldsProps {
 }
 
 export function ActorFields({ editor, thing }: ActorFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const { key } = thing;
   const waypoint = useStore(editor.store, (state) => state.waypoint);
   const set = (field: string, value: Json, mergeKey?: string) =>

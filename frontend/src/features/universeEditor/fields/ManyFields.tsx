@@ -9,7 +9,7 @@ import classes from '@/features/editor3d/editor3d.module.css';
 
 /** What several things have in common: a colour, and how they are handled together. */
 export function ManyFields({ editor, count }: { readonly editor: UniverseEditor; readonly count: number }) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const [color, setColor] = useState('#b8c4cf');
   const paint = (wish: string) => {
     setColor(wish);

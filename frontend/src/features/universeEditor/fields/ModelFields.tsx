@@ -20,7 +20,7 @@ interface ModelFieldsProps {
 const FIRST_MASS = 1;
 
 export function ModelFields({ editor, thing }: ModelFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const { key, shape } = thing;
   const set = (field: string, value: Json | undefined, mergeKey?: string) =>
     edit(

@@ -14,7 +14,7 @@ interface RobotFieldsProps {
 }
 
 export function RobotFields({ editor, thing }: RobotFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const robots = useRobots();
   const isKnown = robots.some(({ id }) => id === thing.model);
   const data = robots.map(({ id, name }) => ({ value: id, label: name }));

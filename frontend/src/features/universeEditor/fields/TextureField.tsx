@@ -11,7 +11,7 @@ interface TextureFieldProps {
 
 /** A picture that repeats over a thing or the ground: one of ours, or of the project. */
 export function TextureField({ value, onChange }: TextureFieldProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const files = useProjectStore((state) => state.files);
   const own = Object.keys(files).filter((path) => PICTURE.test(path));
   const others = [...own, value].filter((path) => path && !(TEXTURES as readonly string[]).includes(path));

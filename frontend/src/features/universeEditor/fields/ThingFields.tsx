@@ -16,7 +16,7 @@ interface ThingFieldsProps {
 
 /** Everything that can be said of one thing. */
 export function ThingFields({ editor, universe, thing }: ThingFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const kind = thing.section === 'models' ? t(`shape.${thing.shape}`) : t(`section.${thing.section}`);
   const varied = Object.keys(universe.random).filter((name) => name.split('.')[0] === thing.id);
   return (

@@ -17,7 +17,7 @@ const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 
 /** How the topics of a robot are called in this universe; empty: as the robot calls them. */
 export function TopicFields({ editor, thing }: TopicFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+  const { t } = useTranslation('universeEditor');
   const { key, model, topics } = thing;
   const own = useProjectStore((state) => state.currentText(`robots/${model}/robot.yaml`));
   const shipped = useQuery({

@@ -9,7 +9,7 @@ import { ColorField, FieldGroup, NumberField, TextField } from '@/features/edito
 import { TextureField } from './TextureField';
 import classes from '@/features/editor3d/editor3d.module.css';
 
-interface WorldFieldsProps {
+interface UniverseFieldsProps {
   readonly editor: UniverseEditor;
   readonly universe: Universe;
 }
@@ -19,8 +19,8 @@ const CEILING_M = 2.5;
 const AXES = ['x', 'y', 'z'] as const;
 
 /** What belongs to no thing: the name, the ground and the sun. */
-export function WorldFields({ editor, universe }: WorldFieldsProps) {
-  const { t } = useTranslation('worldEditor');
+export function UniverseFields({ editor, universe }: UniverseFieldsProps) {
+  const { t } = useTranslation('universeEditor');
   const set = (path: Path, value: Json, mergeKey?: string) =>
     edit(editor, 'world', (now) => setWorld(now, path, value), mergeKey === undefined ? {} : { mergeKey });
   const without = (...paths: Path[]) =>

@@ -7,7 +7,7 @@ const LARGEST_M = 3;
 
 export type BodyPose = MoveBody['pose'];
 
-/** The body that an object belongs to, if it can be carried; walls, ground and people cannot. */
+/** The body that an object belongs to, if it can be dragged; walls, ground and people cannot. */
 export function carriable(world: World, objectId: number | null): string | null {
   const object = objectId === null ? undefined : world.scene.objects.find(({ id }) => id === objectId);
   if (!object || object.kind === 'actor') return null;
@@ -24,7 +24,7 @@ export function poseOf(object: THREE.Object3D): BodyPose {
 }
 
 /** A body on its way under the pointer, with a ghost where it was. */
-export class Carried {
+export class DraggedBody {
   /** Where the body was when it was taken. */
   readonly origin: BodyPose;
   private readonly parts: { object: THREE.Object3D; start: THREE.Matrix4 }[];

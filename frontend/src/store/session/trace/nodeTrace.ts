@@ -15,7 +15,7 @@ export interface Stretch {
 }
 
 /** What one node did and when: stretches of simulated time, oldest first. Its memory is bounded. */
-export class Lane {
+export class NodeTrace {
   count = 0;
   starts = new Float64Array(FIRST_CAPACITY);
   ends = new Float64Array(FIRST_CAPACITY);

@@ -1,4 +1,4 @@
-import { history } from './trace';
+import { trace } from './trace';
 import { trail } from './trail';
 
 const KEY = 'bts.run.';
@@ -12,7 +12,7 @@ let sessionId: string | null = null;
 function keepRun(): void {
   if (!sessionId) return;
   try {
-    sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: history.keep() }));
+    sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: trace.keep() }));
   } catch {
     // No room: both begin anew after the reload, nothing else is lost.
   }
@@ -21,6 +21,7 @@ function keepRun(): void {
 interface Kept {
   sessionId: string;
   trail: string;
+  /** Named before the trace had its name; pages that were open then still hold it. */
   history: string;
 }
 
@@ -45,15 +46,15 @@ export function forgetRun(): void {
   sessionId = null;
   kept = null;
   trail.clear();
-  history.start([], 0);
+  trace.start([], 0);
 }
 
-/** What the history was before a reload or a lost connection; after a reload it is handed out once. */
-export function takeKeptHistory(): string | null {
+/** What the trace was before a reload or a lost connection; after a reload it is handed out once. */
+export function takeCachedTrace(): string | null {
   const text = kept?.history ?? null;
   kept = null;
   if (text) return text;
-  return history.nodes.length > 0 ? history.keep() : null;
+  return trace.nodes.length > 0 ? trace.keep() : null;
 }
 
 window.addEventListener('pagehide', keepRun);

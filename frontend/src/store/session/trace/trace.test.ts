@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, it } from 'vitest';
 import type { NodeStatus, TreeNode } from '@/generated/messages';
-import { History, HISTORY_S } from './trace';
-import { BIT, Lane, MAX_STRETCHES } from './nodeTrace';
+import { Trace, HISTORY_S } from './trace';
+import { BIT, NodeTrace, MAX_STRETCHES } from './nodeTrace';
 
 const node = (uid: number): TreeNode => ({
   uid,
@@ -15,7 +15,7 @@ const node = (uid: number): TreeNode => ({
   tree_id: 'Main',
 });
 
-describe('Lane', () => {
+describe('NodeTrace', () => {
   it('stays in order and bounded, whatever is added', () => {
     const step = fc.record({
       pause: fc.double({ min: 0, max: 1, noNaN: true }),
@@ -26,18 +26,18 @@ describe('Lane', () => {
         fc.array(step, { minLength: 1, maxLength: 200 }),
         fc.integer({ min: 1, max: 40 }),
         (steps, times) => {
-          const lane = new Lane();
+          const nodeTrace = new NodeTrace();
           let t = 0;
           for (let i = 0; i < times; i++) {
             for (const { pause, mask } of steps) {
-              lane.add((t += pause), t + 0.01, mask);
+              nodeTrace.add((t += pause), t + 0.01, mask);
               t += 0.01;
             }
           }
-          expect(lane.count).toBeLessThanOrEqual(MAX_STRETCHES);
-          for (let i = 1; i < lane.count; i++)
-            expect(lane.at(i).start).toBeGreaterThanOrEqual(lane.at(i - 1).start);
-          expect(lane.at(lane.count - 1).end).toBeCloseTo(t);
+          expect(nodeTrace.count).toBeLessThanOrEqual(MAX_STRETCHES);
+          for (let i = 1; i < nodeTrace.count; i++)
+            expect(nodeTrace.at(i).start).toBeGreaterThanOrEqual(nodeTrace.at(i - 1).start);
+          expect(nodeTrace.at(nodeTrace.count - 1).end).toBeCloseTo(t);
         },
       ),
       { numRuns: 30 },
@@ -45,53 +45,53 @@ describe('Lane', () => {
   });
 });
 
-describe('History', () => {
+describe('Trace', () => {
   it('tells what a node did and is doing', () => {
-    const history = new History();
-    history.start([node(1)], 0);
-    history.tick([[1, 'RUNNING']], [], 1);
-    history.tick([[1, 'SUCCESS']], [], 3);
-    history.advance(4);
-    expect(history.stretches(1, 0, 10)).toEqual([
+    const trace = new Trace();
+    trace.start([node(1)], 0);
+    trace.tick([[1, 'RUNNING']], [], 1);
+    trace.tick([[1, 'SUCCESS']], [], 3);
+    trace.advance(4);
+    expect(trace.stretches(1, 0, 10)).toEqual([
       { start: 1, end: 3, mask: BIT.RUNNING },
       { start: 3, end: 4, mask: BIT.SUCCESS },
     ]);
-    expect(history.status(1)).toBe('SUCCESS');
-    expect(history.runningOf(1)).toEqual({ seconds: 2, times: 1 });
-    history.close();
-    expect(history.status(1)).toBe('IDLE');
+    expect(trace.status(1)).toBe('SUCCESS');
+    expect(trace.runningOf(1)).toEqual({ seconds: 2, times: 1 });
+    trace.close();
+    expect(trace.status(1)).toBe('IDLE');
   });
 
   it('shows results that were gone after their tick, joined where they follow each other', () => {
-    const history = new History();
-    history.start([node(1)], 0);
-    for (let tick = 1; tick <= 20; tick++) history.tick([], [[1, 'FAILURE']], tick * 0.05);
-    const [only, ...others] = history.stretches(1, 0, 2);
+    const trace = new Trace();
+    trace.start([node(1)], 0);
+    for (let tick = 1; tick <= 20; tick++) trace.tick([], [[1, 'FAILURE']], tick * 0.05);
+    const [only, ...others] = trace.stretches(1, 0, 2);
     expect(others).toEqual([]);
     expect(only).toMatchObject({ start: 0.05, mask: BIT.FAILURE });
   });
 
   it('forgets what is older than ten minutes', () => {
-    const history = new History();
-    history.start([node(1)], 0);
-    for (let t = 0; t < HISTORY_S * 2; t++) history.tick([[1, t % 2 ? 'RUNNING' : 'IDLE']], [], t);
-    expect(history.stretches(1, 0, Infinity)[0]!.start).toBeGreaterThan(HISTORY_S - 30);
+    const trace = new Trace();
+    trace.start([node(1)], 0);
+    for (let t = 0; t < HISTORY_S * 2; t++) trace.tick([[1, t % 2 ? 'RUNNING' : 'IDLE']], [], t);
+    expect(trace.stretches(1, 0, Infinity)[0]!.start).toBeGreaterThan(HISTORY_S - 30);
   });
 
   it('comes back after a reload for the same tree alone', () => {
     const statuses: NodeStatus[] = ['RUNNING', 'SUCCESS', 'IDLE'];
-    const history = new History();
-    history.start([node(1)], 0);
-    statuses.forEach((status, index) => history.tick([[1, status]], [], index + 1));
-    const kept = history.keep();
+    const trace = new Trace();
+    trace.start([node(1)], 0);
+    statuses.forEach((status, index) => trace.tick([[1, status]], [], index + 1));
+    const kept = trace.keep();
 
-    const same = new History();
+    const same = new Trace();
     same.start([node(1)], 5);
     same.restore(kept, 5);
     expect(same.stretches(1, 0, 5)).toHaveLength(2);
     expect(same.begin).toBe(0);
 
-    const other = new History();
+    const other = new Trace();
     other.start([node(2)], 5);
     other.restore(kept, 5);
     expect(other.stretches(1, 0, 5)).toEqual([]);
@@ -99,11 +99,11 @@ describe('History', () => {
   });
 
   it('begins anew when the world is put back to its start', () => {
-    const history = new History();
-    history.start([node(1)], 0);
-    history.tick([[1, 'RUNNING']], [], 60);
-    history.tick([[1, 'RUNNING']], [], 0.05);
-    expect(history.now).toBe(0.05);
-    expect(history.stretches(1, 0, 100)).toHaveLength(1);
+    const trace = new Trace();
+    trace.start([node(1)], 0);
+    trace.tick([[1, 'RUNNING']], [], 60);
+    trace.tick([[1, 'RUNNING']], [], 0.05);
+    expect(trace.now).toBe(0.05);
+    expect(trace.stretches(1, 0, 100)).toHaveLength(1);
   });
 });

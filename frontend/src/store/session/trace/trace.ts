@@ -1,5 +1,5 @@
 import type { NodeStatus, TreeNode } from '@/generated/messages';
-import { BIT, Lane, type Stretch } from './nodeTrace';
+import { BIT, NodeTrace, type Stretch } from './nodeTrace';
 
 /** How far back the timeline goes, in simulated seconds. */
 export const HISTORY_S = 600;
@@ -19,18 +19,18 @@ interface Kept {
   tree: string;
   begin: number;
   now: number;
-  lanes: [uid: number, stretches: number[]][];
+  nodeTraces: [uid: number, stretches: number[]][];
 }
 
 /** What each node of the running tree did over the last ten minutes. Outside React: panels read it as they draw. */
-export class History {
+export class Trace {
   nodes: readonly TreeNode[] = [];
   /** Simulated time of the first and of the newest thing known. */
   begin = 0;
   now = 0;
   /** Counts up with each run. */
   run = 0;
-  private lanes = new Map<number, Lane>();
+  private nodeTraces = new Map<number, NodeTrace>();
   private open = new Map<number, Open>();
   private forgottenAt = 0;
 
@@ -40,7 +40,7 @@ export class History {
     this.now = t;
     this.forgottenAt = t;
     this.run += 1;
-    this.lanes = new Map();
+    this.nodeTraces = new Map();
     this.open = new Map();
   }
 
@@ -53,7 +53,7 @@ export class History {
     // The world was put back to its start: times would overlap.
     if (t < this.now - 1) this.start(this.nodes, t);
     this.advance(t);
-    for (const [uid, status] of flashed) this.lane(uid).add(t, t + FLASH_S, BIT[status]);
+    for (const [uid, status] of flashed) this.nodeTrace(uid).add(t, t + FLASH_S, BIT[status]);
     for (const [uid, status] of changed) this.change(uid, status, t);
   }
 
@@ -62,7 +62,7 @@ export class History {
     if (this.now - this.forgottenAt < FORGET_EVERY_S) return;
     this.forgottenAt = this.now;
     const before = this.now - HISTORY_S;
-    for (const lane of this.lanes.values()) lane.forget(before);
+    for (const nodeTrace of this.nodeTraces.values()) nodeTrace.forget(before);
     this.begin = Math.max(this.begin, before);
   }
 
@@ -78,10 +78,10 @@ export class History {
   /** Stretches of a node that touch a span of time, the current one last. */
   stretches(uid: number, from: number, to: number): Stretch[] {
     const found: Stretch[] = [];
-    const lane = this.lanes.get(uid);
-    if (lane) {
-      for (let i = lane.firstAfter(from); i < lane.count; i++) {
-        const stretch = lane.at(i);
+    const nodeTrace = this.nodeTraces.get(uid);
+    if (nodeTrace) {
+      for (let i = nodeTrace.firstAfter(from); i < nodeTrace.count; i++) {
+        const stretch = nodeTrace.at(i);
         if (stretch.start > to) break;
         found.push(stretch);
       }
@@ -104,16 +104,16 @@ export class History {
   }
 
   keep(): string {
-    const uids = new Set([...this.lanes.keys(), ...this.open.keys()]);
+    const uids = new Set([...this.nodeTraces.keys(), ...this.open.keys()]);
     const most = Math.max(8, Math.floor(KEPT_STRETCHES / Math.max(uids.size, 1)));
-    const lanes = [...uids].map((uid): Kept['lanes'][number] => {
-      const lane = new Lane();
+    const nodeTraces = [...uids].map((uid): Kept['nodeTraces'][number] => {
+      const nodeTrace = new NodeTrace();
       for (const { start, end, mask } of this.stretches(uid, this.begin, this.now))
-        lane.add(start, end, mask);
-      lane.coarsen(most);
+        nodeTrace.add(start, end, mask);
+      nodeTrace.coarsen(most);
       const numbers: number[] = [];
-      for (let i = 0; i < lane.count; i++) {
-        const { start, end, mask } = lane.at(i);
+      for (let i = 0; i < nodeTrace.count; i++) {
+        const { start, end, mask } = nodeTrace.at(i);
         numbers.push(round(start), round(end), mask);
       }
       return [uid, numbers];
@@ -122,7 +122,7 @@ export class History {
       tree: signature(this.nodes),
       begin: this.begin,
       now: this.now,
-      lanes,
+      nodeTraces,
     } satisfies Kept);
   }
 
@@ -133,28 +133,28 @@ export class History {
       const kept = JSON.parse(text) as Kept;
       if (kept.tree !== signature(this.nodes) || kept.now > t + 1 || t - kept.now > HISTORY_S) return;
       this.begin = kept.begin;
-      for (const [uid, numbers] of kept.lanes) {
-        const lane = this.lane(uid);
+      for (const [uid, numbers] of kept.nodeTraces) {
+        const nodeTrace = this.nodeTrace(uid);
         for (let i = 0; i + 2 < numbers.length; i += 3) {
-          lane.add(numbers[i] ?? 0, numbers[i + 1] ?? 0, numbers[i + 2] ?? 0);
+          nodeTrace.add(numbers[i] ?? 0, numbers[i + 1] ?? 0, numbers[i + 2] ?? 0);
         }
       }
     } catch {
-      // Unreadable: the history begins now.
+      // Unreadable: the trace begins now.
     }
   }
 
   private change(uid: number, status: NodeStatus, t: number): void {
     const before = this.open.get(uid);
-    if (before) this.lane(uid).add(before.since, t, BIT[before.status]);
+    if (before) this.nodeTrace(uid).add(before.since, t, BIT[before.status]);
     if (status === 'IDLE') this.open.delete(uid);
     else this.open.set(uid, { status, since: t });
   }
 
-  private lane(uid: number): Lane {
-    let lane = this.lanes.get(uid);
-    if (!lane) this.lanes.set(uid, (lane = new Lane()));
-    return lane;
+  private nodeTrace(uid: number): NodeTrace {
+    let nodeTrace = this.nodeTraces.get(uid);
+    if (!nodeTrace) this.nodeTraces.set(uid, (nodeTrace = new NodeTrace()));
+    return nodeTrace;
   }
 }
 
@@ -165,4 +165,4 @@ function signature(nodes: readonly TreeNode[]): string {
   return nodes.map((node) => `${node.uid}:${node.tree_id}/${node.node_id}:${node.type}`).join(';');
 }
 
-export const history = new History();
+export const trace = new Trace();

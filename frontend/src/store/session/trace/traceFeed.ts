@@ -1,29 +1,29 @@
 import type { ServerMessage, Snapshot, State, Tick, Tree } from '@/generated/messages';
-import { history } from './trace';
-import { takeKeptHistory } from './overReload';
+import { trace } from './trace';
+import { takeCachedTrace } from './overReload';
 
 const APPLICATION: readonly State[] = ['application_running', 'paused'];
 
-/** Passes on to the history what concerns the nodes. */
-export function feedHistory({ command, data, t }: ServerMessage): void {
+/** Passes on to the trace what concerns the nodes. */
+export function feedTrace({ command, data, t }: ServerMessage): void {
   switch (command) {
     case 'tree':
-      return history.start((data as Tree).nodes, t);
+      return trace.start((data as Tree).nodes, t);
     case 'snapshot': {
       const { tree, statuses } = data as Snapshot;
-      const kept = takeKeptHistory();
-      history.start(tree?.nodes ?? [], t);
-      history.restore(kept, t);
-      return history.tick(statuses, [], t);
+      const kept = takeCachedTrace();
+      trace.start(tree?.nodes ?? [], t);
+      trace.restore(kept, t);
+      return trace.tick(statuses, [], t);
     }
     case 'tick': {
       const { changed, flashed } = data as Tick;
-      return history.tick(changed, flashed, t);
+      return trace.tick(changed, flashed, t);
     }
     case 'state-changed':
-      if (!APPLICATION.includes((data as { state: State }).state)) history.close();
+      if (!APPLICATION.includes((data as { state: State }).state)) trace.close();
       return;
     case 'sim':
-      return history.advance(t);
+      return trace.advance(t);
   }
 }

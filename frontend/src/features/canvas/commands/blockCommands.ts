@@ -1,4 +1,4 @@
-import type { UserAction } from '@/commands/registry';
+import type { UserCommand } from '@/commands/registry';
 import {
   IconArrowsExchange,
   IconBan,
@@ -37,8 +37,8 @@ import { pasteHere } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { openQuickAddHere } from '../quickAdd/open';
 
-/** What can be done with a block: a row of the table of actions that the menu of a block has, too. */
-export interface BlockAction extends UserAction {
+/** What can be done with a block: a row of the table of commands that the menu of a block has, too. */
+export interface BlockCommand extends UserCommand {
   icon: Icon;
   /** Its words in the menu of a block or of the free canvas, a key of `canvas:menu`; null where it is not offered. */
   inMenu: (isOnBlock: boolean) => string | null;
@@ -79,7 +79,7 @@ function canUnwrapSelected(): boolean {
 }
 
 /** What is done with the selected blocks, in the order of the command palette. */
-export const blockActions: readonly BlockAction[] = [
+export const blockCommands: readonly BlockCommand[] = [
   {
     id: 'edit.copy',
     group: 'edit',
@@ -157,7 +157,7 @@ export const blockActions: readonly BlockAction[] = [
   {
     id: 'canvas.rename',
     group: 'canvas',
-    labelKey: 'canvas:action.rename',
+    labelKey: 'canvas:command.rename',
     inMenu: always('rename'),
     icon: IconForms,
     keys: 'F2',
@@ -169,7 +169,7 @@ export const blockActions: readonly BlockAction[] = [
   {
     id: 'canvas.comment',
     group: 'canvas',
-    labelKey: 'canvas:action.comment',
+    labelKey: 'canvas:command.comment',
     inMenu: always('comment'),
     icon: IconMessage2,
     keys: 'Slash',
@@ -181,7 +181,7 @@ export const blockActions: readonly BlockAction[] = [
   {
     id: 'canvas.open',
     group: 'canvas',
-    labelKey: 'canvas:action.open',
+    labelKey: 'canvas:command.open',
     inMenu: wordsOfOpening,
     icon: IconCode,
     keys: 'Enter',
@@ -194,7 +194,7 @@ export const blockActions: readonly BlockAction[] = [
   {
     id: 'canvas.fold',
     group: 'canvas',
-    labelKey: 'canvas:action.fold',
+    labelKey: 'canvas:command.fold',
     inMenu: () => (childCount() === 0 ? null : selectedNode()?.collapsed ? 'unfold' : 'fold'),
     icon: IconFold,
     keys: 'Space',
@@ -272,7 +272,7 @@ export const blockActions: readonly BlockAction[] = [
   {
     id: 'canvas.look',
     group: 'canvas',
-    labelKey: 'canvas:action.look',
+    labelKey: 'canvas:command.look',
     inMenu: () => (canLookInside() ? (isLookedInside() ? 'lookAway' : 'lookInside') : null),
     icon: IconFold,
     keys: 'Space',

@@ -9,7 +9,8 @@ import { keysOf } from '@/commands/shortcuts';
 import { matchScore } from '@/model/choices';
 import { useProjectStore } from '@/store/project';
 import classes from './commandPalette.module.css';
-import { openTab, useTabs, type DocumentTab } from './tabs';
+import type { DocumentTab } from './documents';
+import { openTab, useTabs } from './tabs';
 
 /** What is wanted most often comes first. */
 const GROUPS: CommandGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];

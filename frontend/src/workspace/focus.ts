@@ -1,4 +1,4 @@
-import type { DocumentTab } from './tabs';
+import type { DocumentTab } from './documents';
 
 /** The editor of a document may still be on its way over a slow line: so long it is waited for. */
 const PATIENCE_MS = 30_000;

@@ -1,15 +1,9 @@
 import { Actions, DockLocation, TabNode, TabSetNode, type IJsonTabNode, type Model } from 'flexlayout-react';
 import { create } from 'zustand';
 import { useProjectStore } from '@/store/project';
+import type { DocumentTab } from './documents';
 import { focusDocument } from './focus';
 import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
-
-/** A document that is open in a tab. */
-export type DocumentTab =
-  | { kind: 'tree'; id: string }
-  | { kind: 'file'; path: string }
-  /** A revision beside another; there is one such tab. */
-  | { kind: 'compare' };
 
 /** Where an editor shall put its cursor; `request` makes the same line twice two requests. */
 export interface LineTarget {

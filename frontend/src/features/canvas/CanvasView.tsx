@@ -25,7 +25,7 @@ import { enterInside, isMenuKey, onCanvasKey } from './gestures/keyboard';
 import { Overview } from './Overview';
 import { QuickAdd } from './quickAdd/QuickAdd';
 import { openQuickAdd, pointOf } from './quickAdd/open';
-import { SlotMark } from './SlotMark';
+import { SlotMark } from './gestures/SlotMark';
 import { TreeEdge } from './TreeEdge';
 import { useConnecting } from './gestures/useConnecting';
 import { useDragging } from './gestures/useDragging';

@@ -20,7 +20,8 @@ import { useProjectStore } from '@/store/project';
 import { treeIdOf } from '@/store/project/state';
 import classes from './explorer.module.css';
 import { removeDocument } from './removing';
-import { openTab, showPanel, type DocumentTab } from '@/workspace/tabs';
+import type { DocumentTab } from '@/workspace/documents';
+import { openTab, showPanel } from '@/workspace/tabs';
 
 interface ExplorerItemProps {
   readonly path: string;

@@ -9,7 +9,6 @@ import { useEffect, useRef } from 'react';
 import { useTranslation } from 'react-i18next';
 import { isProblem, readScript } from '@/model/script';
 import { scriptText } from '@/ui/scriptText';
-import type { ScriptInputProps } from './ScriptInput';
 import classes from './Inspector.module.css';
 
 const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
@@ -71,8 +70,18 @@ function completions(keys: () => readonly string[]): CompletionSource {
   };
 }
 
+export interface ScriptEditorProps {
+  readonly value: string;
+  /** Blackboard keys, for completion. */
+  readonly keys: readonly string[];
+  readonly testId: string;
+  readonly labelledBy?: string;
+  readonly label?: string;
+  readonly onChange: (value: string) => void;
+}
+
 /** A script with colours, errors where they are, and completion; see ScriptInput. */
-export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange }: ScriptInputProps) {
+export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange }: ScriptEditorProps) {
   const { t } = useTranslation();
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<EditorView | null>(null);

@@ -4,21 +4,12 @@ import { useTranslation } from 'react-i18next';
 import { isProblem, readScript } from '@/model/script';
 import { scriptText } from '@/ui/scriptText';
 import { lazyPart } from '@/ui/parts';
+import type { ScriptEditorProps } from './ScriptEditor';
 
 const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).ScriptEditor);
 
-export interface ScriptInputProps {
-  readonly value: string;
-  /** Blackboard keys, for completion. */
-  readonly keys: readonly string[];
-  readonly testId: string;
-  readonly labelledBy?: string;
-  readonly label?: string;
-  readonly onChange: (value: string) => void;
-}
-
 /** A script of the blackboard: an editor that checks while one types, a plain field until that is loaded. */
-export function ScriptInput(props: ScriptInputProps) {
+export function ScriptInput(props: ScriptEditorProps) {
   const { value, testId, labelledBy, label, onChange } = props;
   const { t } = useTranslation();
   const problem = useMemo(() => {

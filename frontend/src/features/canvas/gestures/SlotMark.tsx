@@ -1,7 +1,7 @@
 import { memo } from 'react';
 import { ViewportPortal } from '@xyflow/react';
 import { useEditorStore } from '@/store/project/editor';
-import classes from './Canvas.module.css';
+import classes from '../Canvas.module.css';
 
 /** The insertion mark: where a dragged block will go. */
 export const SlotMark = memo(function SlotMark() {

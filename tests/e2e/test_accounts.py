@@ -270,7 +270,7 @@ def takes_everything_along_and_goes(bob: Someone) -> None:
     assert download.value.suggested_filename == "bob.zip"
     bob.type("Type your user name to delete the account", "bob")
     bob.can_be_used("room and data")
-    bob.press("button", "Delete the account for good")
+    bob.press("button", "Delete the account permanently")
     bob.comes_to("/accounts/login/")
     bob.sign_in("bob", ANOTHER)
     expect(bob.page.get_by_text("not correct")).to_be_visible()

@@ -211,11 +211,11 @@ def names_that_cannot_be(studio: Studio) -> None:
     for kind, name, problem in (
         ("file", "../secret.md", "A path inside the project"),
         ("file", "my notes.md", "A path inside the project"),
-        ("file", "notes.MD", "There is one of that name already"),
+        ("file", "notes.MD", "This name is already in use"),
         ("action", "lambda", "no Python keyword"),
         ("action", "Go on", "Letters, digits and _ only"),
         ("action", "Größe", "Letters, digits and _ only"),
-        ("action", "Turn", "There is one of that name already"),
+        ("action", "Turn", "This name is already in use"),
     ):
         studio.at(f"new-{kind}").first.click()
         dialogue.get_by_role("textbox").fill(name)

@@ -106,7 +106,7 @@ def edge_of_files(studio: Studio) -> tuple[float, float]:
 def hints_are_closed(studio: Studio) -> None:
     for hint in ("build", "run", "find"):
         expect(studio.at("hint")).to_have_attribute("data-hint", hint)
-        studio.page.get_by_role("button", name="Close this hint for good").click()
+        studio.page.get_by_role("button", name="Close this hint permanently").click()
     expect(studio.at("hint")).to_have_count(0)
 
 

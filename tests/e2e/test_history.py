@@ -55,7 +55,7 @@ def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> N
     expect_xml(studio, "broken")
     page.reload()
     expect_xml(studio, "broken")
-    expect(studio.at("xml-state")).to_contain_text("What you typed is back.")
+    expect(studio.at("xml-state")).to_contain_text("Your text was restored.")
     studio.picture("xml-broken-light")
 
     # The canvas goes on meanwhile: the user is asked, and takes the tree; the comment is still in the text.

@@ -89,7 +89,7 @@ export const api = {
     return answer.findings;
   },
 
-  /** What runs; in another of the project's universes, or of ours, than it names itself. */
+  /** The application as it runs, optionally in another universe than the project names. */
   app: (id: string, universe?: string | null) =>
     requestJson<AppBundle>(`${project(id)}/app${universe ? `?${new URLSearchParams({ universe })}` : ''}`),
   startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),

@@ -4,7 +4,7 @@ export interface PythonPlace {
   readonly column: number;
 }
 
-/** A finding of ruff, with the edits that mend it. */
+/** A finding of ruff, with the edits that fix it. */
 export interface PythonFinding {
   readonly code: string;
   readonly severity: 'error' | 'warning';

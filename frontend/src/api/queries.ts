@@ -1,4 +1,4 @@
 import { QueryClient } from '@tanstack/react-query';
 
-/** What the server said: shown at once when it is looked at again, and asked for anew each time. */
+/** Server data: shown at once from the cache when it is opened again, and fetched again each time. */
 export const queries = new QueryClient({ defaultOptions: { queries: { retry: 1 } } });

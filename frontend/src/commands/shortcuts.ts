@@ -4,7 +4,7 @@ import { useCommandTable, type UserCommand } from './registry';
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
 
-/** Inputs that nobody types into: after a press on one, the keys are the frame's again. */
+/** Inputs that take no text: while one has the focus, shortcuts work. */
 const NO_TEXT = ['checkbox', 'radio', 'button', 'submit', 'color', 'file'];
 
 function isTextField(target: EventTarget | null): boolean {

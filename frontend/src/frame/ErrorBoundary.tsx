@@ -11,7 +11,7 @@ interface State {
   readonly error: Error | null;
 }
 
-/** What the user sees of a mistake of ours, or of a part that did not come: that edits are kept, and a way on. */
+/** Shown for an internal error or a part that did not load: says that edits are kept, and offers to continue. */
 export class ErrorBoundary extends Component<Props, State> {
   override state: State = { error: null };
 

@@ -1,7 +1,7 @@
 import { notifications } from '@mantine/notifications';
 import { t } from '@/i18n';
 
-/** Says what another tab or user has saved, now that it is here. */
+/** Notifies of files that another tab or user has saved, once they are loaded here. */
 export function notifyRemoteSave(paths: readonly string[], { message }: { readonly message: string }): void {
   const names = paths.map((path) => path.split('/').at(-1) ?? path);
   const files = names.length > 3 ? `${names.slice(0, 3).join(', ')} …` : names.join(', ');

@@ -62,7 +62,7 @@ const panels: Record<PanelId, () => ReactNode> = {
   ),
 };
 
-/** What a document's tab shows; by another name it goes on in the same tab. */
+/** The content of a document's tab; a renamed document stays in its tab. */
 function Document({ node }: { readonly node: TabNode }) {
   const tab = useTabs(() => documentOf(node));
   if (!tab) return null;

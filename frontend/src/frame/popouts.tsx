@@ -64,7 +64,7 @@ function giveBack(model: Model, tabs: readonly TabNode[]): void {
   }
 }
 
-/** Says which panels could not get their window, and offers to try again at a press, which browsers allow. */
+/** Notifies of blocked windows and offers to open them by a press, which browsers allow. */
 function tellBlocked(tabs: readonly TabNode[]): void {
   const id = 'popout-blocked';
   const panels = tabs.map((tab) => tab.getId() as PanelId);

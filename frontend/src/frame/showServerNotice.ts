@@ -3,7 +3,7 @@ import { t } from '@/i18n';
 
 const ID = 'server-notice';
 
-/** Says what the server tells all its users, until it is over or read; the words are the administrator's. */
+/** Shows the administrator's notice to all users, until it ends or is closed. */
 export function showServerNotice(text: string): void {
   notifications.hide(ID);
   if (text) {

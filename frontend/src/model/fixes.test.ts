@@ -56,7 +56,7 @@ describe('fixes', () => {
       'wrap-children',
       tree({ r: { type: 'Inverter', children: ['x', 'y'] }, x: { type: 'Turn' }, y: { type: 'Turn' } }),
     ],
-  ])('%s mends what it is offered for, and undo brings the fault back', (key, diagram) => {
+  ])('%s fixes its finding, and undo restores the fault', (key, diagram) => {
     const [offered] = fixesOf(diagram);
     expect(offered?.key).toBe(key);
     if (typeof offered?.does !== 'function') throw new Error('no recipe');

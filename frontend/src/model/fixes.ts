@@ -8,12 +8,12 @@ import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
-/** What a fix does besides changing the tree: makes a file. */
+/** What a fix does in addition to changing the tree: it creates a file. */
 export type Making =
   | { readonly makes: 'action'; readonly name: string; readonly ports: readonly string[] }
   | { readonly makes: 'tree'; readonly name: string };
 
-/** Something that mends a finding; its words are `editor:fix.<key>` with `values`. */
+/** A fix of a finding; its texts are `editor:fix.<key>` with `values`. */
 export interface Fix {
   readonly key: string;
   readonly values: Readonly<Record<string, string>>;

@@ -24,7 +24,7 @@ function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[]
   return [];
 }
 
-/** A ReactiveSequence may have one child that goes on by itself. */
+/** A ReactiveSequence may have one child that keeps its own state between ticks. */
 function checkWaiting(diagram: Diagram, node: DiagramNode): Problem[] {
   if (node.type !== 'ReactiveSequence') return [];
   const waiting = (node.children ?? []).filter((child) => diagram.nodes[child]?.type === 'AsyncSequence');

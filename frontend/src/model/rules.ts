@@ -7,7 +7,7 @@ export interface Kind {
   readonly tree?: string;
 }
 
-/** Unknown types may keep the children that they have, and get no more. */
+/** Unknown types keep the children that they have, and accept no others. */
 function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number {
   const node = diagram.nodes[id];
   if (!node) return 0;

@@ -12,7 +12,7 @@ interface QuickFixesProps {
   readonly onDone?: (() => void) | undefined;
 }
 
-/** What mends a finding, each at a press; undo takes it back. */
+/** The fixes of a finding as buttons; each can be undone. */
 export function QuickFixes({ tree, fixes, onDone }: QuickFixesProps) {
   const { t } = useTranslation('editor');
   if (fixes.length === 0) return null;

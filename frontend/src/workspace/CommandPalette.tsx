@@ -126,7 +126,7 @@ function Palette({ page }: { readonly page: Document }) {
   };
 
   return (
-    // A press beside the palette is a way out besides Escape.
+    // A press beside the palette closes it, as Escape does.
     <div
       className={classes['backdrop']}
       onPointerDown={(event) => {

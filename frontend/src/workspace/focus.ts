@@ -1,8 +1,8 @@
 import type { DocumentTab } from './documents';
 
-/** The editor of a document may still be on its way over a slow line: so long it is waited for. */
+/** The editor of a document may still be loading over a slow line: the longest wait for it. */
 const PATIENCE_MS = 30_000;
-/** A closing menu or palette gives the focus back to where it was: so long it may. */
+/** A closing menu or palette returns the focus to where it was: the time it may take. */
 const SETTLED_MS = 250;
 const RETRY_MS = 20;
 
@@ -45,14 +45,14 @@ export function focusDocument(tab: DocumentTab): void {
   setTimeout(attempt);
 }
 
-/** Whoever points elsewhere or walks on by Tab has chosen where to be; any other key is typing ahead. */
+/** A press elsewhere or Tab is the user's choice of focus; any other key is typing ahead. */
 function abortOnceChosen(request: AbortController): void {
   const listen = { capture: true, signal: request.signal };
   window.addEventListener('pointerdown', () => request.abort(), listen);
   window.addEventListener('keydown', ({ key }) => key === 'Tab' && request.abort(), listen);
 }
 
-/** Lets whatever asks for the keyboard next have it, although a document was just opened. */
+/** Cancels a pending focus on a document, so that the next request gets the keyboard. */
 export function letGoOfDocument(): void {
   pending.abort();
 }

@@ -49,10 +49,10 @@ export const companionsOf = (id: PanelId): readonly PanelId[] => [
   ...NEIGHBOURS,
 ];
 
-/** What the docking library is told of a panel that may have a window. */
+/** The docking options of a panel that may have a window. */
 const windowed = (id: PanelId): Partial<IJsonTabNode> =>
   WINDOWED.includes(id)
-    ? // A drawing surface is made anew where it goes: it does not travel between documents.
+    ? // A WebGL canvas cannot move between documents: it is created again in the other one.
       { enablePopout: true, enablePopoutIcon: true, enableWindowReMount: id === 'viewer3d' }
     : {};
 

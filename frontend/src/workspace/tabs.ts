@@ -39,7 +39,7 @@ function tabId(tab: DocumentTab): string {
 }
 
 function nameOf(tab: DocumentTab): string {
-  // The frame has words for it, as for its panels.
+  // Translated by the frame, as the names of its panels are.
   if (tab.kind === 'compare') return 'panel.compare';
   if (tab.kind === 'tree') return tab.id;
   // All robots are in files of the same name.
@@ -57,7 +57,7 @@ function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpT
 export const documentOf = (node: TabNode): DocumentTab | undefined =>
   (node.getConfig() as { tab?: DocumentTab } | undefined)?.tab;
 
-/** The tab of a document: it may have been opened when that was called otherwise. */
+/** The tab of a document, also one opened under an earlier name. */
 function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
   let found: TabNode | null = null;
   model?.visitNodes((node) => {
@@ -81,7 +81,7 @@ export function openTab(tab: DocumentTab, line?: number): void {
   focusDocument(tab);
 }
 
-/** Has the editor that shows a file put its cursor on a line. */
+/** Moves the cursor of the editor that shows a file to a line. */
 export function aimAt(path: string, line: number): void {
   requests += 1;
   useTabs.setState({ target: { path, line, request: requests } });
@@ -93,7 +93,7 @@ export function closeTab(tab: DocumentTab): void {
   if (open) model?.doAction(Actions.deleteTab(open.getId()));
 }
 
-/** Has the tab of a document show it under its new name, where it stands. */
+/** Gives a document's tab its new name in place. */
 export function followRename(from: DocumentTab, to: DocumentTab): void {
   const { model } = useTabs.getState();
   const open = nodeOf(model, from);
@@ -107,7 +107,7 @@ function exists(tab: DocumentTab): boolean {
   return tab.kind === 'tree' ? tab.id in diagrams : tab.kind === 'file' && tab.path in files;
 }
 
-/** Closes what shows a tree that is no more: undone, or called otherwise. An editor of text says so itself. */
+/** Closes tabs of trees that no longer exist (undone or renamed). A text editor reports a missing file itself. */
 export function closeGone(): void {
   const { model } = useTabs.getState();
   for (const tab of model ? openDocuments(model) : []) {
@@ -172,7 +172,7 @@ export function reopen(projectId: string, mainTree: string): void {
   try {
     kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;
   } catch {
-    // Unreadable: as if nothing had been open.
+    // Unreadable: treated as if no tab had been open.
   }
   const tabs = (kept.tabs ?? []).filter(exists);
   for (const tab of tabs) openTab(tab);

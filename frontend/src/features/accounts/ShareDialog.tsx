@@ -16,7 +16,7 @@ interface ShareDialogProps {
   readonly onClose: () => void;
 }
 
-/** With whom a project is shared: people, classes, and whoever has a link. For its owner. */
+/** The people, classes and links with which a project is shared. For its owner. */
 export function ShareDialog({ projectId, name, isOpen, onClose }: ShareDialogProps) {
   const { t } = useTranslation('accounts');
   return (

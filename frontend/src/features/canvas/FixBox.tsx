@@ -15,7 +15,7 @@ interface FixBoxProps {
 const WIDTH = 320;
 const HEIGHT = 240;
 
-/** The problems of a block and what mends them, below the block: at a press or by keys. */
+/** The problems of a block and their fixes, below the block; opened by a press or by keys. */
 export function FixBox({ diagram, id, onClose }: FixBoxProps) {
   const { t } = useTranslation('canvas');
   const box = useRef<HTMLDivElement>(null);

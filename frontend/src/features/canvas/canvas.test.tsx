@@ -68,7 +68,7 @@ it('renders the blocks whose status changed in a tick, and no others', () => {
   expect(rendered.sort()).toEqual(['n3', 'n7']);
 });
 
-it('offers on a block what mends it', async () => {
+it('offers the fixes of a block', async () => {
   const user = userEvent.setup();
   const wrong = screen.getByTestId('node-wrong');
   fireEvent.click(wrong.querySelector('[data-testid=problem-mark]')!);

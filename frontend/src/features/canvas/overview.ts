@@ -14,7 +14,7 @@ export interface Shrinking {
 }
 
 const MARGIN = 6;
-/** Below these a block is no more than a hair: then a tree is stretched as far as there is room. */
+/** Below these sizes a block is a hairline: then the tree is stretched to the available room. */
 const LEGIBLE = { sx: 0.03, sy: 0.09 } as const;
 
 /**

@@ -28,7 +28,7 @@ const fromStore = Annotation.define<boolean>();
 
 const KEPT = { history: historyField };
 
-/** What the editor had before it was made anew: its file was given another name, or the page another language. */
+/** The state of the editor before it was created again, because its file or the page's language changed. */
 interface Left {
   readonly state: unknown;
   readonly scroll: StateEffect<unknown>;
@@ -110,7 +110,7 @@ function useExternalText(view: ViewRef, text: string | null): void {
   }, [view, text]);
 }
 
-/** Has an editor show a text; what is the same in both stays as it is, with cursors and marks in it. */
+/** Shows a text in an editor; equal parts stay unchanged, with cursors and marks in them. */
 function follow(editor: EditorView, text: string): void {
   const before = editor.state.doc.toString();
   // The editor counts a line's end as one character, whatever a file has there.

@@ -89,7 +89,7 @@ describe('textErrors', () => {
     ['a.json', '{"a": 01}', 7, 'Something else than JSON'],
     ['a.json', '{"a": [1, 2', 11, 'Something else than JSON'],
     ['a.json', '\n', 1, 'The file is empty'],
-    ['a.yaml', 'a: 1\nb: [1, 2\n', 14, 'This is no YAML'],
+    ['a.yaml', 'a: 1\nb: [1, 2\n', 14, 'This is not YAML'],
     ['a.yml', 'a: 1\na: 2\n', 5, 'unique'],
     ['a.launch', '<launch>\n<node/>\n</lunch>', 17, '</lunch>'],
     ['a.md', '{', null, ''],

@@ -27,7 +27,7 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
 export const isToldBetter = (item: Diagnostic, isServed: boolean): boolean =>
   item.code === 'BT0001' || (isServed && item.code === 'BT0601');
 
-/** Findings of ruff, each with a button that mends it; none while they are about an older text. */
+/** Findings of ruff, each with a button that fixes it; none while they are about an older text. */
 export function lintMarks(doc: Text, linted: Linted | null, isServed: boolean): Mark[] {
   if (!linted?.doc.eq(doc)) return [];
   return linted.findings

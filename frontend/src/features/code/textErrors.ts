@@ -8,7 +8,7 @@ import { valueOfYaml } from '@/model/document/yaml';
 import { isXml } from './modes';
 
 const READ_AFTER_MS = 300;
-/** Whoever types in a longer text would wait for it to be read. */
+/** Parsing a longer text at each key would delay typing. */
 const LONGEST = 500_000;
 
 /** Where a text stops being what its file's name says. */

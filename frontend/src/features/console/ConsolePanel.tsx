@@ -146,7 +146,7 @@ export function ConsolePanel() {
   );
 }
 
-/** So long after a wheel or a key the user's scrolling goes on. */
+/** For this long after a wheel or key event, scrolling counts as the user's. */
 const HAND_MS = 1000;
 
 /** What the user's hand does to the lines. */

@@ -98,7 +98,7 @@ describe('ConsolePanel', () => {
 
   it('says what will be there before the first run', () => {
     show();
-    expect(screen.getByText(/What your actions print/)).toBeInTheDocument();
+    expect(screen.getByText(/The output of your actions/)).toBeInTheDocument();
   });
 
   it('opens the line that a link names', async () => {

@@ -13,7 +13,7 @@ export interface ConsoleFilter {
 
 export const LEVELS: LogLevel[] = ['debug', 'info', 'warning', 'error'];
 
-/** What the console shows; also set by whoever sends the user there. */
+/** The filter of the console; other panels set it when they lead the user there. */
 export const useConsoleFilter = create<ConsoleFilter>(() => ({ source: 'all', level: 'info', search: '' }));
 
 const isOf = (line: LogLine, source: ConsoleFilter['source']) =>

@@ -26,7 +26,7 @@ interface PlaceButtonProps {
   readonly icon: Icon;
   readonly label: string;
   readonly testId: string;
-  /** What the view is told when the button is dragged there. */
+  /** What the view receives when the button is dropped there. */
   readonly what: object;
   readonly onPlace: () => void;
 }

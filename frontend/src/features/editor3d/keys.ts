@@ -17,7 +17,7 @@ export interface KeyActs {
   readonly others?: Readonly<Record<string, Act>>;
 }
 
-/** What a key does in the view, as the how-to pages list them; others go on to the page. */
+/** What a key does in the view, as the how-to pages list them; others are left to the page. */
 export function onEditorKey(editor: Editor, event: KeyboardEvent, acts: KeyActs): void {
   if (event.altKey) return;
   const isControl = event.ctrlKey || event.metaKey;

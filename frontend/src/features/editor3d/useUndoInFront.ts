@@ -4,7 +4,7 @@ import { useUndoTarget } from '@/commands/undo';
 import { useTabs } from '@/workspace/tabs';
 import { isReadOnly, travel, type Editor } from './editing';
 
-/** Has undo and redo of the frame work on this editor while it is the document in front. */
+/** Directs the frame's undo and redo to this editor while its document is in front. */
 export function useUndoInFront(editor: Editor): void {
   const isInFront = useTabs(({ front }) => front?.kind === 'file' && front.path === editor.path);
   const canUndo = useStore(editor.store, ({ undoStack }) => undoStack.past.length > 0);

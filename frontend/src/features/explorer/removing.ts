@@ -8,7 +8,7 @@ import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 import { closeTab } from '@/workspace/tabs';
 
-/** Deletes a document, of a robot all its files; the note that says so brings everything back. */
+/** Deletes a document (of a robot all its files); the notification offers to undo it. */
 export async function removeDocument(path: string): Promise<void> {
   const project = useProjectStore.getState();
   const files = filesOf(path);

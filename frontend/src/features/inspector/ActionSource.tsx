@@ -10,7 +10,7 @@ import classes from './Inspector.module.css';
 
 const SourceView = lazyPart(async () => (await import('./SourceView')).SourceView);
 
-/** Whoever looks at one action's source wants to see the next one's, too. */
+/** A user who opened one action's source expects the next one's to be open, too. */
 const useShown = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
 /** The Python of the block's action, to be read beside the tree. */

@@ -112,7 +112,7 @@ export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange 
             ({ state }) => {
               const text = state.doc.toString();
               const facts = readScript(text);
-              // An empty script is told beside the field.
+              // An empty script is reported beside the field.
               if (text.trim() === '' || !isProblem(facts)) return [];
               const { message, hint } = scriptText(facts, latest.current.t);
               const [from, to] = facts.span;

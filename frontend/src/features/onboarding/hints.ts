@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** What a first user is told, one after the other; texts are `onboarding:hint.<id>`. */
+/** The hints for a first user, one after the other; texts are `onboarding:hint.<id>`. */
 export const HINTS = ['build', 'run', 'find'] as const;
 export type HintId = (typeof HINTS)[number];
 

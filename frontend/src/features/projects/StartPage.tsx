@@ -20,7 +20,7 @@ import { useStartCommands } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
-/** Project zips of ours and of JdeRobot, trees as XML, projects of Groot2. */
+/** Project zips of BT Studio and of JdeRobot, trees as XML, projects of Groot2. */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
 
 /** Where the user chooses or makes a project. */

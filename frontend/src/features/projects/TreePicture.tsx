@@ -24,7 +24,7 @@ function read(document: unknown): Picture | null {
     const layout = layoutTree(diagram, vocabulary, { ignorePositions: true });
     return layout.width > 0 ? { diagram, layout } : null;
   } catch {
-    // A diagram that cannot be read is told about when it is opened; its card has no picture.
+    // A diagram that cannot be read is reported when it is opened; its card has no picture.
     return null;
   }
 }

@@ -18,7 +18,7 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
   });
 }
 
-/** What can be done with projects from the start page; failures are told in a notification. */
+/** The commands for projects on the start page; failures are shown as notifications. */
 export function useProjectCommands() {
   const { t } = useTranslation('projects');
   const queries = useQueryClient();

@@ -19,7 +19,7 @@ interface TreePictureProps {
   readonly after: Diagram;
 }
 
-/** A sign besides the colour, so that neither is alone. */
+/** A sign in addition to the colour: colour alone is not accessible. */
 const SIGNS: Record<ChangeKind, string> = { added: '+', removed: '−', changed: '≠', moved: '⇄' };
 const COLORS: Record<ChangeKind, string> = {
   added: 'var(--bts-success)',

@@ -56,7 +56,7 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   };
 }
 
-/** What the pointer does to the parts of a robot: the base stays, everything else is carried at its height. */
+/** What the pointer does to the parts of a robot: the base stays, everything else is dragged at its height. */
 export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {
   return {
     take: (hit) => {

@@ -9,7 +9,7 @@ import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
-/** The program was edited while it runs: offers to start it anew, without taking anything away. */
+/** The program was edited while it runs: offers to restart it. */
 export function RestartOffer() {
   const { t } = useTranslation('run');
   const hasApplication = useSessionStore(

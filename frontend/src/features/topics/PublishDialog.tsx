@@ -51,7 +51,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
       await publish(topic.trim(), type.trim(), message as Record<string, unknown>);
       setResult({ isError: false, text: t('published', { topic: topic.trim() }) });
     } catch (error) {
-      // The field itself says so.
+      // The field itself shows the error.
       if (error instanceof SyntaxError) return setResult(null);
       const { message, hint = '' } = error as Error & { hint?: string };
       setResult({ isError: true, text: [message, hint].filter(Boolean).join(' ') });

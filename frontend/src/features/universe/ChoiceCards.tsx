@@ -4,7 +4,7 @@ import type { UniverseInfo } from '@/api/types';
 import { OUTSIDE } from './titles';
 import classes from './universe.module.css';
 
-/** The universe's own robot, our template of one, and no world of ours. */
+/** The universe's own robot, the robot template, and no simulated world. */
 const WITHOUT_PICTURE: ReadonlyMap<string, Icon> = new Map([
   ['', IconRobot],
   ['template', IconRobot],

@@ -1,7 +1,7 @@
 import type { TFunction } from 'i18next';
 import type { UniverseInfo } from '@/api/types';
 
-/** Against an outside ROS graph, without a world of ours. */
+/** Runs against an outside ROS graph, without a simulated world. */
 export const OUTSIDE = 'none';
 
 type Kind = 'universe' | 'robot';

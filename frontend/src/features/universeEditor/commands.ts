@@ -172,7 +172,7 @@ export function turnSelected(editor: UniverseEditor, angle: number): void {
   );
 }
 
-/** A size by its numbers; what stands on the floor goes on standing there. */
+/** Sets a size by its numbers; a thing on the floor stays on the floor. */
 export function resize(
   editor: UniverseEditor,
   key: string,

@@ -10,7 +10,7 @@ import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
 import type { WallLine } from './WallLine';
 
-/** Wider things are floors and rooms: they are carried only once they are selected. */
+/** Wider things are floors and rooms: they are dragged only once they are selected. */
 const LARGEST_M = 3;
 
 /** What the pointer does to the things of a universe. */

@@ -44,7 +44,7 @@ function Moved() {
   const canMove = useSessionStore(({ executor }) =>
     ['universe_ready', 'visualization_ready', 'paused'].includes(executor),
   );
-  // Once time goes on, where it was is no place to put it back to.
+  // Once time continues, the old place is no longer valid.
   useEffect(() => {
     if (!canMove) useMoves.setState({ last: null });
   }, [canMove]);

@@ -6,7 +6,7 @@ import type { BodyPose } from './scene/DraggedBody';
 /** The last body that was dragged, and where it had been. */
 export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));
 
-/** Bodies are dragged only while time stands still, and by who drives the session. */
+/** Bodies are dragged only while time is paused, and only by the client that controls the session. */
 export function canMove(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return (

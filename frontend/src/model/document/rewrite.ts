@@ -20,7 +20,7 @@ export class UnwritableError extends Error {}
 
 /**
  * Changes a document's text. What an operation does not touch stays as it is, to the byte, where the
- * document is written in the ways that people write; else it is written anew, with its comments and order.
+ * document is written in the ways that people write; else it is written again, with its comments and order.
  */
 export function rewrite(text: string, ops: readonly Op[]): string {
   const document = parse(text);

@@ -12,7 +12,7 @@ type Schema = Readonly<Record<string, unknown>>;
 
 const issue = (path: Path, kind: string, params: Issue['params'] = {}): Issue => ({ path, kind, params });
 
-/** What of a JSON Schema our generated one uses, and no more. */
+/** The part of JSON Schema that our generated schemas use. */
 export function checkSchema(value: Json, root: Schema, schema: Schema = root, path: Path = []): Issue[] {
   const reference = schema['$ref'];
   if (typeof reference === 'string') return checkSchema(value, root, definition(root, reference), path);

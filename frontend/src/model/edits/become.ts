@@ -17,7 +17,7 @@ export function sameNode(a: DiagramNode, b: DiagramNode): boolean {
   return a === b || (sameList(a.children, b.children) && textOf(a) === textOf(b));
 }
 
-/** Turns a tree into another by touching only what differs, so that blocks which stay are drawn no anew. */
+/** Turns a tree into another by touching only what differs, so that unchanged blocks are not drawn again. */
 export const become =
   (next: Diagram): Recipe =>
   (draft) => {

@@ -54,7 +54,7 @@ function mentions({ urdf }: Robot, what: Named, name: string): [XmlElement, stri
     for (const transmission of children(urdf.element, 'transmission'))
       for (const joint of children(transmission, 'joint')) add(joint, 'name');
   }
-  // What Gazebo is told of may be a link or a joint; where both bear the name, it is the link.
+  // A name in the Gazebo block may be a link or a joint; where both have it, it is the link.
   if (what === 'link' || !urdf.links.has(name))
     for (const extension of children(urdf.element, 'gazebo')) add(extension, 'reference');
   return found as [XmlElement, string][];

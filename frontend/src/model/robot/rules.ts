@@ -68,7 +68,7 @@ export interface Field {
   readonly isOptional: boolean;
 }
 
-/** What the schema says something of: a sensor, the drive, or the motor of a joint. */
+/** The parts that the schema describes: a sensor, the drive, or the motor of a joint. */
 export type FieldsOf = SensorKind | 'drive' | 'motor';
 
 const DEFINITIONS: Readonly<Record<FieldsOf, keyof typeof schema.$defs>> = {

@@ -25,7 +25,7 @@ interface EditorState {
   /** A new block on its way from the palette. */
   readonly dragged: Kind | null;
   readonly slot: Slot | null;
-  /** The block whose problems are shown with what mends them. */
+  /** The block whose problems and fixes are shown. */
   readonly fixing: NodeId | null;
   /** Of each tree, the SubTrees that are looked into in place (`model/expand`). */
   readonly expanded: Readonly<Record<string, ReadonlySet<NodeId>>>;

@@ -21,7 +21,7 @@ import {
   type Diagrams,
 } from './transitions';
 
-/** Has an editor that shows the action follow it. */
+/** Makes an editor that shows the action follow its new name. */
 const tellRenamed = ({ from, to }: Renaming): void => {
   tellNavigator('file', actionPath(from), actionPath(to));
 };
@@ -168,7 +168,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
       const { [from]: moved = diagram, ...others } = renamed;
       const diagrams = { ...others, [to]: { ...moved, id: to } };
-      // Before the old name goes: what shows a tree that is no more is closed.
+      // Before the old name is removed: tabs of missing trees are closed.
       if (state.role !== 'viewer') tellNavigator('tree', from, to);
       const { [from]: _undoStack, ...histories } = state.histories;
       set({

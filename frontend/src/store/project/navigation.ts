@@ -1,10 +1,10 @@
 import { actionPath } from './state';
 
-/** How features ask the frame to open something, without knowing the frame. */
+/** Opens documents on behalf of features, which do not import the frame. */
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
-  /** Has what shows a tree or a file show it under its new name. */
+  /** Gives the tab of a tree or file its new name. */
   renamed(kind: 'tree' | 'file', from: string, to: string): void;
   /** Puts the cursor of the editor that shows a file on a line, wherever that editor is. */
   aimAt(path: string, line: number): void;

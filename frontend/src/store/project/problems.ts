@@ -32,7 +32,7 @@ function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem
   return problems;
 }
 
-/** All findings about one tree, the editor's first; what both found is told once. */
+/** All findings about one tree, the editor's first; a finding of both is shown once. */
 export function problemsOf(
   diagram: Diagram,
   vocabulary: Vocabulary,

@@ -68,7 +68,7 @@ export function findingsAfter(before: Findings, answer: Findings & Pick<CheckRes
   return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
 }
 
-/** What was known, where the server says the same again: nothing that shows it is drawn anew. */
+/** Keeps the old object where the server sends equal data, so that nothing is drawn again. */
 export function confirmed<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }

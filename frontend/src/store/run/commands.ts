@@ -29,7 +29,7 @@ export const pause = () => reported(send('pause', {}));
 export const resume = () => reported(send('resume', {}));
 export const stop = () => reported(send('terminate_application', {}));
 export const resetWorld = () => reported(send('reset_world', {}));
-/** Drives the session that this page looks on at; whoever drove it looks on from then. */
+/** Takes control of the session; the page that had it becomes a viewer. */
 export const takeOver = () => reported(send('take_over', {}));
 export const end = () => reported(endSession());
 

@@ -13,7 +13,7 @@ import { chosenUniverse, useUniverseChoice } from './universeChoice';
 /** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
 
-/** Saves, checks, and starts the program as it is now; the world goes on as it stands. */
+/** Saves, checks, and starts the program as it is now; the world continues unchanged. */
 export const restartProject = () => launch((app) => send('run_application', applicationOf(app)));
 
 async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean> {
@@ -39,7 +39,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // Without a connection the session goes on with it, and tells how it went once it can be reached again.
+    // Without a connection the session continues, and reports the result once it can be reached again.
     if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
@@ -48,7 +48,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   }
 }
 
-/** Who pressed *Cancel* knows, whatever it was that could not go on. */
+/** After *Cancel* no error is shown. */
 let wasCancelled = false;
 
 export function cancelRun(): void {

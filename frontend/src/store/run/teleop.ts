@@ -30,7 +30,7 @@ export const useTeleop = create<TeleopData>(() => ({
 
 let repeating: ReturnType<typeof setInterval> | undefined;
 
-/** Driving by hand needs a world whose time may go on: a pause freezes it, until one resumes or stops. */
+/** Driving by hand needs running time: a pause freezes the world until resume or stop. */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';

@@ -11,7 +11,7 @@ import type {
   TreeNode,
 } from '@/generated/messages';
 
-/** How the page stands to its session. */
+/** The state of the page's connection to its session. */
 export type Connection = 'off' | 'starting' | 'open' | 'reconnecting' | 'lost';
 
 export interface LogLine extends Log {
@@ -24,7 +24,7 @@ export interface BlackboardRow extends BlackboardEntry {
   changedAt: number;
 }
 
-/** What the session is, as far as this page was told. */
+/** The state of the session, as this page has received it. */
 export interface SessionData {
   connection: Connection;
   connectionMessage: string;

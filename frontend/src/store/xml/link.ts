@@ -103,7 +103,7 @@ export class XmlLink {
     void this.read();
   }
 
-  /** Both were changed: the text is made anew of the tree. */
+  /** Both were changed: the text is generated again from the tree. */
   keepTree(): void {
     if (this.agreed) this.set({ text: this.agreed.text, state: { kind: 'inStep', findings: [] } });
     void this.write();

@@ -2,7 +2,7 @@ import { IconMessage2, IconScript } from '@tabler/icons-react';
 import type { DiagramNode } from '@/model/diagram';
 import classes from './Block.module.css';
 
-/** Small signs for what a block carries besides its ports. */
+/** Small signs for a block's conditions, scripts and comment. */
 export function BlockBadges({ node }: { readonly node: DiagramNode }) {
   const conditions = Object.entries(node.conditions ?? {});
   if (conditions.length === 0 && !node.comment) return null;

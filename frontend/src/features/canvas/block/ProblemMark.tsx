@@ -9,11 +9,11 @@ const ICONS = { error: IconExclamationMark, warning: IconAlertTriangleFilled, no
 
 interface ProblemMarkProps {
   readonly problem: ShownProblem;
-  /** Shows it in full with what mends it; absent in a tree that is only looked into. */
+  /** Shows the problem with its fixes; absent in an expanded subtree. */
   readonly onOpen?: () => void;
 }
 
-/** What is wrong with a block, and what to do, where the eye is; a press offers what mends it. */
+/** The problem of a block and its hint, on the block; a press shows the fixes. */
 export function ProblemMark({ problem, onOpen }: ProblemMarkProps) {
   const text = useProblemText()(problem);
   const isOpen = useEditorStore((state) => state.fixing !== null);

@@ -15,7 +15,7 @@ interface StatusMarkProps {
   readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
 }
 
-/** A status told by an icon besides its colour; a passing one is drawn hollow, and fades. */
+/** A status as an icon in addition to its colour; a passing status is drawn hollow, and fades. */
 export function StatusMark({ status, flash }: StatusMarkProps) {
   const isPassing = status === 'IDLE' && flash !== undefined;
   const shown = isPassing ? flash.status : status;

@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { NodeId } from '@/model/diagram';
 
-/** How far the blocks in a hand are from where they rest; edges to `tops` are drawn anew. */
+/** The offset of dragged blocks from their places in the layout; edges to `tops` are drawn again. */
 interface DraggedBlocks {
   readonly tops: ReadonlySet<NodeId>;
   readonly dx: number;
@@ -11,9 +11,9 @@ interface DraggedBlocks {
 export const useDraggedBlocks = create<DraggedBlocks>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
 
 /**
- * Moves blocks with the hand that holds them. The browser moves what is drawn, by the property
+ * Moves dragged blocks with the pointer. The browser moves what is drawn, by the property
  * `translate`, which React does not set: no block renders, however many are moved and however large
- * the tree is. Blocks that come into view on the way are found, since each step looks anew.
+ * the tree is. Blocks that come into view on the way are found, since each step queries the page again.
  */
 export class BlockDrag {
   constructor(

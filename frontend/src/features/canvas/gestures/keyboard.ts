@@ -62,7 +62,7 @@ export function enterInside({ tree, node }: Inside): void {
   useProjectStore.getState().reveal(tree, node);
 }
 
-/** Keys on a selected block; true when the key was one of ours. */
+/** Keys on a selected block; true when the key was handled here. */
 function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean {
   switch (event.key) {
     case 'Tab':

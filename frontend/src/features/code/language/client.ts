@@ -23,7 +23,7 @@ const RETRY_AFTER_MS = [500, 2000, 8000, 30_000] as const;
 const SYNC_AFTER_MS = 700;
 /** The first answer waits until the server has read rclpy and all messages, which a busy machine takes its time for. */
 const ANSWER_WITHIN_MS = 60_000;
-/** A server that helped for this long was well: its end starts the count of retries anew. */
+/** A server that lived this long was healthy: its end resets the count of retries. */
 const WELL_AFTER_MS = 30_000;
 
 interface Published {
@@ -76,7 +76,7 @@ function makeClient(): LSPClient {
 
 const setState = (state: LanguageState) => useLanguageStore.setState({ state });
 
-/** The one connection of this page: made when a Python file is first opened, mended when it breaks. */
+/** The one connection of this page: opened with the first Python file, reopened when it breaks. */
 class Connection {
   readonly client = makeClient();
   private socket: { close(): void } | null = null;

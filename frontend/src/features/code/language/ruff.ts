@@ -23,7 +23,7 @@ export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
   return from + units;
 }
 
-/** Texts that have little in common are not worth a closer look: whoever types waits for it. */
+/** Texts that have little in common are not compared further: the user waits for the result. */
 const COARSE = { scanLimit: 1000, timeout: 100 };
 
 /** The changes that make one text of another, so that cursors and marks stay where they are. */
@@ -46,7 +46,7 @@ export async function formatPython(view: EditorView, path: string, how: 'asked' 
     if (!view.state.doc.eq(before) || source === before.toString()) return;
     view.dispatch({ changes: changesBetween(before.toString(), source), userEvent: 'format' });
   } catch (error) {
-    // Saving goes on without: the editor's marks tell what is wrong.
+    // Saving continues without formatting: the editor's marks show the errors.
     if (how === 'saving') return;
     const message = error instanceof ApiError ? error.message : String(error);
     notifications.show({ color: 'yellow', title: t('code:format.failed'), message });

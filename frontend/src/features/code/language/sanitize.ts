@@ -25,7 +25,7 @@ function clean(node: Element): void {
   }
 }
 
-/** Documentation comes from docstrings of whoever wrote the file: text and its marks, nothing that acts. */
+/** Documentation comes from docstrings of unknown authors: only text and markup pass, nothing active. */
 export function sanitizeHtml(html: string): string {
   const { body } = new DOMParser().parseFromString(html, 'text/html');
   clean(body);

@@ -26,7 +26,7 @@ export interface Staged {
 interface EditorStageProps {
   readonly editor: Editor;
   readonly staged: Staged;
-  /** The document's value: another one is drawn anew. */
+  /** The document's value: a new value is drawn again. */
   readonly content: object;
   readonly isDark: boolean;
   readonly lights: Scene['lights'];

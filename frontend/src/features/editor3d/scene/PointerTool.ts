@@ -7,7 +7,7 @@ import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
 
-/** What can be carried over the floor. */
+/** What can be dragged over the floor. */
 interface Load {
   readonly keys: readonly string[];
   /** Where the thing under the pointer is: its place falls on the grid, and the others follow. */
@@ -52,7 +52,7 @@ interface Dragging extends Load {
   offset: Point;
 }
 
-/** What the pointer does on the floor plan: selects, carries, and draws. */
+/** The pointer on the floor plan: selects, drags, and draws. */
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
   private dragging: Dragging | null = null;

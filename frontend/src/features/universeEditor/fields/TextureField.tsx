@@ -9,7 +9,7 @@ interface TextureFieldProps {
   readonly onChange: (texture: string | undefined) => void;
 }
 
-/** A picture that repeats over a thing or the ground: one of ours, or of the project. */
+/** A picture that repeats over a thing or the ground: built in, or of the project. */
 export function TextureField({ value, onChange }: TextureFieldProps) {
   const { t } = useTranslation('universeEditor');
   const files = useProjectStore((state) => state.files);

@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-/** What every 3D view of ours needs of three.js; imported for that alone. */
+/** Global settings of three.js for every 3D view; imported for its side effect. */
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 // The renderer for React still uses a clock that three.js has since renamed; users can do nothing about it.

@@ -14,7 +14,7 @@ export interface Stretch {
   mask: number;
 }
 
-/** What one node did and when: stretches of simulated time, oldest first. Its memory is bounded. */
+/** The statuses of one node over simulated time, oldest first. Its memory is bounded. */
 export class NodeTrace {
   count = 0;
   starts = new Float64Array(FIRST_CAPACITY);

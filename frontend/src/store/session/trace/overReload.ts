@@ -14,7 +14,7 @@ function keepRun(): void {
   try {
     sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: trace.keep() }));
   } catch {
-    // No room: both begin anew after the reload, nothing else is lost.
+    // No room: both begin empty after the reload, nothing else is lost.
   }
 }
 

@@ -66,7 +66,7 @@ export class Trace {
     this.begin = Math.max(this.begin, before);
   }
 
-  /** The run ended: nothing goes on any more. */
+  /** The run ended: no stretch continues. */
   close(): void {
     for (const uid of [...this.open.keys()]) this.change(uid, 'IDLE', this.now);
   }

@@ -64,7 +64,7 @@ def freeze(studio: Studio) -> None:
     expect(banner).to_have_attribute("data-kind", "silence")
     studio.picture("silent")
     expect(banner).to_contain_text("The session has ended.")
-    expect(banner).to_contain_text("The executor did not answer any more, so it was ended.")
+    expect(banner).to_contain_text("The executor stopped answering, so it was ended.")
     _, alive = psutil.wait_procs(family, timeout=DEADLINE_S)
     assert alive == []
 

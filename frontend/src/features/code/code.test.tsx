@@ -85,9 +85,9 @@ describe('actionSource', () => {
 describe('textErrors', () => {
   it.each([
     ['a.json', '{"a": 1}', null, ''],
-    ['a.json', '{"a": 1,}', 8, 'Something else than JSON'],
-    ['a.json', '{"a": 01}', 7, 'Something else than JSON'],
-    ['a.json', '{"a": [1, 2', 11, 'Something else than JSON'],
+    ['a.json', '{"a": 1,}', 8, 'This is not valid JSON'],
+    ['a.json', '{"a": 01}', 7, 'This is not valid JSON'],
+    ['a.json', '{"a": [1, 2', 11, 'This is not valid JSON'],
     ['a.json', '\n', 1, 'The file is empty'],
     ['a.yaml', 'a: 1\nb: [1, 2\n', 14, 'This is not YAML'],
     ['a.yml', 'a: 1\na: 2\n', 5, 'unique'],

@@ -26,7 +26,7 @@ it('shows three hints, one after the other, and none of them again', async () =>
   const seen: (string | undefined)[] = [];
   for (let count = 0; count < 3; count += 1) {
     seen.push(screen.getByTestId('hint').dataset['hint']);
-    await user.click(screen.getByRole('button', { name: 'Close this hint for good' }));
+    await user.click(screen.getByRole('button', { name: 'Close this hint permanently' }));
   }
   expect(seen).toEqual(['build', 'run', 'find']);
   expect(screen.queryByTestId('hint')).toBeNull();

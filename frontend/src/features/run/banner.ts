@@ -1,6 +1,6 @@
 import type { Fault } from '@/generated/messages';
 import { t } from '@/i18n';
-import type { Connection } from '@/store/session/types';
+import type { Connection } from '@/store/session/connectionStates';
 import type { LaunchFailure } from '@/store/run/store';
 import { findingText } from '@/ui/findingText';
 

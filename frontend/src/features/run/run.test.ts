@@ -55,7 +55,7 @@ describe('bannerFor', () => {
     expect(bannerFor({ ...calm, executorReason: 'The simulated world was killed.' })?.text).toMatch(/world/);
   });
 
-  it('says calmly that nothing answers, before what was wrong earlier', () => {
+  it('reports silence as a warning, before earlier faults', () => {
     const banner = bannerFor({ ...calm, silentS: 4, faults: [fault({})] });
     expect(banner).toMatchObject({
       kind: 'silence',
@@ -63,7 +63,7 @@ describe('bannerFor', () => {
       titleKey: 'banner.silent',
       values: { seconds: '4' },
     });
-    expect(banner?.hint).toMatch(/Run starts another/);
+    expect(banner?.hint).toMatch(/Run starts a new one/);
     expect(bannerFor({ ...calm, silentS: 4, connection: 'lost' })?.kind).toBe('connection');
   });
 

@@ -10,9 +10,7 @@ import type {
   State,
   TreeNode,
 } from '@/generated/messages';
-
-/** The state of the page's connection to its session. */
-export type Connection = 'off' | 'starting' | 'open' | 'reconnecting' | 'lost';
+import type { Connection } from './connectionStates';
 
 export interface LogLine extends Log {
   /** Counts up within this page; keys the rows of the console. */

@@ -1,0 +1,57 @@
+import { expect, it } from 'vitest';
+
+/** Names that browsers of users hold: a renamed one loses drafts, layouts or settings. */
+const STORAGE_KEYS = [
+  "'bts.codeSize'",
+  "'bts.followRunning'",
+  "'bts.formatOnSave'",
+  "'bts.hints'",
+  "'bts.language'",
+  "'bts.run.'",
+  "'bts.session.'",
+  "'bts.statusRate'",
+  "'bts.viewer'",
+  "'bts.xml.metadata'",
+  '`bts.draft.${projectId}`',
+  '`bts.layout.${VERSION}.${width}`',
+  '`bts.open.${projectId}`',
+  '`bts.xml.${projectId}.${treeId}`',
+];
+const PANELS = [
+  'blackboard',
+  'camera',
+  'console',
+  'explorer',
+  'history',
+  'inspector',
+  'library',
+  'outline',
+  'palette',
+  'problems',
+  'timeline',
+  'topics',
+  'video',
+  'viewer3d',
+  'xml',
+];
+const DOCUMENTS = ['compare', 'file', 'tree'];
+
+const sources = import.meta.glob<string>(['../**/*.{ts,tsx}', '!../**/*.test.{ts,tsx}'], {
+  query: '?raw',
+  import: 'default',
+  eager: true,
+});
+
+const found = (text: string, pattern: RegExp): string[] =>
+  [...new Set(Array.from(text.matchAll(pattern), (match) => match[1] ?? match[0]))].sort();
+
+it('keeps the names of what browsers store', () => {
+  expect(found(Object.values(sources).join('\n'), /['`]bts\.[^'`]*['`]/g)).toEqual([...STORAGE_KEYS].sort());
+});
+
+it('keeps the kinds of tabs in stored layouts', () => {
+  const layout = sources['./layoutModel.ts'] ?? '';
+  const panelIds = layout.slice(layout.indexOf('export type PanelId'));
+  expect(found(panelIds.slice(0, panelIds.indexOf(';')), /'(\w+)'/g)).toEqual(PANELS);
+  expect(found(sources['./documents.ts'] ?? '', /kind: '(\w+)'/g)).toEqual(DOCUMENTS);
+});

@@ -172,7 +172,7 @@ def _trouble() -> str:
 
 def _metrics() -> str:
     from backend.sessions.queries import counts  # noqa: PLC0415 - Django must be set up first
-    from backend.workers.pool import pool  # noqa: PLC0415 - as above
+    from backend.workers.lanes import pool  # noqa: PLC0415 - as above
 
     states = {state: float(n) for state, n in counts().items()}
     parts = [metrics.requests.text(), metrics.request_seconds.text(), metrics.sockets.text()]

@@ -11,7 +11,7 @@ from backend.config.api import user_of
 from backend.config.environment import REPOSITORY
 from backend.projects.errors import CheckFailedError
 from backend.workers.deferred import Deferred
-from backend.workers.pool import pool
+from backend.workers.lanes import pool
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

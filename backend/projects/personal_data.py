@@ -20,7 +20,7 @@ from backend.projects import queries
 from backend.projects.models import ChangeSet, Draft, Project
 from backend.workers import zips
 from backend.workers.deferred import Deferred
-from backend.workers.pool import pool
+from backend.workers.lanes import pool
 
 if TYPE_CHECKING:
     from concurrent.futures import Future

@@ -15,25 +15,17 @@ from collections import OrderedDict
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, Final
 
 import msgspec
 
-from backend.config.environment import REPOSITORY, environment
-from backend.config.siblings import POOL, siblings
+from backend.config.environment import REPOSITORY
 from backend.workers import frames
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 from backend.workers.fair import FairQueue, QueueFullError
-from backend.workers.remote import RemotePool
 
 log = logging.getLogger(__name__)
 
-WORKERS: Final = {"local": 2, "team": max(4, os.cpu_count() or 1)}
-"""By mode. On a team server, two users with their share still leave room for a third."""
-PER_OWNER: Final = 2
-WAITING_PER_WORKER: Final = 4
-MEMORY_BYTES: Final = 1 << 30
 KEPT_BYTES: Final = 64 << 20
 LARGEST_KEPT_BYTES: Final = 8 << 20
 SMALLER: Final = "Make the project smaller: split it, or remove what it does not need."
@@ -49,6 +41,7 @@ class Limits:
         waiting: jobs of all owners that may wait.
         deadline_s: how long one job may be at work.
         memory_bytes: what one worker may allocate.
+        niceness: by how much its processes give way to others, as of `nice`.
     """
 
     workers: int
@@ -56,6 +49,7 @@ class Limits:
     waiting: int
     deadline_s: float
     memory_bytes: int
+    niceness: int = 0
 
 
 @dataclass(frozen=True)
@@ -99,7 +93,10 @@ class Pool:
         Raises:
             BusyError: too much waits already.
         """
-        packed = frames.pack({"job": job, "arguments": arguments})
+        return self.ask_packed(owner, packed_job(job, arguments))
+
+    def ask_packed(self, owner: str, packed: bytes) -> Future[Any]:
+        """Has a job done that `packed_job` made, as `ask`."""
         key = hashlib.sha256(packed).digest()
         future: Future[Any] = Future()
         with self._changed:
@@ -249,6 +246,7 @@ class _Worker:
                     *("--fd", str(theirs.fileno())),
                     *("--memory-bytes", str(limits.memory_bytes)),
                     *("--deadline-s", str(limits.deadline_s)),
+                    *("--niceness", str(limits.niceness)),
                 ],
                 cwd=REPOSITORY,
                 env=_ENVIRONMENT,
@@ -300,22 +298,6 @@ class _Kept:
             self._size -= len(self._answers.popitem(last=False)[1])
 
 
-@lru_cache(maxsize=1)
-def pool() -> Pool | RemotePool:
-    """The pool of this web server, which several workers share."""
-    family = siblings.family
-    return make_pool() if family is None else RemotePool(family.folder / POOL)
-
-
-def make_pool() -> Pool:
-    """A pool with the limits of this server."""
-    workers = WORKERS[environment().mode]
-    return Pool(
-        Limits(
-            workers=workers,
-            per_owner=PER_OWNER,
-            waiting=WAITING_PER_WORKER * workers,
-            deadline_s=environment().work_deadline_s,
-            memory_bytes=MEMORY_BYTES,
-        )
-    )
+def packed_job(job: str, arguments: dict[str, Any]) -> bytes:
+    """A job as the workers read it."""
+    return frames.pack({"job": job, "arguments": arguments})

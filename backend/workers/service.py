@@ -23,12 +23,13 @@ from backend.config.environment import environment
 from backend.config.logs import set_up
 from backend.config.problems import StudioError
 from backend.workers import frames
-from backend.workers.pool import make_pool
+from backend.workers.lanes import make_lanes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from concurrent.futures import Future
 
+    from backend.workers.lanes import Lanes
     from backend.workers.pool import Pool
 
 log = logging.getLogger(__name__)
@@ -44,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     set_up(environment().log_level, environment().log_style)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # the end of its input comes when nobody asks any more
-    threading.Thread(target=serve, args=(listening(options.socket), make_pool()), daemon=True).start()
+    threading.Thread(target=serve, args=(listening(options.socket), make_lanes()), daemon=True).start()
     while os.read(STDIN, 1):
         pass
 
@@ -58,7 +59,7 @@ def listening(path: Path) -> socket.socket:
     return listener
 
 
-def serve(listener: socket.socket, pool: Pool) -> None:
+def serve(listener: socket.socket, pool: Lanes | Pool) -> None:
     """Answers everyone who connects, until the socket closes."""
     with suppress(OSError):
         while True:
@@ -69,7 +70,7 @@ def serve(listener: socket.socket, pool: Pool) -> None:
 class _Asker:
     """One web worker: a thread reads what it asks for, another writes answers as they come."""
 
-    def __init__(self, connection: socket.socket, pool: Pool) -> None:
+    def __init__(self, connection: socket.socket, pool: Lanes | Pool) -> None:
         self._connection, self._pool = connection, pool
         self._answers: SimpleQueue[bytes | None] = SimpleQueue()
 

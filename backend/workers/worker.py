@@ -12,7 +12,7 @@ import resource
 import signal
 import socket
 import traceback
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
@@ -22,9 +22,6 @@ from backend.workers.jobs import JOBS, warm_up
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-NICENESS: Final = 5
-"""Answers to requests come before heavy work."""
-
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Works until the pool closes the socket."""
@@ -32,11 +29,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--fd", type=int, required=True)
     parser.add_argument("--memory-bytes", type=int, required=True)
     parser.add_argument("--deadline-s", type=float, required=True)
+    parser.add_argument("--niceness", type=int, default=0)
     options = parser.parse_args(arguments)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is the server's to handle
     resource.setrlimit(resource.RLIMIT_DATA, (options.memory_bytes, options.memory_bytes))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    os.nice(NICENESS)
+    os.nice(options.niceness)
     warm_up()
     gc.collect()
     gc.freeze()

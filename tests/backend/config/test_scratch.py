@@ -16,7 +16,7 @@ from backend.config import bodies, handler, scratch
 from backend.config.handler import ThreadedHandler
 from backend.config.scratch import AlreadyThereError, NoRoomError, Scratch
 from backend.projects.models import Project
-from backend.workers.pool import Pool
+from backend.workers.lanes import Lanes
 from tests.backend.accounts.test_bodies import IMPORT, MEBIBYTE, archive_of, head, parts, refused
 from tests.backend.config.test_handler import body
 
@@ -175,11 +175,11 @@ def test_packing_that_fails_leaves_nothing_and_may_be_asked_again(api, monkeypat
     from backend.workers.errors import BusyError
 
     api.post("projects", {"name": "One"}, expect=201)
-    asking = Pool.ask
-    monkeypatch.setattr(Pool, "ask", lambda *_, **__: (_ for _ in ()).throw(BusyError("busy")))
+    asking = Lanes.ask
+    monkeypatch.setattr(Lanes, "ask", lambda *_, **__: (_ for _ in ()).throw(BusyError("busy")))
     api.get("me/data", expect=503)
     assert scratch.scratch().used == 0
-    monkeypatch.setattr(Pool, "ask", asking)
+    monkeypatch.setattr(Lanes, "ask", asking)
     assert zipfile.is_zipfile(io.BytesIO(api.get("me/data")))
     assert Project.objects.count() == 1
 

@@ -12,7 +12,7 @@ from backend.config import telling
 from backend.projects import presentation, queries
 from backend.projects.signals import project_deleted
 from backend.workers.errors import BusyError, WorkFailedError
-from backend.workers.pool import Pool
+from backend.workers.lanes import Lanes
 
 pytestmark = pytest.mark.django_db(transaction=True)
 
@@ -32,13 +32,13 @@ def fails_later(error):
 
 
 def no_checks(monkeypatch):
-    monkeypatch.setattr(Pool, "ask", fails_later(WorkFailedError("The worker was killed.")))
+    monkeypatch.setattr(Lanes, "ask", fails_later(WorkFailedError("The worker was killed.")))
 
 
 DOWN = OperationalError("the database went away")
 STEPS = {
-    "the check": (Pool, "ask", WorkFailedError("The worker was killed.")),
-    "the pool": (Pool, "ask", BusyError("Too much waits.")),
+    "the check": (Lanes, "ask", WorkFailedError("The worker was killed.")),
+    "the pool": (Lanes, "ask", BusyError("Too much waits.")),
     "the contents": (queries, "contents", DOWN),
     "the notices": (telling._teller, "tell", ConnectionError("Redis is down")),
     "the channel layer": (telling, "get_channel_layer", ConnectionError("Redis is down")),

@@ -20,7 +20,7 @@ from django.utils import timezone
 from backend.accounts.models import Group, GroupMember, User
 from backend.config import telling
 from backend.projects.models import ChangeSet, Draft, Membership, Project, ShareLink
-from backend.workers.pool import Pool
+from backend.workers.lanes import Lanes
 from tests.backend.accounts.conftest import person, stranger, team  # noqa: F401 - fixtures
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -47,7 +47,7 @@ def dead_after_commit(monkeypatch):
 
     with monkeypatch.context() as patched, connection.execute_wrapper(asking):
         patched.setattr(BaseDatabaseWrapper, "_commit", committing)
-        patched.setattr(Pool, "ask", failing)
+        patched.setattr(Lanes, "ask", failing)
         patched.setattr(telling._teller, "tell", failing)
         patched.setattr("backend.projects.notices.tell", failing)
         patched.setattr("backend.accounts.rights.tell", failing)

@@ -12,7 +12,7 @@ from asgiref.sync import sync_to_async
 from backend.config import guard, handler
 from backend.config.handler import ThreadedHandler
 from backend.workers.errors import BusyError
-from backend.workers.pool import Pool
+from backend.workers.lanes import Lanes
 from tests.backend.conftest import HOST
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -57,7 +57,7 @@ def one(monkeypatch):
 def held(monkeypatch):
     """Work that the test does itself."""
     work = Future()
-    monkeypatch.setattr(Pool, "ask", lambda *_, **__: work)
+    monkeypatch.setattr(Lanes, "ask", lambda *_, **__: work)
     return work
 
 
@@ -105,7 +105,7 @@ async def test_too_much_work_is_refused_with_when_to_ask_again(one, project, mon
     def busy(*_, **__):
         raise BusyError("The server has too much to do.")
 
-    monkeypatch.setattr(Pool, "ask", busy)
+    monkeypatch.setattr(Lanes, "ask", busy)
     status, headers, body = await ask(one, f"projects/{project['id']}/xml")
     assert (status, headers[b"retry-after"], json.loads(body)["code"]) == (503, b"5", "busy")
     assert (await ask(one, f"projects/{project['id']}"))[0] == 200  # it opens, unchecked

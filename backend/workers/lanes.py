@@ -1,0 +1,88 @@
+"""Two pools: small work does not wait behind large work, whoever asked for the large work.
+
+A save is answered with a check of its project, which takes milliseconds. Large work runs at a lower priority
+(*nice*), so that answers to requests come before it; work that a request of every editor waits for must not.
+"""
+
+from __future__ import annotations
+
+import os
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final
+
+from backend.config.environment import environment
+from backend.config.siblings import POOL, siblings
+from backend.workers.pool import Limits, Pool, packed_job
+from backend.workers.remote import RemotePool
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+SMALL_WORKERS: Final = {"local": 1, "team": 2}
+"""Processes for small work, by mode."""
+LARGE_WORKERS: Final = {"local": 1, "team": max(2, os.cpu_count() or 1)}
+"""Processes for large work, by mode."""
+PER_OWNER: Final = 1
+"""Jobs of one owner at work in each of the two pools."""
+NICENESS: Final = 10
+"""Of large work: answers to requests, and the small work they wait for, come first."""
+SMALL_WAITING: Final = 16
+LARGE_WAITING: Final = 4
+"""Jobs that may wait, for each process. Small ones take milliseconds: waiting is better than an error."""
+MEMORY_BYTES: Final = 1 << 30
+SMALL_BYTES: Final = 256 << 10
+"""The largest question of small work: a project of some hundred nodes with its actions has 50 KB."""
+
+
+class Lanes:
+    """Gives each job to one of two pools by the size of its question.
+
+    Args:
+        small: the pool for small work.
+        large: the pool for all other work.
+    """
+
+    def __init__(self, small: Pool, large: Pool) -> None:
+        self._small, self._large = small, large
+
+    @property
+    def waiting(self) -> int:
+        """The number of jobs that wait for a worker."""
+        return self._small.waiting + self._large.waiting
+
+    def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
+        """Does a job, as `Pool.ask`.
+
+        Raises:
+            BusyError: too much waits already.
+        """
+        packed = packed_job(job, arguments)
+        lane = self._small if len(packed) <= SMALL_BYTES else self._large
+        return lane.ask_packed(owner, packed)
+
+
+@lru_cache(maxsize=1)
+def pool() -> Lanes | RemotePool:
+    """The pools of this web server, which several workers share."""
+    family = siblings.family
+    return make_lanes() if family is None else RemotePool(family.folder / POOL)
+
+
+def make_lanes() -> Lanes:
+    """Pools with the limits of this server."""
+    mode = environment().mode
+    small = _pool(SMALL_WORKERS[mode], SMALL_WAITING)
+    return Lanes(small, _pool(LARGE_WORKERS[mode], LARGE_WAITING, niceness=NICENESS))
+
+
+def _pool(workers: int, waiting: int, *, niceness: int = 0) -> Pool:
+    return Pool(
+        Limits(
+            workers=workers,
+            per_owner=PER_OWNER,
+            waiting=waiting * workers,
+            deadline_s=environment().work_deadline_s,
+            memory_bytes=MEMORY_BYTES,
+            niceness=niceness,
+        )
+    )

@@ -1,0 +1,55 @@
+"""Small work beside large work: each has processes of its own, and gives way or does not."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+
+import pytest
+
+from backend.workers.lanes import SMALL_BYTES, Lanes
+from backend.workers.pool import Limits, Pool
+from tests.backend.workers.test_pool import PATIENCE_S, pack, pids, until
+
+LIMITS = Limits(workers=1, per_owner=1, waiting=4, deadline_s=PATIENCE_S, memory_bytes=1 << 30)
+
+
+@pytest.fixture
+def small():
+    pool = Pool(LIMITS)
+    yield pool
+    pool.close()
+
+
+@pytest.fixture
+def large():
+    pool = Pool(replace(LIMITS, niceness=7))
+    yield pool
+    pool.close()
+
+
+def test_the_size_of_the_question_chooses_the_pool(small, large):
+    lanes = Lanes(small, large)
+    assert pack(lanes, 1000).result(PATIENCE_S)["zip"]
+    assert (len(pids(small)), len(pids(large))) == (1, 0)
+    assert pack(lanes, 2 * SMALL_BYTES).result(PATIENCE_S)["zip"]
+    assert (len(pids(small)), len(pids(large))) == (1, 1)
+
+
+def test_large_work_gives_way_and_small_work_does_not(small, large):
+    lanes = Lanes(small, large)
+    for size in (1000, 2 * SMALL_BYTES):
+        pack(lanes, size).result(PATIENCE_S)
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    assert os.getpriority(os.PRIO_PROCESS, pids(small)[0]) == own
+    assert os.getpriority(os.PRIO_PROCESS, pids(large)[0]) == min(19, own + 7)
+
+
+def test_small_work_does_not_wait_for_large_work_of_the_same_user(small, large):
+    lanes = Lanes(small, large)
+    held = [pack(lanes, SMALL_BYTES * number) for number in (200, 201, 202)]
+    until(lambda: large.waiting)
+    assert pack(lanes, 1000).result(PATIENCE_S)["zip"]
+    assert not held[-1].done()
+    assert lanes.waiting == large.waiting
+    assert all(future.result(PATIENCE_S)["zip"] for future in held)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
 from backend.config.problems import MEDIA_TYPE, problem
+from backend.config.websocket import read_at_most
 
 if TYPE_CHECKING:
     import asyncio
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 HEAD_S: Final = 15.0
 """From the beginning of a connection, or of its next request, to the end of the head."""
 HEAD_BYTES: Final = 64 * 1024
+READ_HEAD_BYTES: Final = 8 * 1024
+"""Read at a time of a head, each line of which is a call: thousands fit into the 256 KiB of asyncio."""
+READ_BODY_BYTES: Final = 256 * 1024
 
 
 class PatientProtocol(HttpToolsProtocol):
@@ -32,6 +36,7 @@ class PatientProtocol(HttpToolsProtocol):
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begins to wait for the first head."""
         super().connection_made(transport)
+        read_at_most(transport, READ_HEAD_BYTES)
         self._wait_for_head()
 
     def connection_lost(self, exc: Exception | None) -> None:
@@ -64,7 +69,13 @@ class PatientProtocol(HttpToolsProtocol):
         """It is whole."""
         self._in_head, self._head_bytes = False, 0
         self._stop_waiting()
+        read_at_most(self.transport, READ_BODY_BYTES)
         super().on_headers_complete()
+
+    def on_message_complete(self) -> None:
+        """The next thing that comes is a head."""
+        read_at_most(self.transport, READ_HEAD_BYTES)
+        super().on_message_complete()
 
     def _is_idle(self) -> bool:
         return self.cycle is None or self.cycle.response_complete

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
+import time
 from typing import TYPE_CHECKING, Any, Final
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
 if TYPE_CHECKING:
-    from asyncio import BaseTransport
+    from asyncio import BaseTransport, TimerHandle
 
     from uvicorn._types import ASGISendEvent
     from websockets.frames import Frame
     from websockets.http11 import Request
 
 READ_BYTES: Final = 4 << 10
+READ_LITTLE_BYTES: Final = 1 << 10
+"""The same of a client who is not accepted yet, or who has nothing to say."""
+COSTLY_S: Final = 0.001
+"""Processor time for one read that is worth a rest: frames that say something take a tenth of it."""
+SHARE: Final = 0.01
+"""Of the event loop's time, for a client whose reads are costly."""
+LONGEST_REST_S: Final = 2.0
 LARGEST_MESSAGE: Final = 64 << 20
 SMALL_BYTES: Final = 4 << 10
 """The largest message from a client who is not accepted yet, or who has nothing to say."""
@@ -25,26 +33,61 @@ TINY: Final = 256
 POLICY_VIOLATION: Final = 1008
 
 
-def read_little(transport: Any) -> None:
-    """Has asyncio hand on less at a time than the 256 KiB that it is used to."""
-    transport.max_size = READ_BYTES
+def read_at_most(transport: Any, size: int) -> None:
+    """Makes asyncio read less at a time than its 256 KiB."""
+    transport.max_size = size
 
 
 class PatientSocket(WebSocketsSansIOProtocol):
-    """Reads little at a time, and bounds what costs its client nothing.
+    """Reads little at a time, rests after reads that were costly, and bounds what costs its client nothing.
 
     All frames in what is read are parsed at once. In the 256 KiB that asyncio reads there can be thousands,
     for which every other socket would wait.
     """
 
+    _is_resting = False
+    _has_backlog = False
+
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._idle_frames, self._since = 0, 0.0
+        self._rest: TimerHandle | None = None
+
+    @property
+    def read_paused(self) -> bool:
+        """Uvicorn's flag: it reads on when its application has taken a message, but not during a rest."""
+        return self._has_backlog and not self._is_resting
+
+    @read_paused.setter
+    def read_paused(self, value: bool) -> None:
+        self._has_backlog = value
 
     def connection_made(self, transport: BaseTransport) -> None:
         """Called by uvicorn."""
-        read_little(transport)
+        read_at_most(transport, READ_LITTLE_BYTES)
         super().connection_made(transport)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Called by asyncio; a rest ends."""
+        if self._rest is not None:
+            self._rest.cancel()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Called by asyncio. The clock is the thread's: waiting for other threads costs others nothing."""
+        began_s = time.thread_time()
+        super().data_received(data)
+        spent_s = time.thread_time() - began_s
+        if spent_s > COSTLY_S and not self.transport.is_closing():
+            self._is_resting = True
+            self.transport.pause_reading()
+            self._rest = self.loop.call_later(min(spent_s / SHARE, LONGEST_REST_S), self._end_rest)
+
+    def _end_rest(self) -> None:
+        self._is_resting = False
+        if not (self._has_backlog and not self.queue.empty()):
+            self._has_backlog = False
+            self.transport.resume_reading()
 
     def handle_connect(self, event: Request) -> None:
         """A client who is not known yet sends little."""
@@ -56,6 +99,8 @@ class PatientSocket(WebSocketsSansIOProtocol):
         if message["type"] == "websocket.accept":
             most: Any = message.get(MOST_BYTES, self.config.ws_max_size)
             self.conn.max_message_size = most
+            if most > SMALL_BYTES:
+                read_at_most(self.transport, READ_BYTES)
         await super().send(message)
 
     def handle_ping(self) -> None:

@@ -19,7 +19,7 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from backend.config.problems import NotFoundError
 from backend.config.sockets import ID, Call, Closed
-from backend.config.websocket import read_little
+from backend.config.websocket import READ_BYTES, read_at_most
 from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState
@@ -84,7 +84,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
         with watchmen.beside_page(session):
             async with manager_socket(session, channel + (f"?{query}" if query else "")) as manager:
                 if is_control:
-                    read_little(manager.transport)
+                    read_at_most(manager.transport, READ_BYTES)
                     attendance.join(session_id, send)
                 closed = await _relay(manager, noted, send)
     except (OSError, InvalidHandshake, TimeoutError) as error:

@@ -21,6 +21,23 @@ window.ResizeObserver ??= class {
   disconnect(): void {}
 };
 
+// Without a layout nothing is out of sight.
+window.IntersectionObserver ??= class {
+  readonly root = null;
+  readonly rootMargin = '';
+  readonly scrollMargin = '';
+  readonly thresholds = [];
+  constructor(private readonly callback: IntersectionObserverCallback) {}
+  observe(): void {
+    this.callback([{ isIntersecting: true } as IntersectionObserverEntry], this);
+  }
+  unobserve(): void {}
+  disconnect(): void {}
+  takeRecords(): IntersectionObserverEntry[] {
+    return [];
+  }
+};
+
 // A growing text field waits for fonts.
 if (!('fonts' in document)) Object.assign(document, { fonts: new EventTarget() });
 

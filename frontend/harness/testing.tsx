@@ -21,6 +21,9 @@ import { useTopicsStore } from '@/store/session/topics';
 import { projectDetail, projectFile } from '@/store/testing';
 import { theme } from '@/ui/theme';
 
+// A refused request is an answer, and not to be tried again after a second.
+queries.setDefaultOptions({ queries: { retry: false } });
+
 /** Types and clicks without waiting, and without computing styles before each click. */
 export const user = userEvent.setup({ delay: null, pointerEventsCheck: PointerEventsCheckLevel.Never });
 

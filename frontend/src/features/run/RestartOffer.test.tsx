@@ -41,7 +41,9 @@ describe('RestartOffer', () => {
 
   it('restarts the application', async () => {
     const run = vi.fn();
-    onTestFinished(registerCommands([{ id: 'run.restart', group: 'run', labelKey: 'run:command.restart', run }]));
+    onTestFinished(
+      registerCommands([{ id: 'run.restart', group: 'run', labelKey: 'run:command.restart', run }]),
+    );
     edit();
     await user.click(screen.getByRole('button', { name: 'Restart the application' }));
     expect(run).toHaveBeenCalledOnce();

@@ -71,10 +71,11 @@ describe('RunControls', () => {
     expect(screen.getByTestId('executor-state')).toHaveTextContent(/^Running$/);
     expect(button('Run again')).toBeEnabled();
     executor.emit('state-changed', { state: 'visualization_ready', reason: '' });
-    executor.emit('finished', { status: 'SUCCESS', reason: 'tree_done', message: '' });
+    executor.emit('finished', { status: 'SUCCESS', reason: 'root_finished', message: '' });
     expect(screen.getByTestId('executor-state')).toHaveTextContent('Stopped · success');
     expect(button('Run')).toBeEnabled();
-    for (const name of ['Pause', 'Step one tick', 'Stop (the world stays)']) expect(button(name)).toBeDisabled();
+    for (const name of ['Pause', 'Step one tick', 'Stop (the world stays)'])
+      expect(button(name)).toBeDisabled();
     expect(button('End the session')).toBeEnabled();
   });
 

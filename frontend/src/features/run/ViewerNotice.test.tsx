@@ -15,7 +15,9 @@ describe('ViewerNotice', () => {
     onTestFinished(registerRunCommands());
     const executor = await openSession({ role: 'viewer' });
     show(<ViewerNotice />);
-    expect(screen.getByRole('status')).toHaveTextContent('You are viewing; another window controls this session.');
+    expect(screen.getByRole('status')).toHaveTextContent(
+      'You are viewing; another window controls this session.',
+    );
     await user.click(screen.getByRole('button', { name: 'Take over' }));
     expect(executor.sentAs('take_over')).toEqual([{}]);
     executor.introduce({ role: 'driver' });

@@ -11,7 +11,15 @@ beforeEach(async () => {
   executor = await openSession();
   executor.emit('topics', {
     topics: [
-      { name: '/cmd_vel', type: TWIST, types: [TWIST], hz: null, bytes_per_s: null, publishers: [], subscribers: [] },
+      {
+        name: '/cmd_vel',
+        type: TWIST,
+        types: [TWIST],
+        hz: null,
+        bytes_per_s: null,
+        publishers: [],
+        subscribers: [],
+      },
     ],
   });
   openPublish('', '');

@@ -223,7 +223,11 @@ describe('TopicsPanel', () => {
       expect(openFile).toHaveBeenCalledWith('launch/map.launch.yaml', 4);
       await user.click(row('mapper').getByRole('button', { name: 'Log' }));
       await waitFor(() => {
-        expect(useConsoleFilter.getState()).toMatchObject({ source: 'launch:n1', level: 'debug', search: '' });
+        expect(useConsoleFilter.getState()).toMatchObject({
+          source: 'launch:n1',
+          level: 'debug',
+          search: '',
+        });
       });
     });
   });

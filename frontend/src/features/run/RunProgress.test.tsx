@@ -35,7 +35,18 @@ describe('RunProgress', () => {
 });
 
 describe('fractionOf', () => {
-  it('ends at one', () => {
-    expect(fractionOf('launching', 'run_application', 1)).toBe(1);
+  it('only grows from pressing Run to running', () => {
+    const steps = [
+      fractionOf('saving', undefined, 0),
+      fractionOf('checking', undefined, 0),
+      fractionOf('starting', undefined, 0),
+      fractionOf('launching', 'connect', 0.5),
+      fractionOf('launching', 'launch_universe', 0.1),
+      fractionOf('launching', 'launch_universe', 1),
+      fractionOf('launching', 'prepare_visualization', 0.2),
+      fractionOf('launching', 'run_application', 1),
+    ];
+    expect([...steps].sort((a, b) => a - b)).toEqual(steps);
+    expect(steps.at(-1)).toBe(1);
   });
 });

@@ -1,5 +1,5 @@
 import '@testing-library/jest-dom/vitest';
-import { cleanup } from '@testing-library/react';
+import { cleanup, configure } from '@testing-library/react';
 import { afterEach } from 'vitest';
 
 // jsdom has no layout: Mantine asks for these at start, and neither matters to a test.
@@ -21,7 +21,30 @@ window.ResizeObserver ??= class {
   disconnect(): void {}
 };
 
+// Without a layout nothing is out of sight.
+window.IntersectionObserver ??= class {
+  readonly root = null;
+  readonly rootMargin = '';
+  readonly scrollMargin = '';
+  readonly thresholds = [];
+  constructor(private readonly callback: IntersectionObserverCallback) {}
+  observe(): void {
+    this.callback([{ isIntersecting: true } as IntersectionObserverEntry], this);
+  }
+  unobserve(): void {}
+  disconnect(): void {}
+  takeRecords(): IntersectionObserverEntry[] {
+    return [];
+  }
+};
+
+// A growing text field waits for fonts.
+if (!('fonts' in document)) Object.assign(document, { fonts: new EventTarget() });
+
 Element.prototype.scrollIntoView ??= () => undefined;
+
+// Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
+configure({ defaultHidden: true });
 
 afterEach(cleanup);
 

@@ -1,5 +1,6 @@
 import { Button, TextInput } from '@mantine/core';
 import { IconArrowsExchange, IconBinaryTree, IconCode } from '@tabler/icons-react';
+import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { setName } from '@/model/edits';
 import { change } from '@/store/project/edits/blocks';
@@ -12,6 +13,11 @@ import classes from './Inspector.module.css';
 /** Name, type, and the way to what the block stands for. */
 export function NodeHeader({ tree, id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
+  // The document keeps a name without outer blanks, and none that repeats the type: neither may stop the typing.
+  const [typed, setTyped] = useState('');
+  const plain = typed.trim();
+  const named = plain === node.type || plain === node.tree ? '' : plain;
+  const name = node.name ?? '';
   return (
     <div className={classes['header']}>
       <div className={classes['identity']}>
@@ -22,8 +28,12 @@ export function NodeHeader({ tree, id, node, spec }: Target) {
           aria-label={t('name')}
           data-testid="node-name"
           placeholder={node.tree ?? node.type}
-          value={node.name ?? ''}
+          value={named === name ? typed : name}
+          onBlur={() => {
+            setTyped('');
+          }}
           onChange={(event) => {
+            setTyped(event.currentTarget.value);
             change('rename', [setName(id, event.currentTarget.value)], { mergeKey: `name ${id}` });
           }}
         />

@@ -1,11 +1,9 @@
-import { MantineProvider } from '@mantine/core';
-import { render, screen } from '@testing-library/react';
-import userEvent from '@testing-library/user-event';
+import { screen } from '@testing-library/react';
 import { beforeEach, describe, expect, it } from 'vitest';
-import '@/i18n';
 import { emptyDiagram } from '@/model/diagram';
 import { useProjectStore } from '@/store/project';
 import { knowing } from '@/store/project/transitions';
+import { show, user } from '../../../harness/testing';
 import { Inspector } from './Inspector';
 
 const state = () => useProjectStore.getState();
@@ -16,7 +14,7 @@ function treeOf(id: string, ...ids: string[]) {
   return { ...emptyDiagram(id), root: 'r', nodes: { r: { type: 'Sequence', children: ids }, ...leaves } };
 }
 
-describe('the ports of an action that declares none', () => {
+describe('ports of an action that declares none', () => {
   beforeEach(() => {
     const diagrams = { Main: treeOf('Main', 'a', 'b'), Other: treeOf('Other', 'c') };
     const actions = [{ name: 'Old', kind: 'Action', open: true, ports: [] }];
@@ -31,16 +29,12 @@ describe('the ports of an action that declares none', () => {
         selection: ['a'],
       }),
     );
-    render(
-      <MantineProvider env="test">
-        <Inspector />
-      </MantineProvider>,
-    );
+    show(<Inspector />);
   });
 
   const add = async (name: string) => {
-    await userEvent.click(screen.getByRole('button', { name: 'Add port' }));
-    await userEvent.type(screen.getByLabelText('Name of the port'), `${name}{Enter}`);
+    await user.click(screen.getByRole('button', { name: 'Add port' }));
+    await user.type(screen.getByLabelText('Name of the port'), `${name}{Enter}`);
   };
 
   it('are added to, renamed on and taken from all its blocks, each in one step', async () => {
@@ -48,11 +42,11 @@ describe('the ports of an action that declares none', () => {
     expect([portsOf('Main', 'a'), portsOf('Main', 'b'), portsOf('Other', 'c')]).toEqual(
       Array(3).fill({ goal: '{goal}' }),
     );
-    await userEvent.click(screen.getByRole('button', { name: 'Rename port goal' }));
-    await userEvent.clear(screen.getByLabelText('Name of the port'));
-    await userEvent.type(screen.getByLabelText('Name of the port'), 'aim{Enter}');
+    await user.click(screen.getByRole('button', { name: 'Rename port goal' }));
+    await user.clear(screen.getByLabelText('Name of the port'));
+    await user.type(screen.getByLabelText('Name of the port'), 'aim{Enter}');
     expect([portsOf('Main', 'b'), portsOf('Other', 'c')]).toEqual(Array(2).fill({ aim: '{goal}' }));
-    await userEvent.click(screen.getByRole('button', { name: 'Remove port aim' }));
+    await user.click(screen.getByRole('button', { name: 'Remove port aim' }));
     expect([portsOf('Main', 'a'), portsOf('Other', 'c')]).toEqual([undefined, undefined]);
     state().undo();
     state().undo();
@@ -63,12 +57,12 @@ describe('the ports of an action that declares none', () => {
     for (const name of ['name', '_skipIf', '3d']) {
       await add(name);
       expect(screen.getByText(/A letter first/)).toBeVisible();
-      await userEvent.keyboard('{Escape}');
+      await user.keyboard('{Escape}');
     }
     await add('goal');
     await add('goal');
     expect(screen.getByText('There is a port of that name already.')).toBeVisible();
-    await userEvent.keyboard('{Escape}');
+    await user.keyboard('{Escape}');
     expect(portsOf('Main', 'a')).toEqual({ goal: '{goal}' });
   });
 });

@@ -1,7 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import type { Fault } from '@/generated/messages';
 import { bannerFor } from './banner';
-import { fractionOf } from './RunProgress';
 
 const calm = {
   connection: 'open',
@@ -97,22 +96,5 @@ describe('bannerFor', () => {
     const failure = { stage: 'launching' as const, code: 'BTR003', message, hint: '', diagnostics: [] };
     expect(bannerFor({ ...calm, failure })?.link).toEqual({ file: 'robots/mine/robot.yaml', line: 10 });
     expect(bannerFor({ ...calm, failure: { ...failure, message: 'at 10:25: no' } })?.link).toBeNull();
-  });
-});
-
-describe('fractionOf', () => {
-  it('only grows from pressing Run to running', () => {
-    const steps = [
-      fractionOf('saving', undefined, 0),
-      fractionOf('checking', undefined, 0),
-      fractionOf('starting', undefined, 0),
-      fractionOf('launching', 'connect', 0.5),
-      fractionOf('launching', 'launch_universe', 0.1),
-      fractionOf('launching', 'launch_universe', 1),
-      fractionOf('launching', 'prepare_visualization', 0.2),
-      fractionOf('launching', 'run_application', 1),
-    ];
-    expect([...steps].sort((a, b) => a - b)).toEqual(steps);
-    expect(steps.at(-1)).toBe(1);
   });
 });

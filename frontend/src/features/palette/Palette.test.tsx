@@ -1,0 +1,115 @@
+import { fireEvent, screen, within } from '@testing-library/react';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { useProjectStore } from '@/store/project';
+import { useEditorStore } from '@/store/project/editor';
+import { action, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { Palette } from './Palette';
+
+const nodes = () => Object.values(useProjectStore.getState().diagrams['Main']?.nodes ?? {});
+const names = () => screen.queryAllByRole('button', { name: /^Add / }).map((item) => item.textContent);
+const group = (name: RegExp) => screen.getByRole('button', { name });
+
+describe('Palette', () => {
+  beforeEach(() => {
+    openProject({
+      trees: { Main: { r: { type: 'Sequence', children: [] } }, Dock: { d: { type: 'AlwaysSuccess' } } },
+      actions: [action('Grasp', { doc: 'Closes the hand.' }), action('SeesDoor', { kind: 'Condition' })],
+      selected: ['r'],
+    });
+    show(<Palette />);
+  });
+
+  it('adds a block where it fits', async () => {
+    await user.click(screen.getByRole('button', { name: 'Add Grasp' }));
+    expect(nodes().map(({ type }) => type)).toEqual(['Sequence', 'Grasp']);
+    expect(nodes()[0]?.children).toHaveLength(1);
+  });
+
+  it('adds a tree as a subtree, and not into itself', async () => {
+    await user.click(screen.getByRole('button', { name: 'Add Dock' }));
+    expect(nodes()[1]).toMatchObject({ type: 'SubTree', tree: 'Dock' });
+    expect(screen.queryByRole('button', { name: 'Add Main' })).toBeNull();
+  });
+
+  it('groups the blocks by family, the user’s own first', () => {
+    const titles = screen
+      .getAllByRole('button', { expanded: true })
+      .map(({ textContent }) => textContent.replace(/\d+$/, ''));
+    expect(titles).toEqual([
+      'Actions',
+      'Conditions',
+      'Control',
+      'Decorators',
+      'Subtrees',
+      'Built-in actions',
+    ]);
+    expect(group(/^Actions/)).toHaveTextContent('Actions1');
+  });
+
+  it('finds blocks by name, and by what they do', async () => {
+    const search = screen.getByLabelText('Search nodes');
+    await user.type(search, 'gra');
+    expect(names()).toContain('Grasp');
+    expect(names()).not.toContain('SeesDoor');
+    await user.clear(search);
+    await user.type(search, 'the hand');
+    expect(names()).toEqual(['Grasp']);
+    await user.type(search, 'x');
+    expect(screen.getByText('No node has this name.')).toBeInTheDocument();
+  });
+
+  it('folds a group, until a search opens it', async () => {
+    await user.click(group(/^Actions/));
+    expect(screen.queryByRole('button', { name: 'Add Grasp' })).toBeNull();
+    await user.type(screen.getByLabelText('Search nodes'), 'Grasp');
+    expect(screen.getByRole('button', { name: 'Add Grasp' })).toBeInTheDocument();
+  });
+
+  it('remembers what is dragged, until it is dropped', () => {
+    const item = screen.getByRole('button', { name: 'Add Grasp' });
+    const data = new Map<string, string>();
+    const dataTransfer = { effectAllowed: '', setData: (kind: string, text: string) => data.set(kind, text) };
+    fireEvent.dragStart(item, { dataTransfer });
+    expect(useEditorStore.getState().dragged).toEqual({ type: 'Grasp' });
+    expect(data.get('text/plain')).toBe('Grasp');
+    expect(dataTransfer.effectAllowed).toBe('copy');
+    fireEvent.dragEnd(item);
+    expect(useEditorStore.getState().dragged).toBeNull();
+  });
+
+  describe('a new action', () => {
+    beforeEach(() => user.click(screen.getByRole('button', { name: 'New action' })));
+    const name = () => screen.getByLabelText('Name of the action');
+    const create = () => screen.getByRole('button', { name: 'Create' });
+
+    it('is written from a template and opened', async () => {
+      const { openFile } = watchNavigation();
+      expect(name()).toHaveFocus();
+      await user.type(name(), 'IsNear');
+      await user.click(within(screen.getByRole('radiogroup')).getByRole('radio', { name: 'Condition' }));
+      await user.click(create());
+      expect(useProjectStore.getState().currentText('actions/IsNear.py')).toContain('class IsNear');
+      expect(useProjectStore.getState().currentText('actions/IsNear.py')).toContain('"Condition"');
+      expect(openFile).toHaveBeenCalledWith('actions/IsNear.py');
+      expect(screen.queryByLabelText('Name of the action')).toBeNull();
+    });
+
+    it.each(['3D', 'class', 'a b'])('is not called “%s”', async (bad) => {
+      expect(create()).toBeDisabled();
+      await user.type(name(), `${bad}{Enter}`);
+      expect(create()).toBeDisabled();
+      expect(useProjectStore.getState().files).not.toHaveProperty([`actions/${bad}.py`]);
+    });
+
+    it('is not called as another block', async () => {
+      await user.type(name(), 'Sequence');
+      expect(screen.getByText('This name is already in use.')).toBeInTheDocument();
+      expect(create()).toBeDisabled();
+    });
+
+    it('is left out when it is cancelled', async () => {
+      await user.click(screen.getByRole('button', { name: 'Cancel' }));
+      expect(screen.queryByLabelText('Name of the action')).toBeNull();
+    });
+  });
+});

@@ -1,0 +1,93 @@
+import { act, screen } from '@testing-library/react';
+import { describe, expect, it } from 'vitest';
+import type { Diagnostic } from '@/api/types';
+import { useProjectStore } from '@/store/project';
+import { nodeOf, openProject, show, user, watchNavigation } from '../../../harness/testing';
+import { ProblemsPanel } from './ProblemsPanel';
+
+const finding = (more: Partial<Diagnostic>): Diagnostic => ({
+  code: 'X1',
+  severity: 'error',
+  message: 'It is wrong.',
+  ...more,
+});
+
+function open(...diagnostics: Diagnostic[]) {
+  openProject({
+    trees: {
+      Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep', ports: { msec: '{' } } },
+      Dock: { d: { type: 'AlwaysSuccess' } },
+    },
+    diagnostics,
+  });
+  show(<ProblemsPanel />);
+  return watchNavigation();
+}
+
+const rows = () => screen.getAllByRole('listitem').map((row) => row.querySelector('button')!);
+
+describe('ProblemsPanel', () => {
+  it('says that the project can run', () => {
+    open();
+    expect(screen.getByText('No problems: the project can run.')).toBeInTheDocument();
+    expect(screen.queryByRole('list')).toBeNull();
+  });
+
+  it('lists errors before warnings before notes', () => {
+    open(
+      finding({ severity: 'note', message: 'Note.' }),
+      finding({ severity: 'warning', message: 'Odd.' }),
+      finding({ severity: 'error', message: 'Bad.' }),
+    );
+    const severities = screen.getAllByRole('img').map((icon) => icon.getAttribute('aria-label'));
+    expect(severities).toEqual(['Error', 'Warning', 'Note']);
+  });
+
+  it('names the block, the port and the place', () => {
+    open(
+      finding({ tree: 'Dock', node: 'd', port: 'speed' }),
+      finding({ file: 'actions/Go.py', line: 3 }),
+      finding({ tree: 'Dock' }),
+    );
+    const [block, line, tree] = rows();
+    expect(block).toHaveTextContent('AlwaysSuccess · port speed · Dock');
+    expect(line).toHaveTextContent('actions/Go.py:3');
+    expect(tree).toHaveTextContent('DockX1');
+  });
+
+  it('leads to the block', async () => {
+    const { openTree } = open(finding({ tree: 'Dock', node: 'd' }));
+    await user.click(rows()[0]!);
+    expect(openTree).toHaveBeenCalledWith('Dock');
+    expect(useProjectStore.getState()).toMatchObject({
+      selection: ['d'],
+      revealed: { tree: 'Dock', node: 'd' },
+    });
+  });
+
+  it('leads to the line, the file or the tree', async () => {
+    const { openFile, openTree } = open(
+      finding({ file: 'a.py', line: 3 }),
+      finding({ file: 'b.py' }),
+      finding({ tree: 'Dock' }),
+    );
+    for (const row of rows()) await user.click(row);
+    expect(openFile.mock.calls).toEqual([
+      ['a.py', 3],
+      ['b.py', undefined],
+    ]);
+    expect(openTree.mock.calls).toEqual([['Dock']]);
+  });
+
+  it('fixes a finding in one step of undo', async () => {
+    open(finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec' }));
+    const fixes = screen.queryAllByTestId(/^fix-/);
+    expect(fixes.length).toBeGreaterThan(0);
+    await user.click(fixes[0]!);
+    expect(nodeOf('Main', 'a')?.ports?.['msec']).toBe('{msec}');
+    act(() => {
+      useProjectStore.getState().undo();
+    });
+    expect(nodeOf('Main', 'a')?.ports?.['msec']).toBe('{');
+  });
+});

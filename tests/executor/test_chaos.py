@@ -112,7 +112,7 @@ class Storm:
     def _is_consistent(self):
         if self.session.state is State.IDLE or self.session.children.leaving:
             return not self.session.children.leaving
-        started = {kind for kind, child in self.session.children.items() if child.is_started}
+        started = {kind for kind, child in self.session.children.living.items() if child.is_started}
         needed = set()
         if self.session.state.reaches(State.UNIVERSE_READY):
             needed.add("world")
@@ -122,7 +122,7 @@ class Storm:
         pids = {key: child.pid for key, child in self.manager._supervisor._children.items()}
         if not set(pids.values()) <= living:
             return False  # one that waits to be used has died, and the manager has yet to hear of it
-        children = self.session.children
+        children = self.session.children.living
         alive = {kind for kind in started if pids.get((kind, children[kind].number)) in living}
         return needed <= alive and len(living) <= len(children)
 

@@ -214,7 +214,7 @@ def announces_an_upgrade(ada: Someone, bob: Someone) -> None:
         ada.can_be_used(page)
     ada.go("/admin/executor_sessions/session/")
     ada.can_be_used("sessions")
-    ada.type("What users are told besides", "Back at 15:00.")
+    ada.page.get_by_placeholder("Back at 15:00.").fill("Back at 15:00.")
     ada.press("button", "Let no robot start")
     expect(bob.page.get_by_text("Back at 15:00.").first).to_be_visible()
     ada.press("button", "Let robots start again")

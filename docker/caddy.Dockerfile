@@ -1,7 +1,7 @@
 # TLS in front of the web servers: Caddy, with an account of its own and no capability.
 # Build from the root of the repository: docker build -f docker/caddy.Dockerfile -t bt-studio-caddy .
 FROM caddy:2 AS caddy
-# A copy has no file capabilities, with which the program could not be started where all are dropped.
+# A copy has no file capabilities: with them the program could not start in a container that drops all.
 RUN cp /usr/bin/caddy /caddy
 
 FROM debian:bookworm-slim

@@ -25,7 +25,7 @@ RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run
     /build/tools/bin/uv pip install -q --link-mode=copy --compile-bytecode --python /opt/bt-studio/.venv/bin/python \
       --no-deps --require-hashes -r executor.lock && \
     /opt/bt-studio/.venv/bin/python notices.py > /opt/bt-studio/THIRD-PARTY-NOTICES
-# Message packages of which there is no wheel: tf2_msgs, nav2_msgs …
+# Message packages without a wheel: tf2_msgs, nav2_msgs …
 COPY executor/__init__.py /opt/bt-studio/executor/__init__.py
 COPY executor/ros /opt/bt-studio/executor/ros
 RUN --mount=type=cache,target=/root/.cache --mount=type=secret,id=ca,target=/run/secrets/ca.crt \

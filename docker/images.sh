@@ -33,14 +33,14 @@ has() { "$docker" image inspect "$1" >/dev/null 2>&1; }
 # The digest of an image in docker/bases/digests; empty where only its name is known.
 digest() { sed -n "s/^$1 \(sha256:[0-9a-f]\{64\}\)$/\1/p" "$digests"; }
 
-# Whether the image here is the one that the digest names, or, without a digest, whether there is one.
+# Succeeds if the local image has the digest, or, without a digest, if there is an image.
 has_locked() {
   local digest; digest=$(digest "$1")
   if [ -z "$digest" ]; then has "$1"; return; fi
   "$docker" image inspect --format '{{join .RepoDigests "\n"}}' "$1" 2>/dev/null | grep -q "@$digest$"
 }
 
-# By its digest where that is known, so that nobody can exchange what stands behind a tag.
+# Pulls by digest where it is known, since a tag may be moved to another image.
 pull() {
   local digest name=${1%%:*}
   digest=$(digest "$1")

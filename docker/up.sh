@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Brings the server for a class or a team up, or upgrades it. It is safe to repeat: settings that are there stay.
+# Starts or upgrades the server for a class or a team. It is safe to repeat: existing settings stay.
 #
 #   docker/up.sh HOST [OPTION…]
 #
@@ -40,7 +40,7 @@ compose() { DOCKER=$docker BT_STUDIO_ENV_FILE=$settings "$here/compose.sh" "$@";
 
 # The settings ----------------------------------------------------------------------------------------------------
 
-# What Compose will take: the environment, else the last line of the file.
+# Prints the value that Compose will use: the environment's, else that of the last line of the file.
 setting() {
   if [ -n "${!1:-}" ]; then
     printf '%s' "${!1}"
@@ -57,7 +57,7 @@ add() {
   printf '%s=%s\n' "$1" "$2" >>"$settings"
 }
 
-# Adds a line that is missing. One that says something else is the user's to change.
+# Adds a missing line. An existing line with another value is left to the user.
 want() {
   local is=
   is=$(setting "$1")
@@ -137,7 +137,7 @@ choose_host() {
   esac
 }
 
-# Where a port of Caddy's appears on this machine: as asked for, as it was, or as usual.
+# Prints the published port: the option's, the present one, or the default.
 publish() {
   if [ -n "$3" ]; then
     want "$1" "$2$3" "the command asks for it."
@@ -157,7 +157,7 @@ write_address() {
   fi
   if [ "$host" = localhost ]; then
     only=127.0.0.1:
-    # Browsers would ask all other servers of the user's machine by https alone.
+    # HSTS would apply to all other servers of the user's machine, too.
     has BT_STUDIO_HSTS_DAYS || add BT_STUDIO_HSTS_DAYS 0
   fi
   publish BT_STUDIO_HTTP_PUBLISH "$only" "$http_port" 80

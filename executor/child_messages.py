@@ -249,7 +249,7 @@ class WorldReady(_Message, tag="ready"):
 
 
 class Progress(_Message, tag="progress"):
-    """How far the start is, 0 to 1."""
+    """The progress of the start: `fraction` is 0 to 1."""
 
     fraction: float
     message: str
@@ -301,7 +301,7 @@ class Frame(_Message, tag="frame"):
     """A frame of the stream socket for one client (None: for all).
 
     `data` is the encoded frame and passes through the manager as it is. Frames may be dropped in favour of
-    newer ones, unless `keep` is set: later frames build upon a scene.
+    newer ones, unless `keep` is set: later frames refer to a scene.
     """
 
     client: str | None

@@ -176,7 +176,7 @@ class Tree(Struct):
 
 
 class Tick(Struct):
-    """What one tick changed."""
+    """The changes of one tick."""
 
     n: int
     changed: list[tuple[int, NodeStatus]]
@@ -237,7 +237,7 @@ class Finished(Struct):
 
 
 class Sim(Struct):
-    """How well the simulation keeps up, about once a second."""
+    """The load of the simulation, about once a second."""
 
     real_time_factor: float
     speed: float

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes the digests of docker/bases/digests again, as the registry has them now: `make lock-images`.
-# An image that cannot be pulled ends it, and the file stays as it was.
+# If an image cannot be pulled, it ends and leaves the file unchanged.
 set -euo pipefail
 cd "$(dirname "$0")"
 docker=${DOCKER:-docker}

@@ -34,7 +34,6 @@ class Place:
 
     @property
     def is_in_action(self) -> bool:
-        """Whether it is the user's code."""
         return bool(self.file or self.node_path)
 
     def __str__(self) -> str:

@@ -32,12 +32,12 @@ class Breaker:
         self.is_interrupted = False
 
     def arm(self) -> None:
-        """Lets the signal interrupt the user's code from now on. Call it on the main thread."""
+        """From now on the signal interrupts the user's code. Call it on the main thread."""
         self._is_armed = True
         signal.signal(INTERRUPT_SIGNAL, self._interrupt)
 
     def disarm(self) -> None:
-        """Lets the signal interrupt nothing any more."""
+        """From now on the signal interrupts nothing."""
         self._is_armed = False
 
     def _interrupt(self, _number: int, frame: FrameType | None) -> None:

@@ -12,7 +12,7 @@ WALL_FIELDS: Final = ("wall_time_s", "real_time_factor", "tick_ms", "overruns")
 
 @dataclass
 class NodeCount:
-    """How often a node was ticked, with which results."""
+    """The number of ticks of a node, by result."""
 
     path: str
     ticks: int = 0

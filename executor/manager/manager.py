@@ -71,7 +71,7 @@ class ManagerSettings:
         port: 0 takes a free one.
         token: required of clients; "" requires none, and only local clients are accepted.
         domain_id: of the session's ROS graph; None selects an unused one.
-        grace_s: how long a session without clients lives; 0 for ever.
+        grace_s: how long a session without clients lives; 0 is no limit.
         listener: a unix socket to listen at too.
         is_closed_off: whether its ROS graph is isolated, since it runs in a container.
         is_ram: whether it speaks the RAM dialect, to one local client and without a token.
@@ -213,7 +213,7 @@ class Manager:
         await asyncio.to_thread(remove_abandoned_segments)
 
     def take(self, event: Event) -> None:
-        """Lets the state machine handle an event. Events that effects cause are queued."""
+        """Passes an event to the state machine. Events that effects cause are queued."""
         self._events.append(event)
         if self._is_handling:
             return
@@ -377,7 +377,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--ready-fd", type=int, help="where to write the port, as a line of JSON")
     parser.add_argument("--domain-id", type=int, help="ROS domain of the session")
     parser.add_argument(
-        "--grace", type=float, help="seconds that a session lives without clients; 300, with --ram for ever"
+        "--grace",
+        type=float,
+        help="seconds that a session lives without clients; 300, or no limit with --ram",
     )
     parser.add_argument("--gate", type=Path, help="unix socket that hands out the session's own")
     parser.add_argument("--session", default="", help="the session's id, for the gate")

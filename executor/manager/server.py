@@ -325,7 +325,7 @@ def _slow_down(allowance: Allowance, wait_s: float) -> tuple[str, str]:
 
 
 def _read_little(connection: ServerConnection) -> None:
-    """Lets asyncio deliver less at a time than its default of 256 KiB."""
+    """Limits what asyncio reads at a time; its default is 256 KiB."""
     transport: Any = connection.transport
     transport.max_size = READ_BYTES
 

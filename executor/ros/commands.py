@@ -62,44 +62,44 @@ class Commands:
         self._node = node
         self._timeout_s = timeout_s
         self._second = second
-        self._ears = {self.types[0]: self._hear(node, self.types[0])}
+        self._subscriptions = {self.types[0]: self._subscribe(node, self.types[0])}
         self._looks = 0
         self._noted = False
 
     def take(self, now_s: float) -> tuple[Command | None, bool]:
         """Returns the last command that arrived, and whether it is valid."""
-        if len(self._ears) < len(self.types):
-            self._look()
+        if len(self._subscriptions) < len(self.types):
+            self._check_for_stamped()
         arrived: list[tuple[int, Any]] = []
-        for ear in self._ears.values():
-            while (taken := take_with_info(ear)) is not None:
+        for subscription in self._subscriptions.values():
+            while (taken := take_with_info(subscription)) is not None:
                 arrived.append((int(taken[1].get("received_timestamp", 0)), taken[0]))
         if not arrived:
             return None, True
-        newest = max(arrived, key=lambda each: each[0])[1] if len(self._ears) > 1 else arrived[-1][1]
+        newest = max(arrived, key=lambda each: each[0])[1] if len(self._subscriptions) > 1 else arrived[-1][1]
         if isinstance(newest, Twist):
             return Command(newest.linear.x, newest.angular.z, now_s), True
         return self._stamped(newest, now_s)
 
     def make_way(self, message_type: type) -> None:
         """Changes the type of the subscription in this participant, for a node that uses that type."""
-        if message_type in self.types and message_type not in self._ears:
-            for ear in self._ears.values():
-                self._node.destroy_subscription(ear)
-            self._ears = {message_type: self._hear(self._node, message_type)}
+        if message_type in self.types and message_type not in self._subscriptions:
+            for subscription in self._subscriptions.values():
+                self._node.destroy_subscription(subscription)
+            self._subscriptions = {message_type: self._subscribe(self._node, message_type)}
 
     # --- inside ---
 
-    def _hear(self, node: Node, message_type: type) -> Any:
+    def _subscribe(self, node: Node, message_type: type) -> Any:
         return node.create_subscription(message_type, self.topic, ignore, _DEPTH)
 
-    def _look(self) -> None:
+    def _check_for_stamped(self) -> None:
         self._looks += 1
-        if self._looks % LOOK_EVERY or Twist not in self._ears:
+        if self._looks % LOOK_EVERY or Twist not in self._subscriptions:
             return
-        said = {end.topic_type for end in self._node.get_publishers_info_by_topic(self.topic)}
-        if STAMPED in said:
-            self._ears[TwistStamped] = self._hear(self._second(), TwistStamped)
+        published = {end.topic_type for end in self._node.get_publishers_info_by_topic(self.topic)}
+        if STAMPED in published:
+            self._subscriptions[TwistStamped] = self._subscribe(self._second(), TwistStamped)
 
     def _stamped(self, message: Any, now_s: float) -> tuple[Command | None, bool]:
         stamp, twist = message.header.stamp, message.twist

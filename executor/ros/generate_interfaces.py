@@ -71,7 +71,7 @@ def _idl(folder: Path, kind: str = "*") -> list[str]:
 
 
 def _parse_each_file_once() -> None:
-    """Lets the generators of a step share parsed files."""
+    """Caches parsed files for all generators of a step."""
     parse = idl_parser.parse_idl_file
 
     @functools.cache

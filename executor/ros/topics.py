@@ -54,7 +54,7 @@ _LATCHED_QOS: Final = QoSProfile(
 # Name that rcl gives a node whose topics were discovered before its name.
 _NO_NAME_YET: Final = "_NODE_NAME_UNKNOWN_"
 # Not measured by a listing: a subscription to images would start the renderer.
-_UNHEARD: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
+_UNMEASURED: Final = frozenset({"sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"})
 
 
 class TopicError(ValueError):
@@ -66,14 +66,14 @@ class TopicError(ValueError):
 
 
 @dataclass
-class _Ear:
-    """A subscription to one topic, for serialized messages."""
+class _Reader:
+    """A subscription to one topic: it measures the rate, and echoes messages as long as a client asks."""
 
     type_name: str
     subscription: Any
     since_s: float
     node: Node
-    heard: deque[tuple[float, int]] = field(default_factory=deque)
+    received: deque[tuple[float, int]] = field(default_factory=deque)
     echo_hz: float = 0.0
     next_echo_s: float = 0.0
     until_s: float = 0.0
@@ -110,7 +110,7 @@ class Topics:
         self._commands = commands
         self._outlet = outlet
         self._send = send
-        self._ears: dict[str, _Ear] = {}
+        self._readers: dict[str, _Reader] = {}
         self._publishers: dict[tuple[str, str], Any] = {}
         self._unsent: list[_Unsent] = []
         # Topics that are echoed as soon as they exist.
@@ -140,20 +140,20 @@ class Topics:
         """Takes received messages, sends echoes, and publishes messages that waited for subscribers."""
         self._publish_waiting(now_s)
         self._begin_patient(now_s)
-        for name, ear in list(self._ears.items()):
-            if not ear.echo_hz and now_s > ear.until_s:
-                self._ears.pop(name)
-                ear.node.destroy_subscription(ear.subscription)
+        for name, reader in list(self._readers.items()):
+            if not reader.echo_hz and now_s > reader.until_s:
+                self._readers.pop(name)
+                reader.node.destroy_subscription(reader.subscription)
                 continue
             newest = None
-            while (taken := _take_raw(ear.subscription)) is not None:
-                ear.heard.append((now_s, len(taken)))
+            while (taken := _take_raw(reader.subscription)) is not None:
+                reader.received.append((now_s, len(taken)))
                 newest = taken
-            while ear.heard and ear.heard[0][0] < now_s - WINDOW_S:
-                ear.heard.popleft()
-            if newest is not None and ear.echo_hz and now_s >= ear.next_echo_s:
-                ear.next_echo_s = now_s + 1.0 / ear.echo_hz
-                self._tell(name, ear, newest)
+            while reader.received and reader.received[0][0] < now_s - WINDOW_S:
+                reader.received.popleft()
+            if newest is not None and reader.echo_hz and now_s >= reader.next_echo_s:
+                reader.next_echo_s = now_s + 1.0 / reader.echo_hz
+                self._send_echo(name, reader, newest)
 
     # --- list -------------------------------------------------------------------------------------
 
@@ -161,12 +161,12 @@ class Topics:
         rows = []
         for name, there in sorted(self._node.get_topic_names_and_types()):
             types = self._types(name, there)
-            if types[0] not in _UNHEARD and name not in self._ears:
-                self._listen(name, types[0], now_s)
-            ear = self._ears.get(name)
-            if ear is not None:
-                ear.until_s = now_s + LISTEN_S
-            hz, bytes_per_s = _rates(ear, now_s)
+            if types[0] not in _UNMEASURED and name not in self._readers:
+                self._subscribe(name, types[0], now_s)
+            reader = self._readers.get(name)
+            if reader is not None:
+                reader.until_s = now_s + LISTEN_S
+            hz, bytes_per_s = _rates(reader, now_s)
             rows.append(
                 TopicInfo(
                     name=name,
@@ -176,7 +176,7 @@ class Topics:
                     bytes_per_s=bytes_per_s,
                     publishers=self._node_names(self._node.get_publishers_info_by_topic(name)),
                     subscribers=self._node_names(
-                        self._node.get_subscriptions_info_by_topic(name), own=ear is not None
+                        self._node.get_subscriptions_info_by_topic(name), own=reader is not None
                     ),
                 )
             )
@@ -197,19 +197,19 @@ class Topics:
 
     def _echo(self, name: str, max_hz: float) -> None:
         if max_hz <= 0:
-            if name in self._ears:
-                self._ears[name].echo_hz = 0.0
+            if name in self._readers:
+                self._readers[name].echo_hz = 0.0
             return
         types = self._types(name, dict(self._node.get_topic_names_and_types()).get(name, []))
         if not types:
             raise TopicError("unknown_topic", f"There is no topic {name!r} in the graph.")
-        if name not in self._ears:
-            if sum(ear.echo_hz > 0 for ear in self._ears.values()) >= MOST_ECHOED:
+        if name not in self._readers:
+            if sum(reader.echo_hz > 0 for reader in self._readers.values()) >= MOST_ECHOED:
                 raise TopicError("too_many", f"At most {MOST_ECHOED} topics can be echoed at once.")
-            if not self._listen(name, types[0], time.monotonic()):
+            if not self._subscribe(name, types[0], time.monotonic()):
                 text = f"{name} is of the type {types[0]}, which is not installed here."
                 raise TopicError("unknown_type", text)
-        self._ears[name].echo_hz = min(max_hz, ECHO_MAX_HZ)
+        self._readers[name].echo_hz = min(max_hz, ECHO_MAX_HZ)
 
     def _begin_patient(self, now_s: float) -> None:
         if not self._patient or now_s < self._look_s:
@@ -219,26 +219,26 @@ class Topics:
             with contextlib.suppress(TopicError):  # the error was reported when a client asked
                 self._echo(name, self._patient.pop(name))
 
-    def _listen(self, name: str, type_name: str, now_s: float) -> bool:
+    def _subscribe(self, name: str, type_name: str, now_s: float) -> bool:
         try:
             kind = message_type(type_name)
         except ValueError:
             return False  # it is listed without a rate
-        says = self._node.get_publishers_info_by_topic(name)
-        latched = bool(says) and all(
-            end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in says
+        publishers = self._node.get_publishers_info_by_topic(name)
+        latched = bool(publishers) and all(
+            end.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL for end in publishers
         )
         qos = _LATCHED_QOS if latched else _QOS
         node = self._node_for(name, kind)
         subscription = node.create_subscription(kind, name, _ignore, qos, raw=True)
-        self._ears[name] = _Ear(type_name, subscription, now_s, node)
+        self._readers[name] = _Reader(type_name, subscription, now_s, node)
         return True
 
-    def _tell(self, name: str, ear: _Ear, raw: bytes) -> None:
-        flat = flatten(deserialize_message(raw, message_type(ear.type_name)))
+    def _send_echo(self, name: str, reader: _Reader, raw: bytes) -> None:
+        flat = flatten(deserialize_message(raw, message_type(reader.type_name)))
         self._send(
             TopicMessage(
-                topic=name, message_type=ear.type_name, message=flat.value, bytes=len(raw), cut=flat.cut
+                topic=name, message_type=reader.type_name, message=flat.value, bytes=len(raw), cut=flat.cut
             )
         )
 
@@ -289,8 +289,8 @@ class Topics:
         if not takes or not there:
             return there
         names = [f"geometry_msgs/msg/{each.__name__}" for each in takes]
-        said = {end.topic_type for end in self._node.get_publishers_info_by_topic(topic)}
-        return sorted(names, key=lambda name: name not in said) + [
+        published = {end.topic_type for end in self._node.get_publishers_info_by_topic(topic)}
+        return sorted(names, key=lambda name: name not in published) + [
             name for name in there if name not in names
         ]
 
@@ -308,13 +308,13 @@ class Topics:
         self._unsent = left
 
 
-def _rates(ear: _Ear | None, now_s: float) -> tuple[float | None, float | None]:
+def _rates(reader: _Reader | None, now_s: float) -> tuple[float | None, float | None]:
     """Returns messages and bytes a second; None without enough data."""
-    if ear is None or now_s - ear.since_s < WINDOW_S / 4:
+    if reader is None or now_s - reader.since_s < WINDOW_S / 4:
         return None, None
-    span_s = min(now_s - ear.since_s, WINDOW_S)
-    heard = [size for at_s, size in ear.heard if at_s >= now_s - span_s]
-    return round(len(heard) / span_s, 1), round(sum(heard) / span_s)
+    span_s = min(now_s - reader.since_s, WINDOW_S)
+    received = [size for at_s, size in reader.received if at_s >= now_s - span_s]
+    return round(len(received) / span_s, 1), round(sum(received) / span_s)
 
 
 def _sentence(error: Exception) -> str:

@@ -1,4 +1,4 @@
-"""Makes events for the clients of the messages of the child processes."""
+"""Translates messages of the child processes into events for clients."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SAME: dict[type[Struct], type[Struct]] = {
 
 
 def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
-    """Sends a message of a living child to the clients that it concerns."""
+    """Sends a message of a living child to the clients that it is for."""
     message = event.message
     match message:
         case child_messages.Tick():

@@ -40,13 +40,13 @@ def exited(stage: Stage, event: ChildExited) -> None:
 
 
 def lose(stage: Stage, child: Child, reason: str, message: str) -> None:
-    """Ends a child that is in use, and goes down to the state that holds without it."""
+    """Ends a child that is in use, and enters the highest state that holds without it."""
     stage.children.drop(child.kind, reason=reason)
     _fall(stage, child, message)
 
 
 def _stopped(stage: Stage) -> None:
-    """Handles the exit of an application that was told to stop."""
+    """Handles the exit of an application that had received `Stop`."""
     if stage.state in HAS_APPLICATION:
         stage.emit(messages.Finished("IDLE", "terminated"))
         stage.enter(State.VISUALIZATION_READY)
@@ -54,7 +54,7 @@ def _stopped(stage: Stage) -> None:
 
 
 def _fall(stage: Stage, child: Child, message: str) -> None:
-    """Goes down to the state that holds without the child."""
+    """Enters the highest state that holds without the child."""
     rung = State.CONNECTED if child.kind == "world" else State.VISUALIZATION_READY
     if stage.state.height <= rung.height:
         return

@@ -232,7 +232,7 @@ class Inspect:
 
 @dataclass(frozen=True)
 class Retire:
-    """Wait up to `grace_s` for a child that was told to stop, then kill what is left of it."""
+    """Wait up to `grace_s` for a child that has received `Stop`, then kill what is left of it."""
 
     kind: Kind
     number: int

@@ -36,7 +36,7 @@ def _ask(  # noqa: PLR0913 - one question
     patience_s: float = ANSWER_S,
     then: Callable[[], None] | None = None,
 ) -> None:
-    """Lets a child answer a command; `then` is called when it succeeded.
+    """Forwards a command to a child, whose answer is the reply; `then` is called on success.
 
     `topic` is noted as echoed by the client; the note is removed if the child refuses.
     """
@@ -109,7 +109,7 @@ def _describe_type(stage: Stage, event: CommandCame, data: messages.DescribeType
 
 def _echo_topic(stage: Stage, event: CommandCame, data: messages.EchoTopic) -> None:
     if data.max_hz > 0 and stage.clients.echoes_too_many(event.client, data.topic):
-        text = f"A client that looks on may echo {MOST_ECHOED_BY_VIEWER} topics at once."
+        text = f"A viewer may echo {MOST_ECHOED_BY_VIEWER} topics at once."
         stage.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
         return
     rate_hz = stage.clients.echo(event.client, data.topic, data.max_hz)

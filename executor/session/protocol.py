@@ -236,7 +236,7 @@ class Session:
         self._after_forward(child, event.message)
 
     def _after_forward(self, child: Child, message: Struct) -> None:
-        """Goes down the ladder when the application ended by itself, and stops the robot when it hangs."""
+        """Leaves the application's state when its run ended, and stops the robot when its tick hangs."""
         if isinstance(message, Finished) and self.state in HAS_APPLICATION and not child.is_stopping:
             steps.stop_moving(self)
             self.children.drop(child.kind, grace_s=RETIRE_GRACE_S, reason="finished its run")

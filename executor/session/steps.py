@@ -105,7 +105,7 @@ def _launch_universe(stage: Stage, data: messages.LaunchUniverse) -> Step:
 
 
 def _start_world(stage: Stage, start: StartWorld, tries: int = 2) -> Answered[WorldReady]:
-    """Lets the spare world build the universe; a spare that turns out to be dead is replaced once."""
+    """Starts the universe in the spare world; a dead spare is replaced once."""
     world = stage.children.ensure("world")
     world.is_started = True
     stage.children.tell_world(start)
@@ -298,7 +298,7 @@ def _terminate_visualization(stage: Stage, _: Struct) -> Step:
 
 
 def _end_world(stage: Stage) -> Step:
-    """Goes down to `connected`, rung by rung."""
+    """Descends to `connected`, rung by rung."""
     if stage.state in HAS_APPLICATION:
         yield from _terminate_application(stage, messages.Empty())
     if stage.state is State.VISUALIZATION_READY:

@@ -3,7 +3,7 @@
 The messages are those of `executor.child_messages`; each end is given the union that it receives. The child's
 end (`Channel`) is synchronous and may be used from any thread; the manager's end (`AsyncChannel`) belongs to
 an event loop. Both are bounded: a `Frame` may be dropped, and of the frames that wait only the latest of a
-client's stream is sent, unless `keep` is set (a scene, which later frames build upon). All other messages are
+client's stream is sent, unless `keep` is set (a scene, to which later frames refer). All other messages are
 control messages and are never dropped; a peer that does not read them for `STALL_TIMEOUT_S` counts as dead.
 
     ChannelError
@@ -94,7 +94,7 @@ class _Outbox:
                     message = Frame(message.client, message.stream, data)
                 self.frames[message.client, message.stream] = message
                 return
-            # A frame to be kept is never dropped; `waiting` is older, and nothing builds upon it.
+            # A frame to be kept is never dropped; `waiting` is older, and no later frame needs it.
         data = encode(message)
         self.control.append(data)
         self.control_bytes += len(data)
@@ -153,7 +153,7 @@ class Channel(Generic[Sent, Received]):
                 self._changed.notify_all()
 
     def receive(self, timeout_s: float | None = None) -> Received | None:
-        """Returns the next message, or None if none came in time. Without a timeout it waits for ever.
+        """Returns the next message, or None if none came in time. Without a timeout it waits without limit.
 
         Raises:
             ChannelClosed: the manager is gone.

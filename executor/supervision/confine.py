@@ -23,7 +23,7 @@ def _prctl(option: int, value: int) -> None:
 
 
 def die_with_parent() -> None:
-    """Lets the kernel kill this process, and its forks from Python, when its parent ends.
+    """Makes the kernel kill this process, and its forks from Python, when its parent ends.
 
     The environment holds the parent's id, to notice a parent that ended before the call.
     """

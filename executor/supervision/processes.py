@@ -50,7 +50,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Program:
-    """What to start for a kind of child; `--channel-fd N` is added where it has a channel."""
+    """The command line of a kind of child; `--channel-fd N` is added where it has a channel."""
 
     arguments: tuple[str, ...]
     environment: Mapping[str, str] = field(default_factory=dict)
@@ -269,7 +269,7 @@ class ChildProcess:
             while True:
                 self._on_message(await channel.receive())
         except ChannelClosed:
-            # Usually the child is ending. Without its channel it could not be told to stop.
+            # Usually the child is ending. Without its channel it could not receive `Stop`.
             await asyncio.wait([self.exited], timeout=CLOSED_CHANNEL_GRACE_S)
             self.kill("was ended: it closed its channel" if not self.exited.done() else "")
         except ChannelError as error:

@@ -1,6 +1,6 @@
-"""The Docker part runs in `make test-full` and `make test-docker`, where an engine can be had.
+"""The Docker part runs in `make test-full` and `make test-docker` where an engine is available.
 
-Elsewhere the report says that it did not.
+Elsewhere the report says that it did not run.
 """
 
 from __future__ import annotations
@@ -17,6 +17,6 @@ collect_ignore = HEAVY if REASON else []
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Says so at the end, where it is seen."""
+    """Repeats the reason at the end of the report, where it is visible."""
     if REASON:
         terminalreporter.write_line(f"tests/docker was NOT run: {REASON}.", yellow=True)

@@ -1,4 +1,4 @@
-"""A Docker engine for the tests: the one that runs here, or one of their own, started as root."""
+"""A Docker engine for the tests: the running one, or a separate one that is started as root."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ REPOSITORY = Path(__file__).parents[2]
 DATA = REPOSITORY / "var" / "docker"
 SOCKET = Path("/var/run/docker.sock")
 PACKAGES = ("docker.io", "docker-compose", "debootstrap", "iptables", "shellcheck")
-# Debian's program first: what else is called docker on a machine may be another client.
+# Debian's program first: another program named docker may be a different client.
 CANDIDATES = ("/usr/bin/docker", "docker")
 DEADLINE_S = 120
 
@@ -32,7 +32,7 @@ class Engine(NamedTuple):
 
     @property
     def environment(self) -> dict[str, str]:
-        """What makes the programs talk to this engine."""
+        """Returns the environment in which the programs use this engine."""
         return {**os.environ, "DOCKER_HOST": f"unix://{self.socket}", "DOCKER": self.docker}
 
     def run(self, *arguments: str, check: bool = True, **options: object) -> subprocess.CompletedProcess[str]:
@@ -49,7 +49,7 @@ def _run(command, environment, *, check=True, **options):
 
 
 def why_not() -> str:
-    """Why there can be no engine here; empty when there can."""
+    """Returns why no engine is available; empty if one is."""
     if os.geteuid() != 0:
         return "it takes root to start a Docker engine"
     if shutil.which("apt-get") is None and not _has_programs():
@@ -63,7 +63,7 @@ def _has_programs() -> bool:
 
 @contextmanager
 def engine(folder: Path) -> Iterator[Engine]:
-    """The engine of this machine, or one that is ended in the end; its images are kept in `var/docker`."""
+    """Yields this machine's engine, or a new one until the end; its images are stored in `var/docker`."""
     if not _has_programs():
         install = ["apt-get", "install", "-y", "-q", "--no-install-recommends", *PACKAGES]
         quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
@@ -97,7 +97,7 @@ def _engine(socket: Path) -> Engine:
 
 
 def build_images(engine: Engine, tag: str) -> None:
-    """Builds the images as a user does, with this machine's CA bundle as a secret of the build."""
+    """Builds the images as a user does, with this machine's CA bundle as a build secret."""
     bundle = os.environ.get("SSL_CERT_FILE") or "/etc/ssl/certs/ca-certificates.crt"
     given = {"BT_STUDIO_CA": bundle} if Path(bundle).is_file() else {}
     _run(["bash", "docker/images.sh", tag], engine.environment | given)

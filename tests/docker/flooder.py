@@ -1,6 +1,6 @@
-"""An action that looks for the doors of other sessions, and then floods one whose name it was given.
+"""An action that searches for the doors of other sessions, and then floods one whose name it knows.
 
-It prints what it found as one line of JSON, and at each step how many connections it holds.
+It prints its results as one line of JSON, and at each step the number of connections that it holds.
 """
 
 import ctypes
@@ -13,7 +13,7 @@ from pathlib import Path
 import py_trees
 from py_trees.common import Status
 
-# What the test puts here is at the end of the file.
+# The test appends its settings to the end of the file.
 DOOR = ""
 ROOT = Path("/run/bt-studio")
 GUESSES = 5000
@@ -35,7 +35,7 @@ def connect(path):
 
 
 def watch():
-    """Waits for news of the folder; a number, as ctypes gives it, or the error."""
+    """Watches the folder by inotify; returns a number, as ctypes gives it, or the error."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.inotify_add_watch(libc.inotify_init(), str(ROOT).encode(), IN_MODIFY) < 0:
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
@@ -43,7 +43,7 @@ def watch():
 
 
 def own_doors():
-    """What the commands of this container say."""
+    """Returns the doors that the command lines of this container name."""
     for folder in Path("/proc").glob("[0-9]*"):
         words = (folder / "cmdline").read_bytes().decode().split("\0")
         yield from (word for word in words if word.endswith("/gate.sock"))
@@ -58,7 +58,7 @@ def look():
         "root": attempt(lambda: connect(ROOT / "gate.sock")),
         "own": sorted({attempt(lambda path=path: connect(path)) for path in own_doors()}),
         "guessed": sorted({attempt(lambda path=path: connect(path)) for path in guesses}),
-        # Sockets of other containers are in other namespaces.
+        # The sockets of other containers are in other namespaces.
         "named": [
             line
             for line in Path("/proc/net/unix").read_text().splitlines()
@@ -85,6 +85,6 @@ class Forward(py_trees.behaviour.Behaviour):
                 caller.close()
                 break
             self.made.append(caller)
-        del self.made[:-2000]  # the oldest are closed, else its own descriptors run out
+        del self.made[:-2000]  # the oldest are closed, since its own descriptors would run out
         print(f"FLOODED {len(self.made)}")
         return Status.RUNNING

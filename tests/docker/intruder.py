@@ -1,4 +1,4 @@
-"""An action that looks for a way out of its container, and tells what it found as one line of JSON."""
+"""An action that searches for a way out of its container, and reports its results as one line of JSON."""
 
 import ctypes
 import json
@@ -9,7 +9,7 @@ from pathlib import Path
 import py_trees
 from py_trees.common import Status
 
-# What the test puts here is at the end of the file.
+# The test appends its settings to the end of the file.
 OWN_SESSION = OTHER_SESSION = HOST = ""
 PORT = 0
 STUDIO = ("/var/lib/bt-studio", "/run/bt-studio-keeper", "/opt/bt-studio/backend", "/opt/bt-studio/frontend")
@@ -41,7 +41,7 @@ def gate(session, token, doors):
 
 
 def own_doors():
-    """As the commands in this container name them."""
+    """Returns the doors that the command lines of this container name."""
     for folder in Path("/proc").glob("[0-9]*"):
         words = (folder / "cmdline").read_bytes().decode().split("\0")
         yield from (word for word in words if word.endswith("/gate.sock"))
@@ -59,7 +59,7 @@ def manager_token():
 
 
 def io_uring():
-    """Asks the kernel for a ring; a number, as ctypes gives it, or the error."""
+    """Asks the kernel for a ring; returns a number, as ctypes gives it, or the error."""
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.syscall(425, 1, ctypes.create_string_buffer(120)) < 0:
         raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))

@@ -1,4 +1,4 @@
-"""What a team's server of the release before left behind: its volumes, as data that a test puts back.
+"""The volumes of a team's server of the previous release, as data that a test restores.
 
 `release_0_1/` holds that release's compose file, its database as text, and its other volumes as archives.
 They were made by running that release and using it:
@@ -44,7 +44,7 @@ class OldStack(Stack):
 
 
 def lines(values: Mapping[str, str]) -> str:
-    """The text of an `.env`."""
+    """Returns the text of an `.env`."""
     return "".join(f"{name}={value}\n" for name, value in values.items())
 
 
@@ -62,13 +62,13 @@ def _put(stack: Stack, volume: str) -> None:
 
 
 def leave_behind(stack: OldStack) -> None:
-    """Makes the volumes of that release, with its compose file, and its stopped database."""
+    """Creates the volumes of that release, with its compose file and its stopped database."""
     stack.compose("up", "-d", "--no-deps", "postgres")
     stack.await_healthy("postgres")
     load = ("exec", "-T", "postgres", "psql", "-q", "-v", "ON_ERROR_STOP=1", "-U", "studio", "-d", "studio")
     stack.compose(*load, input=DUMP.read_text())
     for volume in ARCHIVED:
-        # As Compose makes them, so that it knows them as its own.
+        # With Compose's labels, so that it recognizes them.
         labels = ("--label", f"com.docker.compose.project={stack.name}")
         labels += ("--label", f"com.docker.compose.volume={volume}")
         stack.engine.run("volume", "create", *labels, f"{stack.name}_{volume}")
@@ -77,7 +77,7 @@ def leave_behind(stack: OldStack) -> None:
 
 
 def _use(stack: OldStack) -> None:
-    """What people did on that server."""
+    """Uses that server as people do."""
     for (name, password), kind in ((ADMIN, ()), (USER, ("--user",))):
         stack.studio("admin", "create", name, *kind, "--password-stdin", input=password + "\n")
     admin, user = User(stack, *ADMIN), User(stack, *USER)
@@ -89,7 +89,7 @@ def _use(stack: OldStack) -> None:
 
 
 def main(tag: str) -> None:
-    """Runs that release and keeps what it left."""
+    """Runs that release and stores its volumes."""
     with tempfile.TemporaryDirectory() as folder, engine(Path(folder)) as running:
         stack = OldStack(running, Path(folder), tag, **SETTINGS)
         try:

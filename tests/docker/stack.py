@@ -33,9 +33,9 @@ DEADLINE_S = 240
 
 
 class Stack:
-    """One stack: `up`, `down`, and what is done to its containers.
+    """One stack and the commands on its containers.
 
-    The web server is asked directly, as by a reverse proxy; `team_server.py` has the stack with Caddy.
+    Requests go to the web server directly, as from a reverse proxy; `team_server.py` has Caddy.
     """
 
     files: tuple[Path, ...] = (COMPOSE, PROXY)
@@ -71,7 +71,7 @@ class Stack:
         return (*self.engine.compose, "-p", self.name, *files, "--env-file", str(self._file))
 
     def up(self) -> float:
-        """Starts everything; returns after how many seconds the first page came."""
+        """Starts everything; returns the seconds until the first page came."""
         started = time.monotonic()
         self.compose("up", "-d")
         self.await_page()
@@ -90,11 +90,11 @@ class Stack:
                 time.sleep(0.1)
 
     def await_healthy(self, service: str) -> None:
-        """Returns once the service's health check says so."""
+        """Waits until the service's health check succeeds."""
         self.await_container(self.container(service))
 
     def await_container(self, name: str) -> None:
-        """Returns once the container's health check says so."""
+        """Waits until the container's health check succeeds."""
         deadline = time.monotonic() + DEADLINE_S
         format_ = "{{.State.Health.Status}}"
         while self.engine.run("inspect", "-f", format_, name).stdout.strip() != "healthy":
@@ -102,7 +102,7 @@ class Stack:
             time.sleep(0.5)
 
     def down(self) -> None:
-        # First those who start containers.
+        # Services that start containers end first.
         self.compose("stop", "-t", "5", "web", "keeper", check=False)
         for name in self.sessions() + self.tools():
             self.engine.run("rm", "-f", name)
@@ -113,18 +113,18 @@ class Stack:
 
     @property
     def address(self) -> tuple[str, int]:
-        """Where it listens."""
+        """Returns the address of the web server."""
         return "127.0.0.1", self.port
 
     def restarts(self) -> dict[str, str]:
-        """How often each service was started again, and whether one was killed for memory."""
+        """Returns how often each service was restarted, and whether one was killed for memory."""
         found = self.compose("ps", "-q").stdout.split()
         format_ = "{{.Name}} {{.RestartCount}} {{.State.StartedAt}} {{.State.OOMKilled}}"
         lines = self.engine.run("inspect", "-f", format_, *found).stdout.strip().splitlines()
         return {name: rest for name, _, rest in (line.partition(" ") for line in lines)}
 
     def memory(self) -> str:
-        """What each service uses now."""
+        """Returns the memory of each service."""
         found = self.compose("ps", "-q").stdout.split()
         format_ = "{{.Name}} {{.MemUsage}} {{.PIDs}} pids"
         return "; ".join(
@@ -132,16 +132,16 @@ class Stack:
         )
 
     def gateway(self) -> str:
-        """The address of this machine on the network of the web server."""
+        """Returns the address of this machine on the network of the web server."""
         format_ = "{{range .NetworkSettings.Networks}}{{.Gateway}} {{end}}"
         return self.engine.run("inspect", "-f", format_, self.container("web")).stdout.split()[0]
 
     def sessions(self) -> list[str]:
-        """The names of the executors' containers that run."""
+        """Returns the names of the running executor containers."""
         return self._made("session")
 
     def tools(self) -> list[str]:
-        """The names of the containers with users' tools that run."""
+        """Returns the names of the running containers with users' tools."""
         return self._made("tools")
 
     def _made(self, kind: str) -> list[str]:
@@ -158,11 +158,11 @@ class Stack:
         return self.compose("exec", "-T", "web", "bt-studio", *arguments, **options)
 
     def backup(self) -> bytes:
-        """What `bt-studio backup -` writes."""
+        """Returns the output of `bt-studio backup -`."""
         return self._studio_bytes("backup", "-")
 
     def restore(self, archive: bytes) -> None:
-        """Gives it to `bt-studio restore -`."""
+        """Passes a backup to `bt-studio restore -`."""
         self._studio_bytes("restore", "-", input=archive)
 
     def _studio_bytes(self, *arguments: str, **options: object) -> bytes:
@@ -180,7 +180,7 @@ class Stack:
 
 
 class User:
-    """Somebody who has signed in by the page's form."""
+    """A user who has signed in by the page's form."""
 
     def __init__(
         self, stack: Stack, name: str, password: str, headers: Mapping[str, str] | None = None
@@ -190,7 +190,7 @@ class User:
         self.sign_in()
 
     def begin(self, stack: Stack, headers: Mapping[str, str]) -> None:
-        """A browser that nobody signed in with, and what it adds to each request."""
+        """Opens a browser session without an account, with the headers that it adds to each request."""
         self._headers = headers
         self._base, self._tls = stack.base, stack.tls
         self._jar = http.cookiejar.CookieJar()
@@ -207,10 +207,10 @@ class User:
         assert self.get("me")["user"] == self._name
 
     def open(self, method: str, path: str, data: bytes | None = None, kind: str = "") -> bytes:
-        """Asks for a page; its body.
+        """Requests a page; returns its body.
 
         Raises:
-            AssertionError: it was refused, and how.
+            AssertionError: it was refused; the text says how.
         """
         headers = {"Origin": self._base, "Referer": self._base + path, **self._headers}
         headers |= {"Content-Type": kind} if kind else {}
@@ -236,7 +236,7 @@ class User:
         return self._api("DELETE", path)
 
     def app(self, project: str) -> str:
-        """The project as the executor takes it."""
+        """Returns the project as the executor receives it."""
         return self.get(f"projects/{project}/app")["app_zip_base64"]
 
     @property
@@ -247,11 +247,11 @@ class User:
         return await self.client_of(session).open(stream=stream)
 
     def open_language(self, project: str) -> connect:
-        """The socket of an editor of Python."""
+        """Opens the socket of a Python editor."""
         return self._open_socket(project, "language")
 
     def open_notices(self, project: str) -> connect:
-        """The socket of a page that waits for news."""
+        """Opens the socket of a page that waits for notices."""
         return self._open_socket(project, "notices")
 
     def _open_socket(self, project: str, name: str) -> connect:
@@ -269,7 +269,7 @@ class User:
 
 
 class RelayedClient(SessionClient):
-    """A client of a session through the web server, as a browser is one."""
+    """A client of a session by way of the web server, as a browser is."""
 
     def __init__(self, base: str, session_id: str, cookies: str, tls: ssl.SSLContext | None = None) -> None:
         super().__init__(0)

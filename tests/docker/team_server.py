@@ -1,4 +1,4 @@
-"""The team's server as `docker/up.sh` brings it up: behind Caddy, by https."""
+"""The team's server as `docker/up.sh` starts it: behind Caddy, by https."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ LINK = re.compile(r"https://\S+/accounts/password/reset/key/\S+")
 
 
 def free_ports(count: int) -> list[int]:
-    """Ports of loopback that nobody has."""
+    """Returns unused ports of loopback."""
     probes = [socket.create_server(("127.0.0.1", 0)) for _ in range(count)]
     ports = [int(probe.getsockname()[1]) for probe in probes]
     for probe in probes:
@@ -33,7 +33,7 @@ def free_ports(count: int) -> list[int]:
 
 
 class TeamServer(Stack):
-    """A stack whose settings `docker/up.sh` makes, in a folder of its own."""
+    """A stack with the settings of `docker/up.sh`, in a folder of its own."""
 
     files = (COMPOSE,)
 
@@ -49,7 +49,7 @@ class TeamServer(Stack):
     def up_sh(
         self, *options: str, check: bool = True, extra: Mapping[str, str] | None = None
     ) -> subprocess.CompletedProcess[str]:
-        """Runs `docker/up.sh localhost` with the images that are here; returns what it said."""
+        """Runs `docker/up.sh localhost` with the existing images; returns its output."""
         command = [str(UP), "localhost", "--no-build", *self._ports, *options]
         return _run(command, self.environment | dict(extra or {}), check=check)
 
@@ -59,7 +59,7 @@ class TeamServer(Stack):
 
     @property
     def environment(self) -> dict[str, str]:
-        """What the scripts of `docker/` find."""
+        """Returns the environment of the scripts of `docker/`."""
         ours = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
         ours |= {"DOCKER_HOST": f"unix://{self.engine.socket}", "DOCKER": self.engine.docker}
         ours |= {"BT_STUDIO_ENV_FILE": str(self._file), "COMPOSE_PROJECT_NAME": self.name}
@@ -75,20 +75,20 @@ class TeamServer(Stack):
 
     @property
     def settings(self) -> dict[str, str]:
-        """The lines of the `.env`; the last of a name counts."""
+        """Returns the values of the `.env`; the last line of a name counts."""
         lines = (line for line in self._file.read_text().splitlines() if not line.startswith("#"))
         return dict(line.split("=", 1) for line in lines)
 
     def trust(self) -> None:
-        """Believes the server's own authority from now on, and no other."""
+        """Trusts only the server's own authority from now on."""
         self.tls = ssl.create_default_context(cafile=str(self.folder / "ca.crt"))
 
     def webs(self) -> list[str]:
-        """The containers of the web server that run."""
+        """Returns the running containers of the web server."""
         return self.compose("ps", "-q", "web").stdout.split()
 
     def add_user(self, name: str) -> User:
-        """Makes an account and signs in."""
+        """Creates an account and signs in."""
         password = secrets.token_urlsafe(12)
         self.studio("admin", "create", name, "--user", "--password-stdin", input=password + "\n")
         return User(self, name, password)

@@ -1,4 +1,4 @@
-"""Caddy's image gets a certificate by ACME, from another Caddy that is an authority for the test."""
+"""Caddy's image gets a certificate by ACME, from another Caddy as the test's authority."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ pytestmark = [pytest.mark.timeout(1800)]
 
 @pytest.fixture
 def network(tmp_path):
-    """An engine, a network, and what is started on it with `run`; all of it is removed in the end."""
+    """Yields an engine, a network, and `run`, which starts containers in it; all are removed at the end."""
     with engine(tmp_path) as running:
         if not BUILT:
             build_images(running, TAG)
@@ -60,7 +60,7 @@ def network(tmp_path):
 
 
 def until(attempt):
-    """What the attempt returns, as soon as it is something."""
+    """Repeats the attempt until it returns a result."""
     deadline = time.monotonic() + DEADLINE_S
     while not (found := attempt()):
         assert time.monotonic() < deadline
@@ -81,7 +81,7 @@ def test_a_public_name_gets_a_certificate_by_acme(network, tmp_path):
         "BT_STUDIO_PUBLIC_URL": f"https://{NAME}",
         "BT_STUDIO_TLS": "acme",
         "BT_STUDIO_ACME_CA": "https://acme.test/acme/local/directory",
-        # An authority of the test's own signs for the authority.
+        # The test's own authority signs for the ACME authority.
         "SSL_CERT_FILE": "/root.crt",
     }
     words = [word for key, value in settings.items() for word in ("-e", f"{key}={value}")]

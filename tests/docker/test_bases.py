@@ -1,4 +1,4 @@
-"""Base images come by digest where the file has one: with a registry that is a local script."""
+"""Base images are pulled by digest where the file has one; a local script is the registry."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.docker.engine import REPOSITORY
 
 DIGESTS = REPOSITORY / "docker" / "bases" / "digests"
 FIRST, SECOND = (f"sha256:{character * 64}" for character in "ab")
-# What it has been asked is in `calls`; `registry` and `images` have a file for each image, with its digest.
+# `calls` has its requests; `registry` and `images` have a file for each image, with its digest.
 DOCKER = r"""#!/usr/bin/env bash
 set -eu
 cd "$(dirname "$0")"
@@ -39,7 +39,7 @@ esac
 
 @pytest.fixture
 def machine(tmp_path):
-    """A machine with a docker program, a registry and a file of digests of its own."""
+    """Sets up a machine with its own docker program, registry and file of digests."""
     (tmp_path / "docker").write_text(DOCKER)
     (tmp_path / "docker").chmod(0o755)
     (tmp_path / "calls").write_text("")

@@ -1,4 +1,4 @@
-"""What can be said of the files of `docker/` without an engine."""
+"""Checks the files of `docker/` without an engine."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def test_compose_files_start_with_old_and_new_compose(path):
     for name, service in document["services"].items():
         assert {"mem_limit", "pids_limit", "ulimits"} <= service.keys(), name
     mounts = {name: str(service.get("volumes")) for name, service in document["services"].items()}
-    # The doors are for sessions and the gate; the way from keeper to gate is theirs alone.
+    # Sessions and the gate share the doors; keeper and gate alone share the control socket.
     assert [name for name in mounts if "doors:" in mounts[name]] == ["keeper", "gate"]
     assert [name for name in mounts if "control:" in mounts[name]] == ["keeper", "gate"]
     assert "sockets:" not in mounts["gate"]
@@ -77,6 +77,6 @@ def test_the_images_leave_out_packages_that_are_in_the_lock(name):
     assert ("\nros-rclpy==" in left) == (name == "executor")
     assert ("\ndjango==" in left) == (name == "web")
     assert ("\nuvicorn==" in left) == (name == "web")
-    # What reads users' Python is not where the database's password is.
+    # The container that reads users' Python does not have the database's password.
     assert ("\npyrefly==" in left) == ("\nruff==" in left) == (name == "executor")
     assert left.count("--hash=sha256:") > 100

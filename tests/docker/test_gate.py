@@ -1,4 +1,4 @@
-"""Keeper and gate as they are deployed: what they may use, and a session that attacks the doors."""
+"""Keeper and gate as they are deployed: their rights, and a session that attacks the doors."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
 TAG = BUILT or "test"
 FLOODER = (Path(__file__).parent / "flooder.py").read_text()
 CHECK = ("python3", "-m", "backend.sessions.gate", "--check")
-# What the keeper does for a session that is long on its way.
+# The limit of the keeper for a session that starts slowly.
 HOLD = """
 import socket, sys
 from pathlib import Path
@@ -61,7 +61,7 @@ def ben(stack):
 
 @pytest.fixture(scope="module")
 def projects(ann, ben):
-    """One of the same example for each user."""
+    """Creates one project of the same example for each user."""
     return {user: user.post("projects", {"name": "Bump", "template": BUMP})["id"] for user in (ann, ben)}
 
 
@@ -114,7 +114,7 @@ def test_without_the_sockets_group_the_keeper_says_which_one_it_takes(stack):
 
 @contextmanager
 def held_door(stack):
-    """The name of a door that is open all the while."""
+    """Yields the name of a door that stays open."""
     command = [stack.engine.docker, "exec", "-i", stack.container("keeper"), "python3", "-c", HOLD]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=REPOSITORY, env=stack.engine.environment, **pipes) as keeper:
@@ -123,7 +123,7 @@ def held_door(stack):
         assert keeper.wait(60) == 0
 
 
-async def test_who_lists_guesses_and_floods_finds_nothing_and_keeps_nobody_out(stack, ann, ben, projects):
+async def test_listing_guessing_and_flooding_finds_no_door_and_blocks_no_session(stack, ann, ben, projects):
     with held_door(stack) as door:
         source = FLOODER + f"\nDOOR = {door!r}\n"
         async with started(ann, projects[ann]) as attacker:
@@ -135,7 +135,7 @@ async def test_who_lists_guesses_and_floods_finds_nothing_and_keeps_nobody_out(s
             assert found["root"] == "refused: FileNotFoundError"
             assert found["own"] == found["guessed"] == ["refused: FileNotFoundError"]
             assert (found["named"], found["control"]) == ([], False)
-            # The test gives it a name, which no session ever learns, and it floods that door.
+            # The test passes the name to it, which a session never learns, and it floods that door.
             await attacker.event("log", lambda data: data["text"] == "FLOODED 2000", timeout_s=120)
             async with started(ben, projects[ben]) as other:
                 await run(other, ben, projects[ben], "walled_room")

@@ -1,8 +1,8 @@
 """A hostile user attacks for ten minutes, from inside a session and by the web, while another works.
 
-The one who attacks runs on the machine of the server, so the attacker's client is *nice* (19) and has one of
-the cores: what slows the other down is then the server's work, not the attacker's own. The bound is a ratio:
-the other's requests beside the attack against the same user's requests just before, in the same stack.
+The attacker runs on the server's machine, so the attacking client is *nice* (19) and bound to one core:
+only the server's work may slow the other user down, not the attacker's own. The bound is a ratio: the other
+user's requests during the attack against the same requests just before it, in the same stack.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from tests.hostile.wire import guest_cookie
 
 BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
 TAG = BUILT or "test"
-# A developer who looks for a cause may name a shorter time.
+# A developer who analyses a failure may set a shorter time.
 MINUTES = float(os.environ.get("BT_STUDIO_HOSTILE_MINUTES") or count("hostile_minutes"))
 QUIET_S = min(90.0, 60 * MINUTES)
 PHASE_S = min(15.0, 60 * MINUTES / 12)
@@ -56,7 +56,7 @@ def stack(tmp_path_factory):
 
 
 def process(module, plan):
-    """A program of `tests.hostile` at work; what it prints is JSON."""
+    """Runs a program of `tests.hostile`; it prints JSON."""
     started = subprocess.Popen(
         [sys.executable, "-m", module],
         cwd=REPOSITORY,
@@ -78,13 +78,13 @@ def told(started, timeout_s=600):
 
 
 def p95(samples):
-    """Of milliseconds; a few samples have a worst one instead."""
+    """Returns the p95 of milliseconds; of few samples the largest."""
     times = sorted(ms for _, _, ms, _ in samples)
     return statistics.quantiles(times, n=20)[18] if len(times) >= 20 else times[-1]
 
 
 def table(title, groups):
-    """Rows of p95s: quiet, beside the attack, and how many times as long."""
+    """Returns rows of p95s: before, during the attack, and their ratio."""
     print(
         f"{title:16} {'quiet':>12} {'p95 ms':>8} {'attacked':>9} {'p95 ms':>8} {'ratio':>6} {'worst ms':>9}"
     )
@@ -102,7 +102,7 @@ def phase_of(sample, phases):
 
 @asynccontextmanager
 async def working(stack, user, project):
-    """A user with a robot that drives, an editor, and a page that waits for news."""
+    """Runs a user with a robot that drives, an editor, and a page that waits for notices."""
     session = user.post(f"projects/{project}/session")
     client = await user.open_session(session)
     try:
@@ -117,13 +117,13 @@ async def working(stack, user, project):
 
 
 async def read_all(socket):
-    """As a browser does; who does not read answers no ping, and is taken for gone."""
+    """Reads a socket as a browser does; a client that does not read answers no pings, and is disconnected."""
     async for _ in socket:
         pass
 
 
 async def moves_on(client, until):
-    """Looks, every while, that the robot has driven and its program has ticked."""
+    """Checks at intervals that the robot has driven and its program has ticked."""
     looks = 0
     while time.monotonic() < until:
         await asyncio.sleep(LOOK_S)
@@ -137,7 +137,7 @@ async def moves_on(client, until):
 
 
 async def attack_inside(user, project, until):
-    """Code in the container of a session that harms; started again whenever it was ended."""
+    """Runs hostile code in a session's container, and starts it again whenever it was ended."""
     starts, said = 0, {}
     while time.monotonic() < until:
         starts += 1
@@ -173,7 +173,7 @@ def hostile_app(user, project, source):
 
 
 def make_large(user):
-    """A project of 100,000 nodes, with an earlier version that differs, and a link for anybody to read it."""
+    """Creates a project of 100,000 nodes, with an older version that differs, and a public read-only link."""
     made = user.post("projects", {"name": "Large"})
     user.post(f"projects/{made['id']}/changes", {"files": large_files(NODES, made["files"])})
     link = user.post(f"projects/{made['id']}/shares/links", {})["links"][0]["url"]
@@ -221,7 +221,7 @@ async def test_a_hostile_user_harms_nobody_else(stack):
 
 
 def report(quiet, attacked, phases):
-    """By kind of request, by what is tried meanwhile, and what those who tried were answered."""
+    """Prints the requests by kind, by the attack at that time, and the answers to the attackers."""
     kinds = list(dict.fromkeys(sample[0] for sample in quiet))
     table("kind", [(k, [s for s in quiet if s[0] == k], [s for s in attacked if s[0] == k]) for k in kinds])
     names = list(dict.fromkeys(kind for kind, _, _ in phases))

@@ -1,4 +1,4 @@
-"""The IDE of one user in containers: it comes up by one command, drives a robot, and is there again."""
+"""The IDE of one user in containers: it starts by one command, drives a robot, and keeps its data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The team's server as it is deployed: real images, real containers, users who may be careless or hostile."""
+"""The team's server as it is deployed: real images, real containers, careless and hostile users."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from websockets.exceptions import ConnectionClosed
 from tests.docker.engine import build_images, engine
 from tests.docker.stack import Stack
 
-# A developer who has built the images may name their tag.
+# A developer who has built the images may pass their tag.
 BUILT = os.environ.get("BT_STUDIO_TEST_IMAGES", "")
 TAG = BUILT or "test"
 INTRUDER = (Path(__file__).parent / "intruder.py").read_text()
@@ -37,13 +37,13 @@ DISK_FILLER = (
     "        import os\n        for n in range(10**6):\n"
     "            with open(f'/tmp/{n}', 'wb') as file:\n                file.write(os.urandom(8 << 20))"
 )
-# Building everything from nothing takes minutes on a busy machine.
+# A build from scratch takes minutes on a busy machine.
 pytestmark = [pytest.mark.timeout(1800)]
 
 
 @pytest.fixture(scope="module")
 def stack(tmp_path_factory):
-    """Images from the sources, and the stack with two places for robots."""
+    """Builds the images, and yields the stack with two places for robots."""
     folder = tmp_path_factory.mktemp("docker")
     with engine(folder) as running:
         if not BUILT:
@@ -69,7 +69,7 @@ def ben(stack):
 
 @pytest.fixture(scope="module")
 def projects(ann, ben):
-    """Each user has one of the examples."""
+    """Creates one of the examples for each user."""
     return {
         BUMP: ann.post("projects", {"name": "Bump", "template": BUMP})["id"],
         FOLLOW: ben.post("projects", {"name": "Follow", "template": FOLLOW})["id"],
@@ -78,7 +78,7 @@ def projects(ann, ben):
 
 @asynccontextmanager
 async def started(user, project):
-    """A client of the project's session, once its manager has introduced itself; it leaves in the end."""
+    """Yields a client of the project's session after its introduction; it leaves at the end."""
     client = await user.open_session(user.post(f"projects/{project}/session"))
     try:
         yield client
@@ -87,7 +87,7 @@ async def started(user, project):
 
 
 def distance_m(client):
-    """How far the robot has driven."""
+    """Returns the distance that the robot has driven."""
     return max((sim["distance_m"] for sim in client.named("sim")), default=0.0)
 
 
@@ -109,20 +109,20 @@ def ticks(client):
 
 
 async def until(condition, timeout_s):
-    """Waits for something that no message tells."""
+    """Waits for a condition that no message reports."""
     async with asyncio.timeout(timeout_s):
         while not condition():  # noqa: ASYNC110
             await asyncio.sleep(0.2)
 
 
 async def ticks_on(client):
-    """The robot's program ticks, now."""
+    """Waits until the robot's program ticks."""
     before = ticks(client)
     await client.until(lambda: ticks(client) > before + 5, 120)
 
 
 def hostile(user, project, source):
-    """The project's app with another Forward, made by the server from a stored project."""
+    """Returns the project's app with another Forward, made by the server from a stored project."""
     copy = user.post(f"projects/{project}/duplicate", {"name": f"copy {time.monotonic_ns()}"})
     save(user, copy["id"], "actions/Forward.py", source, base=copy["revision"])
     app = user.app(copy["id"])
@@ -165,7 +165,7 @@ async def test_a_stranger_reaches_neither_project_nor_session(ann, ben, projects
 async def test_user_code_finds_no_way_out(stack, ann, ben, projects):
     mine = ann.post(f"projects/{projects[BUMP]}/session")["id"]
     other = ben.post(f"projects/{projects[FOLLOW]}/session")["id"]
-    # The address of this machine where the server is published: the nearest outside.
+    # The address of this machine where the server is published: the nearest network outside.
     told = {"OWN_SESSION": mine, "OTHER_SESSION": other, "HOST": stack.gateway(), "PORT": stack.port}
     secret = "".join(f"{name} = {value!r}\n" for name, value in told.items())
     async with started(ann, projects[BUMP]) as client:
@@ -194,26 +194,26 @@ GREEDY = {
 
 
 def reasons(client):
-    """What its user is told of how a run or its session ended."""
+    """Returns the reasons for the end of a run or its session, as its user receives them."""
     faults = client.named("fault")
     told = [" ".join(str(fault.get(key) or "") for key in ("message", "hint")) for fault in faults]
     return "\n".join([*told, client.control.close_reason or ""])
 
 
-async def test_who_takes_too_much_ends_alone_and_is_told_why(ann, ben, projects):
+async def test_a_greedy_program_ends_alone_and_its_user_gets_the_reason(ann, ben, projects):
     project = projects[BUMP]
     async with started(ben, projects[FOLLOW]) as bystander:
         await run(bystander, ben, projects[FOLLOW], "person_in_green")
         for kind, (body, why) in GREEDY.items():
-            # The session goes on where its manager could end the program; the disk is full then.
+            # The session continues where its manager could end the program; then the disk is full.
             async with started(ann, project) as greedy:
                 await run_app(greedy, hostile(ann, project, ACTION.format(body=body)))
-                # Its manager ends the program, or, where that is starved, the keeper ends the session.
+                # Its manager ends the program, or, if that is starved, the keeper ends the session.
                 await until(lambda g=greedy: g.state != "application_running" or g.is_closed, 240)
                 print(f"{kind}: {reasons(greedy)}")
                 assert why in reasons(greedy)
             await ticks_on(bystander)
-    # The next session is as good as new.
+    # The next session works normally.
     ann.delete(f"sessions/{ann.post(f'projects/{project}/session')['id']}")
     async with started(ann, project) as again:
         await run(again, ann, project, "walled_room")
@@ -270,7 +270,7 @@ async def test_a_killed_web_server_loses_no_project_and_no_running_robot(stack, 
         before = ticks(client)
         stack.engine.run("kill", "--signal", "KILL", stack.container("web"))
     assert len(stack.sessions()) == 2
-    # Nobody knows of one of the two any more.
+    # One of the two is not recorded anywhere.
     forget = f"DELETE FROM executor_sessions_session WHERE id = '{orphan}'"  # noqa: S608 - our own
     stack.compose("exec", "-T", "postgres", "psql", "-U", "studio", "-c", forget)
     stack.compose("up", "-d", "web")

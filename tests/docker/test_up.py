@@ -1,4 +1,4 @@
-"""`docker/up.sh` brings the team's server up behind TLS; one dead web server of two stops nobody."""
+"""`docker/up.sh` starts the team's server behind TLS; the death of one of two web servers is not noticed."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ pytestmark = [pytest.mark.timeout(1800)]
 
 @pytest.fixture(scope="module")
 def first_words():
-    """What the command said when it first ran."""
+    """Returns the output of the first run of the command."""
     return []
 
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory, first_words):
-    """A server that was brought up where there was none."""
+    """Starts a server for the first time."""
     folder = tmp_path_factory.mktemp("team")
     with engine(folder) as running:
         if not BUILT:
@@ -52,7 +52,7 @@ def server(tmp_path_factory, first_words):
 
 @pytest.fixture(scope="module")
 def admin(server, first_words):
-    """The administrator, who followed the link and chose a password."""
+    """Returns the administrator, who opened the link and chose a password."""
     [link] = LINK.findall(first_words[0])
     visitor = User.__new__(User)
     visitor.begin(server, {})
@@ -60,7 +60,7 @@ def admin(server, first_words):
     page = visitor.open("GET", path).decode()
     form = dict(re.findall(r'<input type="hidden" name="(\w+)" value="([^"]+)"', page))
     form |= {"password1": ADMIN[1], "password2": ADMIN[1]}
-    # The link's key has moved to the session, and the form's address has none.
+    # The link's key is in the session now, and the form's address has none.
     place = re.sub(r"(/key/[^-]+)-.*", r"\1-set-password/", path)
     visitor.open("POST", place, urllib.parse.urlencode(form).encode())
     return User(server, *ADMIN)
@@ -72,7 +72,7 @@ def ann(server):
 
 
 def answer(server, path, *, method="GET", tls=None, headers=None, body=None):
-    """Status and headers of one request by https."""
+    """Returns status and headers of one request by https."""
     connection = http.client.HTTPSConnection("localhost", server.port, timeout=30, context=tls or server.tls)
     connection.request(method, path, body, headers or {})
     response = connection.getresponse()
@@ -123,7 +123,7 @@ def test_only_caddy_is_reached_and_it_has_no_rights(server):
 def test_a_browser_that_trusts_the_authority_gets_a_page_and_no_other_does(server):
     status, headers = answer(server, "/accounts/login/")
     assert status == 200
-    # It would be in force for all of the user's servers on localhost.
+    # It would apply to all of the user's servers on localhost.
     assert "strict-transport-security" not in headers
     with pytest.raises(ssl.SSLCertVerificationError):
         answer(server, "/accounts/login/", tls=ssl.create_default_context())
@@ -149,7 +149,7 @@ def test_metrics_are_not_public(server, path):
 def test_a_body_beyond_the_bound_is_refused_before_all_of_it_is_sent(server, ann):
     size = {"Content-Length": str(65 << 20), "Content-Type": "application/json"}
     head = {"Cookie": ann.cookies, "Origin": server.base, **size}
-    # Caddy hands nothing on before some of the body has come.
+    # Caddy forwards nothing before a part of the body has arrived.
     status, headers = answer(server, "/api/v1/projects", method="POST", headers=head, body=b" " * (3 << 20))
     assert (status, headers["Content-Type"]) == (413, "application/problem+json")
 
@@ -160,7 +160,7 @@ def test_a_client_cannot_choose_its_address(server, ann):
     query = "SELECT DISTINCT address FROM accounts_auditentry WHERE address IS NOT NULL"
     psql = ("exec", "-T", "postgres", "psql", "-U", "studio", "-At", "-c", query)
     seen = server.compose(*psql).stdout.split()
-    # All have the address by which Docker shows this machine: not Caddy's, and none that was made up.
+    # All have the address by which Docker shows this machine: neither Caddy's, nor a forged one.
     format_ = "{{range .NetworkSettings.Networks}}{{.Gateway}}{{end}}"
     assert seen == [server.engine.run("inspect", "-f", format_, server.container("caddy")).stdout.strip()]
 
@@ -183,7 +183,7 @@ async def test_a_dead_web_server_of_two_stops_nobody(server, ann):
         await asyncio.wait_for(client.control.wait_closed(), 60)
     finally:
         await client.close()
-    # One may have been with the server that died; whoever saved it saves it again.
+    # One save may have been in the server that died; its user saves again.
     assert refused <= 1
     found = {file["path"]: file["content"] for file in ann.get(f"projects/{project}")["files"]}
     assert found["assets/note.txt"] == stored
@@ -198,12 +198,12 @@ async def test_a_dead_web_server_of_two_stops_nobody(server, ann):
 
 
 def sockets(server, name):
-    """How many sockets a web server holds."""
+    """Returns the number of sockets of a web server."""
     return int(server.engine.run("exec", name, "python", "-c", METRICS).stdout)
 
 
 def saves(user, project, count):
-    """Saves one file again and again; how many were refused, and what was stored last."""
+    """Saves one file repeatedly; returns the number of refusals, and the last stored text."""
     refused, revision, text = 0, 0, ""
     for number in range(count):
         try:
@@ -219,12 +219,12 @@ def saves(user, project, count):
 
 
 def current(user, project):
-    """The revision of the file, which may or may not have been saved."""
+    """Returns the current revision of the file, whether or not it was saved."""
     files = {file["path"]: file["revision"] for file in user.get(f"projects/{project}")["files"]}
     return files.get("assets/note.txt", 0)
 
 
-def test_a_certificate_of_ones_own_is_served_and_renewed(server, tmp_path):
+def test_a_custom_certificate_is_served_and_renewed(server, tmp_path):
     text = (server.folder / ".env").read_text()
     (server.folder / ".env").write_text(text.replace("BT_STUDIO_TLS=internal", "BT_STUDIO_TLS=files"))
     for turn in ("first", "second"):

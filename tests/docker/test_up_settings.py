@@ -1,4 +1,4 @@
-"""`docker/up.sh` without an engine: what it makes of its words and the settings, and what it refuses."""
+"""`docker/up.sh` without an engine: its handling of arguments and settings, and its refusals."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ GOOD = "20.10.24 linux/x86_64"
 
 @pytest.fixture
 def up(tmp_path):
-    """Runs the script until it would use images, which are not there."""
+    """Runs the script until it needs images, which do not exist."""
 
     def run(*words, info=GOOD, refusal="", volumes="", docker=str(FAKE)):
         ours = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
@@ -33,7 +33,7 @@ def up(tmp_path):
 
 @pytest.fixture
 def settings(tmp_path):
-    """The lines that the script wrote."""
+    """Returns the lines that the script wrote."""
 
     def read():
         lines = (tmp_path / ".env").read_text().splitlines()
@@ -89,7 +89,7 @@ def test_a_docker_that_will_not_do_is_named_and_nothing_is_written(up, given, sa
         (("a", "--certificate", "/none.pem", "--key", "/none.key"), "'/none.pem' cannot be read"),
     ],
 )
-def test_wrong_words_are_named_and_nothing_is_written(up, words, said, tmp_path):
+def test_wrong_arguments_are_named_and_nothing_is_written(up, words, said, tmp_path):
     assert said in up(*words)
     assert not (tmp_path / ".env").exists()
 
@@ -120,7 +120,7 @@ def test_other_ports_are_in_the_address(up, settings):
     assert (made["BT_STUDIO_HTTP_PUBLISH"], made["BT_STUDIO_HTTPS_PUBLISH"]) == ("8080", "8443")
 
 
-def test_a_second_run_changes_nothing_and_needs_no_words(up, tmp_path):
+def test_a_second_run_changes_nothing_and_needs_no_arguments(up, tmp_path):
     up("bt.example.org")
     before = (tmp_path / ".env").read_bytes()
     up()
@@ -149,7 +149,7 @@ def test_another_host_than_last_time_is_not_taken_silently(up):
     )
 
 
-def test_a_proxy_of_ones_own_gets_no_ports_of_caddys(up, settings):
+def test_a_custom_proxy_gets_no_ports_of_caddys(up, settings):
     up("bt.example.org", "--tls", "proxy")
     made = settings()
     assert made["BT_STUDIO_PROXY_HOPS"] == "1"

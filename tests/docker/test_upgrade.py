@@ -1,8 +1,8 @@
-"""What the release before left in its volumes is there after `docker/up.sh`, and its projects drive robots.
+"""After `docker/up.sh` on the volumes of the previous release, the data exist and the projects drive robots.
 
-The old server is not run here: its volumes are put back as it left them (`old_release.py` says how they were
-made), under its compose file, by whose names and labels the new one finds them. The new images then bring the
-database up to date.
+The old server does not run here: its volumes are restored as it left them (`old_release.py` says how they
+were made), under its compose file, by whose names and labels the new one finds them. The new images then
+migrate the database.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ pytestmark = [pytest.mark.timeout(1800)]
 
 @pytest.fixture
 def server(tmp_path):
-    """An old server, stopped, and its `.env`."""
+    """Yields a stopped old server and its `.env`."""
     with engine(tmp_path) as running:
         if not BUILT:
             build_images(running, TAG)
@@ -31,12 +31,12 @@ def server(tmp_path):
             (tmp_path / ".env").write_text(lines({"BT_STUDIO_PUBLIC_URL": made.base, **SETTINGS}))
             yield made
         finally:
-            # Compose starts with nothing less.
+            # Compose does not start with less.
             least = dict.fromkeys(("BT_STUDIO_DOMAIN", "BT_STUDIO_PUBLIC_URL", "BT_STUDIO_DOCKER_GID"), "0")
             (tmp_path / ".env").write_text(lines({**least, **made.settings, **SETTINGS}))
             print(made.compose("logs", "--tail=60", check=False).stdout)
             made.down()
-            # What the new compose file knows nothing of.
+            # The new compose file does not know these.
             left = running.run("volume", "ls", "-q", "--filter", f"name={made.name}_").stdout.split()
             for volume in left:
                 running.run("volume", "rm", volume)
@@ -46,7 +46,7 @@ async def test_an_upgrade_keeps_everything_and_robots_drive(server):
     before = (server.folder / ".env").read_text()
     said = server.up_sh().stdout
     server.trust()
-    # Old lines stay as they are; missing ones are added, and the file is closed to others.
+    # Old lines stay; missing ones are added, and the file is readable by its owner alone.
     after = (server.folder / ".env").read_text()
     assert after.startswith(before)
     assert (server.folder / ".env").stat().st_mode & 0o777 == 0o600
@@ -61,7 +61,7 @@ async def test_an_upgrade_keeps_everything_and_robots_drive(server):
     assert files[NOTE[0]] == NOTE[1]
     settings = server.engine.run("inspect", "-f", "{{.Config.Env}}", server.container("web")).stdout
     assert "BT_STUDIO_REGISTRATION=open" in settings
-    # Caddy is in front now, whatever the old line says.
+    # Caddy is in front now, in spite of the old line.
     assert "BT_STUDIO_PROXY_HOPS=1" in settings
     async with started(user, project["id"]) as client:
         await run(client, user, project["id"], "walled_room")

@@ -1,4 +1,4 @@
-"""What axe-core finds on a screen."""
+"""Accessibility of a screen, checked by axe-core."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ if TYPE_CHECKING:
 
     from tests.e2e.studio import Studio
 
-# Colours that are still fading in are no colours of the page.
+# Colours that still fade in are not the page's final colours.
 STILL = "*, ::before, ::after { transition: none !important; animation: none !important }"
 AXE = Path(__file__).parents[2] / "frontend" / "node_modules" / "axe-core" / "axe.min.js"
 
 
 def expect_accessible(studio: Studio, scheme: str) -> None:
-    """Puts the page into a theme and lets axe-core look: nothing serious or critical is accepted."""
+    """Sets a theme and runs axe-core: serious and critical findings fail."""
     if studio.page.locator("html").get_attribute("data-mantine-color-scheme") != scheme:
         studio.at("theme-toggle").click()
         studio.page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]")
@@ -24,12 +24,12 @@ def expect_accessible(studio: Studio, scheme: str) -> None:
 
 
 def expect_no_findings(page: Page, name: str) -> None:
-    """Lets axe-core look at a page as it is."""
+    """Runs axe-core on a page as it is."""
     page.add_style_tag(content=STILL)
     page.evaluate(AXE.read_text(encoding="utf-8"))
     found = page.evaluate(
         "async () => (await axe.run("
-        # What lies behind a dialogue cannot be reached while that is open.
+        # Elements behind an open dialogue are not reachable.
         "document.querySelector('[role=dialog][aria-modal=true]') ?? document,"
         " {resultTypes: ['violations']})).violations"
         ".filter(each => ['serious', 'critical'].includes(each.impact))"
@@ -39,7 +39,7 @@ def expect_no_findings(page: Page, name: str) -> None:
     assert not found, f"axe-core, {name}:\n" + "\n".join(found)
 
 
-# Controls beyond an edge of the window, unless something that scrolls holds them.
+# Controls outside of the window, unless a scrolling element contains them.
 BEYOND = """() => {
   const scrolls = (element) => {
     for (let at = element.parentElement; at; at = at.parentElement)
@@ -57,12 +57,12 @@ BEYOND = """() => {
 
 
 def expect_to_fit(page: Page, name: str) -> None:
-    """Nothing of a page lies beyond its window, where nobody could reach it."""
+    """Nothing of a page is outside of its window, where it could not be reached."""
     beyond = page.evaluate(BEYOND)
     assert not beyond, f"{name} does not fit into {page.viewport_size}:\n" + "\n".join(beyond)
 
 
-# What has the keyboard must look otherwise than without it: itself, or what it is drawn in.
+# The focused element looks different from its unfocused state: itself, or its outline.
 FOCUS = """() => {
   const element = document.activeElement;
   if (!element || element === document.body) return null;
@@ -82,7 +82,7 @@ FOCUS = """() => {
 
 
 def expect_focus_to_show(page: Page, name: str, stops: int) -> None:
-    """Walks a page by Tab: at each stop one sees where the keyboard is."""
+    """Walks a page by Tab: at each stop the focus is visible."""
     page.add_style_tag(content=STILL)
     seen = set()
     for _ in range(stops):

@@ -1,4 +1,4 @@
-"""What a hand does to the blocks of a canvas, with undo after each of it."""
+"""Mouse and keyboard on the blocks of a canvas, with undo after each change."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ def block(studio: Studio, type_: str) -> Locator:
 
 
 def children(studio: Studio) -> list[str]:
-    """The types of the tree's blocks from left to right, row by row, as the eye reads them."""
-    # All in one look: the view may still be on its way to a block.
+    """Returns the types of the tree's blocks from left to right, row by row, as they are read."""
+    # All in one query: the view may still move to a block.
     boxes = (
         studio.at("canvas")
         .locator("[data-type]")
@@ -35,13 +35,13 @@ def children(studio: Studio) -> list[str]:
 
 
 def middle(locator: Locator) -> tuple[float, float]:
-    """The point in the middle of an element, in pixels of the window."""
+    """Returns the centre of an element, in pixels of the window."""
     box = locator.bounding_box()
     assert box
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
-# So many pictures of the page in a row show an element at the same place.
+# The number of consecutive frames that show an element at the same place.
 STILL = """element => new Promise(done => {
   let [before, count] = ['', 0];
   const look = () => {
@@ -56,7 +56,7 @@ STILL = """element => new Promise(done => {
 
 
 def rest(locator: Locator) -> None:
-    """Waits until an element stays where it is: the view may still be on its way."""
+    """Waits until an element does not move any more: the view may still move to a block."""
     locator.evaluate(STILL)
 
 
@@ -67,7 +67,7 @@ def place(locator: Locator) -> tuple[float, float, float, float]:
 
 
 def drag(studio: Studio, start: Locator, x: float, y: float, *, is_marked: bool = False) -> None:
-    """Carries what is at `start` to a point; `is_marked`: a mark shows where it will be put."""
+    """Drags from `start` to a point; `is_marked`: a mark shows the drop position."""
     mouse, at = studio.page.mouse, middle(start)
     mouse.move(*at)
     mouse.down()
@@ -83,7 +83,7 @@ def focused(studio: Studio, test_id: str) -> None:
 
 
 def wrap(studio: Studio, type_: str) -> None:
-    """Puts a block round those that are selected, by keys; it is selected then."""
+    """Wraps the selected blocks in a new one by keys; the new block is selected then."""
     studio.page.keyboard.press("Control+g")
     studio.writing()
     studio.page.keyboard.type(type_)
@@ -92,7 +92,7 @@ def wrap(studio: Studio, type_: str) -> None:
 
 
 def the_tree_is_changed_by_hand(studio: Studio) -> None:
-    """Everything that the canvas does to blocks; undo takes each of it back."""
+    """All changes of blocks on the canvas; undo reverts each."""
     page, keys = studio.page, studio.page.keyboard
     whole = children(studio)
     blocks_are_dragged(studio, whole)
@@ -124,7 +124,7 @@ def takes_back(studio: Studio, whole: list[str]) -> None:
 
 
 def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
-    """Before a sibling, onto a parent, as a copy, and a connection that ends nowhere."""
+    """Drags before a sibling, onto a parent, as a copy, and a connection that ends nowhere."""
     forward, fallback = block(studio, "Forward"), block(studio, "ReactiveFallback")
     x, y = middle(fallback)
     drag(studio, forward, x - 110, y, is_marked=True)
@@ -149,7 +149,7 @@ def blocks_are_dragged(studio: Studio, whole: list[str]) -> None:
 
 
 def several_blocks_in_one_hand(studio: Studio, whole: list[str]) -> None:
-    """Carried together they stay in their order; what has room for one takes no two, also as copies."""
+    """Blocks dragged together keep their order; a parent with room for one takes no two, also as copies."""
     keys = studio.page.keyboard
     inverter, turn, forward = (block(studio, type_) for type_ in ("Inverter", "Turn", "Forward"))
     inverter.click()
@@ -184,7 +184,7 @@ def several_blocks_in_one_hand(studio: Studio, whole: list[str]) -> None:
 
 
 def menu_and_keys(studio: Studio, whole: list[str]) -> None:
-    """Wrap, disable, comment, cut and paste; a piece becomes a tree, is looked into, and comes back."""
+    """Wrap, disable, comment, cut and paste; a part becomes a tree, is opened, and is inlined again."""
     keys = studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
@@ -225,13 +225,13 @@ def menu_and_keys(studio: Studio, whole: list[str]) -> None:
 
 
 def selected(studio: Studio) -> list[str]:
-    """The types of the selected blocks."""
+    """Returns the types of the selected blocks."""
     shown = studio.at("canvas").locator("[data-selected][data-type]")
     return sorted(str(each.get_attribute("data-type")) for each in shown.all())
 
 
 def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
-    """`/` writes a comment, Shift+Delete takes a block from round its child, Shift+F10 opens the menu."""
+    """`/` writes a comment, Shift+Delete removes a block around its child, Shift+F10 opens the menu."""
     keys = studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
@@ -259,7 +259,7 @@ def comment_and_menu_by_keys(studio: Studio, whole: list[str]) -> None:
 
 
 def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
-    """Chosen by a frame or by Ctrl: deleted, wrapped, made a tree, which the crumbs lead out of."""
+    """Several blocks, selected by a frame or Ctrl: deleted, wrapped, made a tree; breadcrumbs lead out."""
     page, keys = studio.page, studio.page.keyboard
     inverter, turn = block(studio, "Inverter"), block(studio, "Turn")
     start, end = inverter.bounding_box(), turn.bounding_box()
@@ -310,7 +310,7 @@ def several_blocks_at_once(studio: Studio, whole: list[str]) -> None:
 
 
 def several_are_disabled(studio: Studio) -> None:
-    """What can be done with several blocks stands in the inspector."""
+    """The inspector lists the commands for several blocks."""
     block(studio, "Inverter").click()
     block(studio, "Turn").click(modifiers=["Control"])
     expect(studio.at("inspector")).to_contain_text("2 blocks selected")
@@ -322,7 +322,7 @@ def several_are_disabled(studio: Studio) -> None:
 
 
 def a_piece_goes_to_another_project(studio: Studio) -> None:
-    """Copied here, pasted there, where its action is missing: the lamp on the block writes it."""
+    """Copied here, pasted there, where its action is missing: the lamp on the block creates it."""
     block(studio, "Inverter").click()
     studio.page.keyboard.press("Control+c")
     page = studio.page.context.new_page()

@@ -29,12 +29,12 @@ QUIET = [
 SOFTWARE_WEBGL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 NO_WEBGL = ["--disable-gpu", "--disable-3d-apis"]
 
-# How long the page may take is not what these tests are about: a busy machine must not fail them.
+# The page's speed is not under test: a busy machine must not fail these tests.
 expect.set_options(timeout=WAIT_MSEC)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leaves the longest walks to `make test-full`, and to whoever says `-m long_walk`."""
+    """Leaves the longest walks to `make test-full`, and to `-m long_walk`."""
     if count("e2e_long_walks") or config.option.markexpr:
         return
     long = [item for item in items if item.get_closest_marker("long_walk")]
@@ -64,7 +64,7 @@ def browser_without_webgl(playwright: Playwright) -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def shared_server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
-    """One server for all tests of a module that do not mind each other's projects."""
+    """One server for all tests of a module that do not depend on each other's projects."""
     with serving(tmp_path_factory.mktemp("shared")) as server:
         yield server
 
@@ -88,7 +88,7 @@ def server(tmp_path: Path) -> Iterator[Server]:
 
 @pytest.fixture
 def open_studio(server: Server) -> Iterator[Callable[[Browser], Studio]]:
-    """Opens the IDE in a browser; at the end, the page must not have complained in its console."""
+    """Opens the IDE in a browser; at the end, the page's console must be empty."""
     opened: list[Studio] = []
 
     def open_in(browser: Browser) -> Studio:

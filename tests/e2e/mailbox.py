@@ -1,4 +1,4 @@
-"""A mail server that keeps what it is sent, for what users read in their mail."""
+"""A mail server that stores its messages, for tests that read users' mail."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 class _Delivery(socketserver.StreamRequestHandler):
-    """As much of RFC 5321 as Python's client speaks."""
+    """The part of RFC 5321 that Python's client uses."""
 
     def handle(self) -> None:
         self._say("220 mailbox")
         while line := self.rfile.readline():
             command = line[:4].upper().strip()
             if command == b"DATA":
-                self._say("354 go on")
+                self._say("354 continue")
                 self._keep()
             self._say("221 bye" if command == b"QUIT" else "250 ok")
             if command == b"QUIT":
@@ -41,7 +41,7 @@ class _Delivery(socketserver.StreamRequestHandler):
 
 
 class Mailbox(socketserver.ThreadingTCPServer):
-    """All mail that was sent, whoever it is for."""
+    """All mail that was sent, to any recipient."""
 
     daemon_threads = True
 
@@ -51,11 +51,11 @@ class Mailbox(socketserver.ThreadingTCPServer):
 
     @property
     def url(self) -> str:
-        """What `BT_STUDIO_SMTP_URL` names it."""
+        """The value of `BT_STUDIO_SMTP_URL`."""
         return f"smtp://127.0.0.1:{self.server_address[1]}"
 
     def link_for(self, address: str) -> str:
-        """The link in the newest mail to someone; it is waited for, and the mail is gone then."""
+        """Waits for the newest mail to someone, removes it, and returns its link."""
         wait_until(lambda: any(mail["To"] == address for mail in self.mails), f"{address} gets a mail")
         mail = next(mail for mail in reversed(self.mails) if mail["To"] == address)
         self.mails.remove(mail)
@@ -68,7 +68,7 @@ class Mailbox(socketserver.ThreadingTCPServer):
 
 @contextmanager
 def mailbox() -> Iterator[Mailbox]:
-    """A mail server on a free port."""
+    """Runs a mail server on a free port."""
     with Mailbox() as box:
         thread = threading.Thread(target=box.serve_forever, kwargs={"poll_interval": 0.05})
         thread.start()

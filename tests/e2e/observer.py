@@ -1,7 +1,7 @@
 """A second client of a session, which measures what the world really did.
 
 It joins as a viewer through the back end's own sockets, with the browser's cookie, and decodes every
-message of both; so the figures of the tests come from true poses, not from what a page displays.
+message of both; so the figures of the tests come from true poses, not from the page.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _ids = itertools.count(1)
 
 @dataclass
 class Observer:
-    """What a session says, gathered by two threads until `close`."""
+    """The messages of a session, collected by two threads until `close`."""
 
     control: ClientConnection
     stream: ClientConnection
@@ -78,26 +78,26 @@ class Observer:
             thread.join(timeout=5)
 
     def of(self, command: str) -> list[dict[str, Any]]:
-        """The events of one kind so far, oldest first."""
+        """Returns the events of one kind so far, oldest first."""
         return [event for event in list(self.events) if event["command"] == command]
 
     def sim_time(self) -> float:
-        """The newest simulated time that was heard of, in s."""
+        """Returns the newest simulated time in s."""
         return max(self.frame_t, *(float(event["t"]) for event in list(self.events)[-200:]))
 
     def track(self, body: str) -> list[tuple[float, float, float]]:
-        """Where a body was: (t in s, x and y in m) by time."""
+        """Returns the positions of a body: (t in s, x and y in m) by time."""
         return [
             (t, float(p[0]), float(p[1])) for t, p in list(self.poses.get(self.objects.get(body, -1), []))
         ]
 
     def distance_travelled(self, body: str) -> float:
-        """Length in m of the way that a body went."""
+        """Returns the length in m of a body's path."""
         track = self.track(body)
         return sum(math.dist(a[1:], b[1:]) for a, b in itertools.pairwise(track))
 
     def wait_for_sim_time(self, t: float, deadline_s: float) -> None:
-        """Waits until the simulation has come to `t` s."""
+        """Waits until the simulated time is at least `t` s."""
         end = time.monotonic() + deadline_s
         while self.sim_time() < t:
             assert time.monotonic() < end, f"simulated time stands at {self.sim_time():.1f} s, not {t:.1f} s"

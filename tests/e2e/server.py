@@ -1,4 +1,4 @@
-"""The real server, started as a user starts it, and what it leaves behind."""
+"""The real server, started as a user starts it, and the processes that it leaves."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
-# Generous: how long things take is for the benchmarks, and a busy machine must not fail a test.
+# Generous: benchmarks measure durations, and a busy machine must not fail a test.
 DEADLINE_S = 60
 
 
 class Server(NamedTuple):
-    """A serving IDE: the link with the token, and its process."""
+    """A running server: the link with the token, and its process."""
 
     url: str
     process: psutil.Process
@@ -33,7 +33,7 @@ class Server(NamedTuple):
         return self.url.split("/?")[0].rstrip("/")
 
     def children(self) -> list[psutil.Process]:
-        """Every process of a session below the server: managers, worlds, applications."""
+        """Returns every process of a session below the server: managers, worlds, applications."""
         below = self.process.children(recursive=True)
         return [child for child in below if _is_of_a_session(child)]
 
@@ -46,13 +46,13 @@ def _is_of_a_session(process: psutil.Process) -> bool:
 
 
 def command(*arguments: str) -> list[str]:
-    """The `bt-studio` program of this environment."""
+    """Returns the `bt-studio` program of this environment."""
     return [sys.executable, "-m", "backend.cli.main", *arguments]
 
 
 @contextmanager
 def serving(folder: Path, *arguments: str, **environment: str) -> Iterator[Server]:
-    """Starts `bt-studio serve` on a free port with its data in `folder`; ends it and all below it."""
+    """Starts `bt-studio serve` on a free port with its data in `folder`; ends it and its descendants."""
     ready = folder / "ready.json"
     log = (folder / "serve.log").open("wb")
     serve = command("serve", "--no-browser", "--port", "0", "--data-dir", str(folder / "data"))
@@ -82,7 +82,7 @@ def serving(folder: Path, *arguments: str, **environment: str) -> Iterator[Serve
 def wait_until(
     true: Callable[[], object], what: str, *, deadline_s: float = DEADLINE_S, every_s: float = 0.05
 ) -> None:
-    """Waits for `true()`; the error says what did not happen."""
+    """Waits for `true()`; the error names the condition that was not met."""
     end = time.monotonic() + deadline_s
     while not true():
         assert time.monotonic() < end, f"after {deadline_s} s still not: {what}"

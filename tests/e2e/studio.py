@@ -1,4 +1,4 @@
-"""The IDE as its user handles it: what one sees and clicks, by the names of the page's test ids."""
+"""The IDE as its user operates it: visible elements, by the names of the page's test ids."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
     from tests.e2e.server import Server
 
-# How long a click, a fill or an expectation waits for the page.
+# The limit of the page for a click, a fill or an expectation.
 WAIT_MSEC = 60_000
 OUTPUT = Path(__file__).parent / "output"
-# A refused or lost request is shown by the page; that the browser also notes it is not our complaint.
+# The page shows a refused or lost request; the browser's own note of it is not an error of the page.
 EXPECTED_NOTES = re.compile(
     r"Failed to load resource|WebSocket connection to .* failed|GPU stall|GL Driver Message"
 )
@@ -53,11 +53,11 @@ class Studio:
         expect(self.at("node-n1")).to_be_visible()
 
     def at(self, test_id: str) -> Locator:
-        """An element by its test id."""
+        """Returns an element by its test id."""
         return self.page.get_by_test_id(test_id)
 
     def run(self) -> None:
-        """Presses Run and waits until the application runs; if one did already, until it has begun again."""
+        """Presses Run and waits until the application runs; a running one has started again."""
         state = self.at("executor-state").get_attribute("data-state")
         before = self.stat("t") if state == "application_running" else math.inf
         self.at("run").click()
@@ -74,13 +74,13 @@ class Studio:
         expect(self.at("save-state")).to_have_attribute("data-state", "saved")
 
     def command(self, words: str) -> None:
-        """Finds a command by words of its name, and does it."""
+        """Finds a command by words of its name, and runs it."""
         self._type_command(self.page, words)
         self.page.keyboard.press("Enter")
         expect(self.at("command-palette")).to_have_count(0)
 
     def command_in_window(self, window: Page, words: str) -> None:
-        """The same in the window of a panel; the page's own palette stays closed."""
+        """As `command`, in the window of a panel; the page's own palette stays closed."""
         self._type_command(window, words)
         expect(self.at("command-palette")).to_have_count(0)
         window.keyboard.press("Enter")
@@ -97,11 +97,11 @@ class Studio:
         palette = window.get_by_test_id("command-palette")
         expect(palette.get_by_role("combobox")).to_be_focused()
         window.keyboard.type(words)
-        # Some commands join the list late: the templates of a page that is being loaded.
+        # Some commands join the list late: the templates of a page that still loads.
         expect(palette.get_by_role("option", selected=True, disabled=False)).to_have_count(1)
 
     def writing(self) -> None:
-        """Waits until what is typed goes into a field."""
+        """Waits until typed text goes into a field."""
         expect(self.page.locator("input:focus, textarea:focus")).to_have_count(1)
 
     def set_port(self, node: str, port: str, value: str) -> None:
@@ -118,7 +118,7 @@ class Studio:
         expect(self.at("code-editor")).to_be_visible()
 
     def replace_code(self, source: str) -> None:
-        """Replaces the open file's whole text by typing over it."""
+        """Replaces the open file's whole text by typing."""
         editor = self.at("code-editor").locator(".cm-content")
         editor.click()
         self.page.keyboard.press("Control+a")
@@ -126,11 +126,11 @@ class Studio:
         self.saved()
 
     def status(self, node: str) -> str:
-        """The status that a block shows."""
+        """Returns the status that a block shows."""
         return self.at(f"node-{node}").get_attribute("data-status") or ""
 
     def statuses_seen(self, node: str, seconds: float) -> set[str]:
-        """Every status that a block shows within some seconds."""
+        """Returns every status that a block shows within some seconds."""
         seen: set[str] = set()
         for _ in range(int(seconds * 20)):
             seen.add(self.status(node))
@@ -138,7 +138,7 @@ class Studio:
         return seen
 
     def stat(self, name: str) -> float:
-        """A figure of the status bar: speed, distance, collisions, t."""
+        """Returns a figure of the status bar: speed, distance, collisions, t."""
         return float(self.at("sim-stats").get_attribute(f"data-{name}") or "nan")
 
     def observe(self) -> Observer:
@@ -152,11 +152,11 @@ class Studio:
         return Observer.join(self.server.origin, cookie, session["id"])
 
     def end_session(self) -> None:
-        """Closes the session and waits until no process of it is left."""
+        """Closes the session and waits until none of its processes is left."""
         self.at("end-session").click()
         wait_until(lambda: not self.server.children(), "the session's processes end")
 
     def picture(self, name: str) -> None:
-        """Keeps a picture of the page, for the docs and for looking at."""
+        """Stores a picture of the page, for the docs and for inspection."""
         OUTPUT.mkdir(exist_ok=True)
         self.page.screenshot(path=OUTPUT / f"{name}.png")

@@ -36,14 +36,14 @@ PASSWORD, ANOTHER = "Correct-horse-9", "Battery-staple-4"
 
 @pytest.fixture
 def mails() -> Iterator[Mailbox]:
-    """What the server mails."""
+    """Runs the mail server of the server under test."""
     with mailbox() as box:
         yield box
 
 
 @pytest.fixture
 def team(tmp_path: Path, mails: Mailbox) -> Iterator[Server]:
-    """A server with accounts that sends mail, and one account: Ada, its administrator."""
+    """Runs a server with accounts that sends mail, with one account: Ada, its administrator."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     settings = {
@@ -62,14 +62,14 @@ def team(tmp_path: Path, mails: Mailbox) -> Iterator[Server]:
 
 
 class Someone(Studio):
-    """Somebody's browser."""
+    """The browser of one user."""
 
     def go(self, address: str) -> None:
-        """To a page of the server."""
+        """Opens a page of the server."""
         self.page.goto(address if address.startswith("http") else self.server.origin + address)
 
     def press(self, role: AriaRole, name: str) -> None:
-        """Clicks what is called so."""
+        """Clicks the element with this name."""
         self.page.get_by_role(role, name=name, exact=True).click()
 
     def type(self, label: str, text: str) -> None:
@@ -77,19 +77,19 @@ class Someone(Studio):
         self.page.get_by_label(label, exact=True).fill(text)
 
     def sign_in(self, name: str, password: str = PASSWORD) -> None:
-        """By keyboard alone."""
+        """Signs in by keyboard alone."""
         self.page.get_by_label("Login").focus()
         for text, key in ((name, "Tab"), (password, "Enter")):
             self.page.keyboard.type(text)
             self.page.keyboard.press(key)
 
     def menu(self, item: str) -> None:
-        """Chooses something of the account's menu."""
+        """Clicks an item of the account's menu."""
         self.page.get_by_role("button", name="Account of").click()
         self.press("menuitem", item)
 
     def comes_to(self, address: str) -> None:
-        """Waits for a page whose address has this in it."""
+        """Waits for a page whose address contains this."""
         expect(self.page).to_have_url(re.compile(re.escape(address)))
 
     def can_be_used(self, name: str) -> None:
@@ -108,7 +108,7 @@ class Someone(Studio):
 
 
 def code_of(secret: str) -> str:
-    """What an authenticator shows for a secret at this moment (RFC 6238)."""
+    """Returns the code of an authenticator for a secret at this moment (RFC 6238)."""
     key = base64.b32decode(secret + "=" * (-len(secret) % 8))
     digest = hmac.digest(key, struct.pack(">Q", int(time.time()) // 30), "sha1")
     start = digest[-1] & 15
@@ -118,7 +118,7 @@ def code_of(secret: str) -> str:
 
 @pytest.fixture
 def people(team: Server, browser: Browser) -> Iterator[list[Someone]]:
-    """Three browsers; none of their consoles may complain."""
+    """Opens three browsers; their consoles must stay empty."""
     size: ViewportSize = {"width": 1440, "height": 900}
     contexts = [browser.new_context(viewport=size, accept_downloads=True) for _ in range(3)]
     everyone = [Someone(context.new_page(), team) for context in contexts]
@@ -135,7 +135,7 @@ def test_a_class_from_the_first_sign_in_to_the_end_of_an_account(
     signs_in_where_she_wanted_to_go(ada)
     invites_to_a_class(ada, bob, mails)
     shares_a_project_and_gives_it_away(ada, bob, guest)
-    tells_whoever_works_of_an_upgrade(ada, bob)
+    announces_an_upgrade(ada, bob)
     takes_a_second_factor(ada)
     forgets_the_password(bob, mails)
     takes_everything_along_and_goes(bob)
@@ -187,7 +187,7 @@ def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someon
     ada.press("combobox", "What they may do")
     ada.press("option", "Can edit")
     dialog.get_by_role("button", name="Share", exact=True).click()
-    # His row moves what is below it: a click that is on its way would miss.
+    # His row moves the rows below it: a click on its way would miss.
     expect(dialog.get_by_role("button", name="Make bob the owner")).to_be_visible()
     ada.press("button", "Make a link")
     guest.go(ada.page.get_by_label("Read-only link").input_value())
@@ -208,13 +208,13 @@ def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someon
     expect(bob.at("share")).to_be_visible()
 
 
-def tells_whoever_works_of_an_upgrade(ada: Someone, bob: Someone) -> None:
+def announces_an_upgrade(ada: Someone, bob: Someone) -> None:
     for page in ("accounts/user", "accounts/auditentry", "mail"):
         ada.go(f"/admin/{page}/")
         ada.can_be_used(page)
     ada.go("/admin/executor_sessions/session/")
     ada.can_be_used("sessions")
-    ada.type("What users are told besides", "Back at 15:00.")
+    ada.page.get_by_placeholder("Back at 15:00.").fill("Back at 15:00.")
     ada.press("button", "Let no robot start")
     expect(bob.page.get_by_text("Back at 15:00.").first).to_be_visible()
     ada.press("button", "Let robots start again")
@@ -222,7 +222,7 @@ def tells_whoever_works_of_an_upgrade(ada: Someone, bob: Someone) -> None:
 
 def takes_a_second_factor(ada: Someone) -> None:
     ada.go("/accounts/2fa/totp/activate/")
-    if "reauthenticate" in ada.page.url:  # after five minutes; a busy machine may need them
+    if "reauthenticate" in ada.page.url:  # after five minutes, which a busy machine may need
         ada.type("Password", PASSWORD)
         ada.page.keyboard.press("Enter")
         ada.page.wait_for_url("**/totp/activate/")

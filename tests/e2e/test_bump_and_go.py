@@ -1,4 +1,4 @@
-"""*Laser bump and go*, from the start page to a robot that moves, as the README promises it."""
+"""*Laser bump and go*, from the start page to a robot that moves, as described in the README."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     frozen = still(observer, studio)
     ticks = len(observer.of("tick"))
     studio.page.wait_for_timeout(1500)
-    assert still(observer, studio) == frozen, "the world stands still"
-    assert len(observer.of("tick")) == ticks, "the tree stands still"
+    assert still(observer, studio) == frozen, "the world is paused"
+    assert len(observer.of("tick")) == ticks, "the tree is paused"
 
     studio.at("step").click()
     wait_until(lambda: len(observer.of("tick")) == ticks + 1, "one tick is made")
@@ -74,7 +74,7 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
 
     studio.at("resume").click()
     studio.expect_state("application_running")
-    wait_until(lambda: observer.sim_time() > frozen + 1, "time goes on")
+    wait_until(lambda: observer.sim_time() > frozen + 1, "time continues")
 
     studio.at("stop").click()
     studio.expect_state("visualization_ready")
@@ -86,7 +86,7 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
 
 
 def the_tree_shows_its_path(studio: Studio) -> None:
-    """What runs is marked down to the leaf; what passes within a tick flashes."""
+    """Running nodes are marked down to the leaf; results within a tick flash."""
     running = studio.at("canvas").locator(".react-flow__edge [data-status=RUNNING]")
     expect(running).to_have_count(1)
     expect(studio.at("node-n4").locator("path[data-status]")).to_be_attached()
@@ -139,7 +139,7 @@ def test_without_webgl_the_server_draws_the_world(
 
 
 def turns(observer: Observer) -> int:
-    """How often the robot changed its heading by more than 20° between two straight stretches."""
+    """Returns how often the robot changed its heading by more than 20° between two straight parts."""
     track = observer.track("robot")
     headings = []
     for a, b in itertools.pairwise(track[::15]):
@@ -150,13 +150,13 @@ def turns(observer: Observer) -> int:
 
 
 def still(observer: Observer, studio: Studio) -> float:
-    """Simulated time once nothing is on its way any more."""
+    """Returns the simulated time once no message is on its way any more."""
     studio.page.wait_for_timeout(500)
     return observer.sim_time()
 
 
 def speed_when_driving(studio: Studio) -> float:
-    """The robot's speed in m/s over the fastest half second: on a busy machine it may stand in between."""
+    """Returns the robot's speed in m/s over the fastest half second: on a busy machine it may pause."""
     observer = studio.observe()
     wait_until(lambda: len(observer.track("robot")) > 30, "the robot moves")
     observer.wait_for_sim_time(observer.sim_time() + 2.5, deadline_s=30)

@@ -1,4 +1,4 @@
-"""Writing Python by hand: help while typing, formatting, renaming; and two tabs on one project."""
+"""Writing Python: completion, formatting, renaming; and two tabs on one project."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def line(studio: Studio, text: str) -> Locator:
 
 
 def spot(studio: Studio, text: str, word: str) -> tuple[float, float]:
-    """The middle of the last `word` in the line that holds `text`."""
+    """Returns the middle of the last `word` in the line that contains `text`."""
     box = line(studio, text).evaluate(
         """(element, word) => {
             const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
@@ -65,7 +65,7 @@ def expect_help(studio: Studio) -> None:
 
 
 def network_of(studio: Studio) -> Callable[[bool], None]:
-    """Cuts one tab off (True), or lets it in again; the other tab goes on."""
+    """Disconnects one tab (True), or connects it again; the other tab stays connected."""
     session = studio.page.context.new_cdp_session(studio.page)
     session.send("Network.enable")
     speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
@@ -94,7 +94,7 @@ def test_completion_findings_and_types(studio: Studio) -> None:
     page.keyboard.type(" = 0.1")
     expect(line(studio, "twist.angular.x = 0.1")).to_be_visible()
 
-    # A wrong name is marked, with what to do; hovering tells types.
+    # A wrong name is marked, with a fix; the pointer shows types.
     page.keyboard.type("\ntwist.liner")
     wrong = page.locator(".cm-lintRange-error", has_text="liner")
     expect(wrong).to_be_visible()
@@ -109,14 +109,14 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     begin(studio)
     page = studio.page
 
-    # An import that is not used can be taken away by its finding; undo brings it back.
+    # A finding offers to remove an unused import; undo restores it.
     page.mouse.move(*spot(studio, "import os", "os"))
     page.get_by_role("button", name="Remove unused import: `os`").click()
     expect(line(studio, "import os")).to_have_count(0)
     page.keyboard.press("Control+z")
     expect(line(studio, "import os")).to_be_visible()
 
-    # Saving formats, undo takes the format back, a broken file is saved as it is.
+    # Saving formats, undo reverts the formatting, a broken file is saved unchanged.
     expect(line(studio, "return   py_trees")).to_be_visible()
     page.keyboard.press("Control+s")
     expect(line(studio, "return py_trees")).to_be_visible()
@@ -130,7 +130,7 @@ def test_fixes_formatting_definition_and_renaming(studio: Studio) -> None:
     expect(line(studio, "return   py_trees")).to_be_visible()
     studio.replace_code(SOURCE)
 
-    # F12 leads to another file of the project; F2 renames the action there: its file and its blocks, too.
+    # F12 opens another file of the project; F2 renames the action there: its file and its blocks, too.
     page.mouse.click(*spot(studio, "from Turn import Turn", "Turn"))
     page.keyboard.press("F12")
     expect(page.locator('[data-testid="code-editor"][data-path="actions/Turn.py"]')).to_be_visible()
@@ -154,7 +154,7 @@ def test_two_tabs_see_each_others_saves_and_conflicts_are_merged(studio: Studio)
     expect(line(other, "# said in the first tab")).to_be_visible()
     other.picture("code-two-tabs-light")
 
-    # Both write at once: the one that is late is asked, and nothing of either is lost.
+    # Both write at the same time: the later one is asked, and nothing of either is lost.
     cut_off = network_of(other)
     cut_off(True)
     editor(other).click()

@@ -50,14 +50,14 @@ def open_editor(studio: Studio, path: str) -> None:
 
 
 def replace(studio: Studio, path: str, text: str) -> None:
-    """Opens a file and types over it."""
+    """Opens a file and replaces its text by typing."""
     open_editor(studio, path)
     studio.page.keyboard.press("Control+a")
     studio.page.keyboard.insert_text(text)
 
 
 def stored(studio: Studio, path: str) -> str | None:
-    """The text of a file as the server has it; None where it has none."""
+    """Returns the text of a file on the server; None where it has none."""
     project = studio.page.url.rstrip("/").split("/")[-1]
     detail = studio.page.request.get(f"{studio.server.origin}/api/v1/projects/{project}").json()
     return next((str(file["content"]) for file in detail["files"] if file["path"] == path), None)
@@ -68,14 +68,14 @@ def tab(studio: Studio, name: str) -> Locator:
 
 
 def new(studio: Studio, kind: str, name: str) -> None:
-    """Makes a file by the explorer's dialogue."""
+    """Creates a file by the explorer's dialogue."""
     studio.at(f"new-{kind}").first.click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(name)
     studio.at("file-dialog-ok").click()
 
 
 def rename(studio: Studio, shown: str, name: str) -> None:
-    """Gives a file another name by the explorer's menu."""
+    """Renames a file by the explorer's menu."""
     studio.page.get_by_role("button", name=f"More for {shown}", exact=True).click()
     studio.page.get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(name)
@@ -140,7 +140,7 @@ def letters_have_a_size(studio: Studio) -> None:
 
 
 def drafts_survive(studio: Studio) -> None:
-    """What no server has is back after a crash of the page, with a notice, and is saved when it can be."""
+    """Unsaved text survives a crash of the page, with a notice, and is saved when the server is back."""
     context = studio.page.context
     address = studio.page.url
     context.route(CHANGES, lambda route: route.abort("internetdisconnected"))
@@ -183,7 +183,7 @@ def other_kinds_of_text(studio: Studio) -> None:
     replace(studio, "notes.md", "# Why\n\n*because* `it` is\n")
     expect(page.locator('[data-path="notes.md"] .cm-line').first.locator("span[class]").first).to_be_visible()
 
-    # Large, and empty: neither is lost.
+    # A large file and an empty one: neither is lost.
     page.keyboard.press("Control+End")
     editor(studio, "notes.md").evaluate(
         """(element, line) => {
@@ -233,7 +233,7 @@ def names_that_cannot_be(studio: Studio) -> None:
 
 
 def tabs_follow_their_files(studio: Studio) -> None:
-    """The tab of a renamed file goes on with it, with its steps back; canvas undo takes an action's back."""
+    """The tab of a renamed file keeps its undo steps; undo on the canvas reverts an action's name."""
     keys = studio.page.keyboard
     open_editor(studio, "notes.md")
     keys.press("Control+End")
@@ -338,7 +338,7 @@ def all_of_it_in_spanish(studio: Studio) -> None:
 
 
 def test_pieces_travel(shared_studio: Studio) -> None:
-    """Between canvas and text, and as a behaviour from one project to another, which follows its source."""
+    """Blocks between canvas and text, and a behaviour that another project reuses and updates."""
     studio = shared_studio
     studio.new_from("laser_bump_and_go")
     a_piece_is_text(studio)

@@ -1,4 +1,4 @@
-"""The editor without a robot: the inspector, what one sees of a tree, and too much of it all."""
+"""The editor without a robot: the inspector, the view of a tree, and very large trees."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def test_every_field_of_the_inspector(shared_studio: Studio) -> None:
 
 
 def numbers_and_keys(studio: Studio) -> None:
-    """A number steps by arrows and refuses words; a key is completed from those that are known."""
+    """A number steps by arrows and refuses words; a key is completed from the known ones."""
     keys = studio.page.keyboard
     forward, speed = block(studio, "Forward"), studio.at("port-lin_speed")
     block(studio, "ReactiveSequence").click()
@@ -80,7 +80,7 @@ def numbers_and_keys(studio: Studio) -> None:
 
 
 def truth_choices_and_scripts(studio: Studio) -> None:
-    """Truth is a switch, a status a choice; an expression is coloured, completed and checked as one types."""
+    """A truth value is a switch, a status a choice; an expression is coloured, completed and checked."""
     page, keys = studio.page, studio.page.keyboard
     block(studio, "Turn").click()
     wrap(studio, "RunOnce")
@@ -110,7 +110,7 @@ def truth_choices_and_scripts(studio: Studio) -> None:
 
 
 def conditions_are_written(studio: Studio) -> None:
-    """A condition is chosen, told to be wrong, mended, seen on the block, and taken away."""
+    """A condition is chosen, reported as wrong, fixed, seen on the block, and removed."""
     page, keys = studio.page, studio.page.keyboard
     forward = block(studio, "Forward")
     forward.click()
@@ -130,7 +130,7 @@ def conditions_are_written(studio: Studio) -> None:
 
 
 def looks_and_words(studio: Studio) -> None:
-    """Name, comment, colour, and whether a block takes part; what was typed in one go is one step."""
+    """Name, comment, colour, and whether a block takes part; text typed without a pause is one undo step."""
     forward = block(studio, "Forward")
     studio.at("node-name").fill("ahead")
     inspector(studio).get_by_role("textbox", name="Comment").fill("until something is there")
@@ -139,7 +139,7 @@ def looks_and_words(studio: Studio) -> None:
     expect(forward).to_have_attribute("data-disabled", "true")
     expect(forward).to_contain_text("ahead")
     expect(forward.get_by_title("until something is there")).to_be_visible()
-    studio.page.keyboard.press("Control+z")  # the switch has the focus: no text to undo there
+    studio.page.keyboard.press("Control+z")  # the switch has the focus: there is no text to undo
     expect(forward).not_to_have_attribute("data-disabled", "true")
     for _ in range(3):
         studio.at("undo").click()
@@ -147,7 +147,7 @@ def looks_and_words(studio: Studio) -> None:
 
 
 def one_field_takes_a_hundred_kilobytes(studio: Studio) -> None:
-    """It is kept to the letter, and the block stays as small as it was."""
+    """The text is stored unchanged, and the block stays small."""
     studio.at("node-name").fill("long " * 20_000)
     forward = block(studio, "Forward")
     expect(forward).to_contain_text("long")
@@ -167,7 +167,7 @@ def test_a_tree_is_looked_at_from_everywhere(shared_studio: Studio) -> None:
     studio = shared_studio
     studio.new_from("laser_bump_and_go")
     tidy_in_both_directions(studio)
-    a_place_of_ones_own_is_kept(studio)
+    a_moved_block_stays(studio)
     the_view_goes_to_what_is_wanted(studio)
     the_outline_is_the_same_tree(studio)
     two_thousand_blocks_are_pasted(studio)
@@ -175,7 +175,7 @@ def test_a_tree_is_looked_at_from_everywhere(shared_studio: Studio) -> None:
 
 
 def tidy_in_both_directions(studio: Studio) -> None:
-    """From top to bottom, from left to right, and back: no block lies on another."""
+    """From top to bottom, from left to right, and back: no block overlaps another."""
 
     def lies(beyond: int) -> bool:
         start, end = place(block(studio, "ReactiveSequence")), place(block(studio, "Turn"))
@@ -197,13 +197,13 @@ def tidy_in_both_directions(studio: Studio) -> None:
     wait_until(lambda: lies(1), "children are below again")
 
 
-def a_place_of_ones_own_is_kept(studio: Studio) -> None:
-    """A block that was put somewhere stays there over a reload, until the tree is tidied."""
+def a_moved_block_stays(studio: Studio) -> None:
+    """A block that the user moved stays there after a reload, until the tree is tidied."""
     mouse = studio.page.mouse
     check, turn = block(studio, "CheckObstacle"), block(studio, "Turn")
 
     def beside() -> float:
-        """How far one is to the right of the other, in widths of that: the same at any zoom."""
+        """Returns how far one is to the right of the other, in widths of that: the same at any zoom."""
         return (middle(check)[0] - middle(turn)[0]) / place(turn)[2]
 
     rest(check)
@@ -230,7 +230,7 @@ def a_place_of_ones_own_is_kept(studio: Studio) -> None:
 
 
 def the_view_goes_to_what_is_wanted(studio: Studio) -> None:
-    """Minimap, zoom to the selection, find over names, types and ports."""
+    """Minimap, zoom to the selection, search by names, types and ports."""
     page, keys = studio.page, studio.page.keyboard
     view = studio.at("canvas").locator(".react-flow__viewport")
     zoom = studio.at("canvas").get_by_role("button", name="Zoom to 100 %")
@@ -243,7 +243,7 @@ def the_view_goes_to_what_is_wanted(studio: Studio) -> None:
     block(studio, "Turn").click()
     for _ in range(3):
         page.get_by_role("button", name="Zoom out").click()
-    page.wait_for_timeout(400)  # another way to look is not heard while this one comes about
+    page.wait_for_timeout(400)  # the page ignores another change of the view during this one
     keys.press("Shift+Digit2")
     expect(zoom).to_have_text("110%")
     page.get_by_role("button", name="Overview", exact=True).click()
@@ -294,7 +294,7 @@ def the_outline_is_the_same_tree(studio: Studio) -> None:
 
 
 def an_empty_tree_teaches(studio: Studio) -> None:
-    """It says how to begin; a control without children is marked; a deleted tree comes back."""
+    """It says how to begin; a control without children is marked; a deleted tree is restored."""
     page, keys = studio.page, studio.page.keyboard
     studio.command("new tree")
     page.get_by_role("dialog").get_by_role("textbox").fill("Dock")
@@ -318,7 +318,7 @@ def an_empty_tree_teaches(studio: Studio) -> None:
 
 
 def two_thousand_blocks_are_pasted(studio: Studio) -> None:
-    """From another program's text: one step of undo, and one goes to the last of them at once."""
+    """Pasted from another program's text: one undo step, and the search jumps to the last one at once."""
     row = "<Sequence>" + "<AlwaysSuccess/>" * 19 + "</Sequence>"
     paste(studio, f"<Fallback>{row * 100}</Fallback>")
     expect(block(studio, "Fallback")).to_have_count(1)
@@ -338,7 +338,7 @@ def two_thousand_blocks_are_pasted(studio: Studio) -> None:
 
 
 def paste(studio: Studio, text: str) -> None:
-    """Ctrl+V with this text on the clipboard."""
+    """Presses Ctrl+V with this text on the clipboard."""
     studio.at("canvas").evaluate(
         """(canvas, text) => {
             const clipboardData = new DataTransfer();

@@ -1,4 +1,4 @@
-"""The editors of universes and robots by hand: mouse and keyboard, the text in step, and a run."""
+"""The editors of universes and robots: mouse and keyboard, the text in step, and a run."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
-# How far from its middle a handle of the gizmo is, in heights of the view.
+# The distance of a gizmo's handle from its centre, in heights of the view.
 HANDLE = 0.109
-# A pyramid in mm, as drawing programs write it: no text, so that only the server has it.
+# A pyramid in mm, as CAD programs write it: no text, so that only the server has it.
 CORNERS = ((0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60))
 MESH_MM = (
     bytes(80)
@@ -36,12 +36,12 @@ CRATE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4
 
 
 def text_of(studio: Studio, path: str) -> str:
-    """A text of the project as the server has it."""
+    """Returns a text of the project on the server."""
     return file_of(studio, path).decode()
 
 
 def file_of(studio: Studio, path: str) -> bytes:
-    """A file of the project as the server has it."""
+    """Returns a file of the project on the server."""
     studio.saved()
     project = studio.page.url.rstrip("/").split("/")[-1]
     answer = studio.page.request.get(f"{studio.server.origin}/api/v1/projects/{project}/files/{path}")
@@ -56,7 +56,7 @@ def field(panel: Locator, test_id: str, value: str) -> None:
 
 
 def new(studio: Studio, kind: str, base: str, name: str) -> None:
-    """Makes a universe or a robot through its dialogue."""
+    """Creates a universe or a robot through its dialogue."""
     studio.at(f"new-{kind}").click()
     studio.at(f"choice-{base}").click()
     studio.at(f"new-{kind}-name").fill(name)
@@ -90,7 +90,7 @@ def change_a_universe(studio: Studio) -> None:
 
 
 def a_ceiling_is_switched_on_and_off(studio: Studio) -> None:
-    """Of the world itself, which is shown while nothing is selected."""
+    """A property of the world itself, which is shown while nothing is selected."""
     studio.at("universe-view").focus()
     studio.page.keyboard.press("Escape")
     before = text_of(studio, "universes/yard.yaml")
@@ -104,7 +104,7 @@ def a_ceiling_is_switched_on_and_off(studio: Studio) -> None:
 
 
 def is_as_made(text: str) -> bool:
-    """Whether a universe has what the hands made of it."""
+    """Returns whether a universe has all changes of the test."""
     yard = yaml.safe_load(text)
     [box] = [model for model in yard["models"] if model["id"] == "box"]
     return (
@@ -117,7 +117,7 @@ def is_as_made(text: str) -> bool:
 
 
 def things_are_placed_by_mouse(studio: Studio) -> None:
-    """From above: a wall is drawn, a box dropped and carried; all of it falls on the grid."""
+    """From above: a wall is drawn, a box added and dragged; all of it snaps to the grid."""
     view, mouse, keys = studio.at("universe-view"), studio.page.mouse, studio.page.keyboard
     canvas = view.locator("canvas").bounding_box()
     assert canvas
@@ -145,12 +145,12 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
     drag(studio, start, end)
     expect(studio.at("thing-box")).to_have_attribute("aria-selected", "true")
     carried = numbers(studio, "x", "y")
-    # Its top, by which it is carried, is nearer to the eye than the floor.
+    # The top, by which it is dragged, is nearer to the eye than the floor.
     assert (carried[0], -100 * metres < carried[1] - dropped[1] < -50 * metres) == (dropped[0], True)
     assert [round(part * 10, 6) % 1 for part in carried] == [0, 0], "on the grid of 0.1 m"
 
     eye_m = canvas["height"] / 2 * metres / HALF_VIEW
-    nearer = eye_m / (eye_m - 0.3)  # its middle, by which it is held, is as high over the floor
+    nearer = eye_m / (eye_m - 0.3)  # the centre, by which it is held, is at that height above the floor
     right, down = start[0] - x + (dropped[1] - carried[1]) / metres, start[1] - y
     middle = (x + right * nearer, y + down * nearer)
     a_box_is_stretched(studio, middle, HANDLE * canvas["height"])
@@ -168,7 +168,7 @@ def things_are_placed_by_mouse(studio: Studio) -> None:
 
 
 def a_box_is_stretched(studio: Studio, at: tuple[float, float], reach: float) -> None:
-    """By its handle along x, which is up as seen from above, to twice its length; a step back undoes it."""
+    """Drags its handle along x, which is up as seen from above, to twice its length; undo reverts it."""
     keys, handle = studio.page.keyboard, (at[0], at[1] - reach)
     before = numbers(studio, "x", "y", "size-0", "size-1", "size-2")
     studio.at("universe-view").focus()
@@ -184,7 +184,7 @@ def a_box_is_stretched(studio: Studio, at: tuple[float, float], reach: float) ->
 
 
 def looks_from_above(view: Locator) -> None:
-    """Again until nothing changes any more: meshes that arrive later are looked at, too."""
+    """Repeats until nothing changes any more: meshes that arrive later count, too."""
 
     def is_settled() -> bool:
         view.press("t")
@@ -197,14 +197,14 @@ def looks_from_above(view: Locator) -> None:
 
 
 def looks(view: Locator, key: str) -> None:
-    """Looks from elsewhere, and waits until that is drawn."""
+    """Sets another view, and waits until it is drawn."""
     before = view.screenshot()
     view.press(key)
     wait_until(lambda: view.screenshot() != before, "another view")
 
 
 def numbers(studio: Studio, *fields: str) -> tuple[float, ...]:
-    """What fields of the selected thing say."""
+    """Returns the values of the selected object's fields."""
     shown = studio.at("thing-fields")
     return tuple(float(shown.get_by_test_id(f"field-{name}").input_value()) for name in fields)
 
@@ -253,7 +253,7 @@ def change_a_robot(studio: Studio) -> None:
 
 
 def let_a_mesh_turn(studio: Studio) -> None:
-    """A mesh is brought, becomes a piece of body with a name of its own, and gets a motor."""
+    """A mesh is uploaded, becomes a link with a name, and gets a motor."""
     fields = studio.at("part-fields")
     studio.at("part-mesh-file").set_input_files(
         files=[{"name": "cup.stl", "mimeType": "model/stl", "buffer": MESH_MM}]
@@ -278,7 +278,7 @@ def let_a_mesh_turn(studio: Studio) -> None:
 
 
 def delete_and_bring_back(studio: Studio, name: str) -> None:
-    """A robot goes with its URDF and its mesh, and all of it comes back."""
+    """A robot is deleted with its URDF and its mesh, and all of it is restored."""
     studio.page.get_by_role("button", name=f"More for {name}").click()
     studio.page.get_by_role("menuitem", name="Delete").click()
     for file in ("robot.yaml", "robot.urdf", "meshes/cup.stl"):
@@ -291,7 +291,7 @@ def delete_and_bring_back(studio: Studio, name: str) -> None:
 
 
 def rename(studio: Studio, name: str, to: str) -> None:
-    """A robot's folder is called otherwise; the project goes on running with it."""
+    """The robot's folder gets another name; the project still runs with it."""
     studio.page.get_by_role("button", name=f"More for {name}").click()
     studio.page.get_by_role("menuitem", name="Rename").click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(to)

@@ -1,4 +1,4 @@
-"""*Visual follow person*: found by colour, followed at a distance, lost behind a wall and found again."""
+"""*Visual follow person*: detected by colour, followed at a distance, lost behind a wall and found again."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
 
 
 def the_camera_follows_in_a_window_of_its_own(studio: Studio) -> None:
-    """Out by the command, with the page's theme and its keys; back when its window closes."""
+    """Opened by the command, with the page's theme and its keys; it returns when its window closes."""
     page = studio.page
     window = studio.pop_out("camera")
     figures = re.compile(r"640 × 480 · [\d.]+ Hz · \d+ ms late")
@@ -69,15 +69,15 @@ def the_camera_follows_in_a_window_of_its_own(studio: Studio) -> None:
 
 
 def uid_of(observer: Observer, node_type: str) -> int:
-    """The running tree's first node of a type."""
-    wait_until(lambda: observer.of("tree") or observer.of("snapshot"), "the tree is told")
+    """Returns the running tree's first node of a type."""
+    wait_until(lambda: observer.of("tree") or observer.of("snapshot"), "the tree is reported")
     snapshots = [event["data"]["tree"] for event in observer.of("snapshot") if event["data"]["tree"]]
     nodes = (snapshots or [event["data"] for event in observer.of("tree")])[-1]["nodes"]
     return int(next(node["uid"] for node in nodes if node["type"] == node_type))
 
 
 def seen_spans(observer: Observer, detect: int) -> list[tuple[float, float]]:
-    """When the person was in the picture: spans of simulated time in s, from the node's own results."""
+    """Returns when the person was in the picture: spans of simulated time in s, from the node's results."""
     spans: list[tuple[float, float]] = []
     seen_since: float | None = None
     for event in observer.of("tick"):
@@ -93,23 +93,23 @@ def seen_spans(observer: Observer, detect: int) -> list[tuple[float, float]]:
 
 
 def steps(a: float, b: float) -> list[float]:
-    """Times from a to b, each 0.2 s."""
+    """Returns times from a to b, each 0.2 s."""
     return [a + 0.2 * i for i in range(int((b - a) / 0.2))]
 
 
 def position(observer: Observer, body: str, t: float) -> tuple[float, float]:
-    """Where a body was at time `t`: x and y in m."""
+    """Returns the position of a body at time `t`: x and y in m."""
     track = observer.track(body)
     index = min(bisect.bisect_left(track, (t,)), len(track) - 1)
     return track[index][1:]
 
 
 def distance(observer: Observer, t: float) -> float:
-    """Metres between robot and person at time `t`."""
+    """Returns the distance between robot and person at time `t` in m."""
     return math.dist(position(observer, "robot", t), position(observer, "person", t))
 
 
 def walking_speed(observer: Observer) -> float:
-    """The person's mean speed in m/s."""
+    """Returns the person's mean speed in m/s."""
     track = observer.track("person")
     return observer.distance_travelled("person") / (track[-1][0] - track[0][0])

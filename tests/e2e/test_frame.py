@@ -1,4 +1,4 @@
-"""The frame of the editor: its panels, what it keeps over a reload, settings, and the palette of commands."""
+"""The frame of the editor: its panels, its state after a reload, settings, and the command palette."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ pytestmark = [pytest.mark.e2e, pytest.mark.timeout(600)]
 
 
 def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
-    """Panels, theme, language and hints survive a reload; *Put the panels back* brings the first order."""
+    """Panels, theme, language and hints survive a reload; *Put the panels back* resets the layout."""
     studio = shared_studio
     page = studio.page
     expect_focus_to_show(page, "start page", 12)
@@ -42,7 +42,7 @@ def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
     page.get_by_role("menuitem", name="Español").click()
     expect(page.get_by_role("tab", name="Esquema", exact=True)).to_be_visible()
     wide = width_of_files(studio)
-    page.wait_for_timeout(400)  # the arrangement is kept a moment after the last change
+    page.wait_for_timeout(400)  # the layout is stored a moment after the last change
 
     page.reload()
     expect(page.get_by_role("tab", name="Esquema", exact=True)).to_be_visible()
@@ -63,7 +63,7 @@ def test_the_frame_is_as_it_was_left(shared_studio: Studio) -> None:
 
 
 def settings_are_kept(studio: Studio) -> None:
-    """Name and rates by the dialogue; a name that cannot be is refused while one types it."""
+    """Name and rates by the dialogue; an invalid name is refused while it is typed."""
     page = studio.page
     page.keyboard.press("Control+Comma")
     form = studio.at("settings")
@@ -86,7 +86,7 @@ def settings_are_kept(studio: Studio) -> None:
 
 
 def pull(studio: Studio, start: tuple[float, float], end: tuple[float, float]) -> None:
-    """Presses at a point, goes to another in steps, and lets go."""
+    """Presses at a point, moves to another in steps, and releases."""
     mouse = studio.page.mouse
     mouse.move(*start)
     mouse.down()
@@ -97,7 +97,7 @@ def pull(studio: Studio, start: tuple[float, float], end: tuple[float, float]) -
 
 
 def edge_of_files(studio: Studio) -> tuple[float, float]:
-    """The middle of what lies between the panels at the left and the tree."""
+    """Returns the middle of the border between the panels at the left and the tree."""
     boxes = [place(each) for each in studio.page.locator(".flexlayout__splitter").all()]
     x, y, width, height = min(box for box in boxes if box[3] > 300)
     return x + width / 2, y + height / 3
@@ -115,7 +115,7 @@ def width_of_files(studio: Studio) -> float:
 
 
 def test_the_palette_knows_every_button(shared_studio: Studio) -> None:
-    """What a button of the bar, a menu or a tool does is in the palette, under the same words."""
+    """Every command of a button, a menu or a tool is in the palette, with the same words."""
     studio = shared_studio
     page = studio.page
     studio.new_from("laser_bump_and_go")
@@ -139,12 +139,12 @@ def test_the_palette_knows_every_button(shared_studio: Studio) -> None:
     assert "ctrl+c" in shortcuts["copy"]
 
 
-# Buttons that open menus, the palette itself, and the state of saving, which is a button as well.
+# Buttons that open menus, the palette itself, and the save state, which is a button as well.
 NO_COMMANDS = {"More", "More ways to run", "All commands…", "Saved"}
 
 
 def labels_of(buttons: Locator) -> set[str]:
-    """What buttons and menu items are called, without their shortcuts and values."""
+    """Returns the labels of buttons and menu items, without their shortcuts and values."""
     names = buttons.evaluate_all(
         "all => all.map(each => each.getAttribute('aria-label') ||"
         " each.querySelector('.mantine-Menu-itemLabel')?.textContent || each.textContent)"

@@ -1,4 +1,4 @@
-"""*Bump and go* from an empty project: by keyboard alone, and by mouse alone but for names and code."""
+"""*Bump and go* from an empty project: by keyboard alone, and by mouse alone except for names and code."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def source(action: str) -> str:
 
 
 def quick(studio: Studio, key: str, name: str) -> None:
-    """Opens the quick-add box and chooses the first that is found."""
+    """Opens the quick-add box and chooses the first result."""
     studio.page.keyboard.press(key)
     studio.writing()
     studio.page.keyboard.type(name)
@@ -43,7 +43,7 @@ def quick(studio: Studio, key: str, name: str) -> None:
 
 
 def write_code(studio: Studio, action: str) -> None:
-    """From a block to its code and back, by keys."""
+    """Opens a block's code and returns, by keys."""
     studio.page.keyboard.press("Enter")
     editor = studio.page.locator(f'[data-path="actions/{action}.py"] .cm-content')
     expect(editor).to_be_focused()
@@ -95,7 +95,7 @@ def test_by_keyboard_alone(shared_studio: Studio) -> None:
 
 
 def run_is_led_by_keys(studio: Studio, observer: Observer) -> None:
-    """Seen on the blocks, paused, stepped, resumed and stopped."""
+    """The run is seen on the blocks, paused, stepped, resumed and stopped."""
     keys = studio.page.keyboard
     expect(block(studio, "ReactiveSequence")).to_have_attribute("data-status", "RUNNING")
     keys.press("F6")
@@ -108,7 +108,7 @@ def run_is_led_by_keys(studio: Studio, observer: Observer) -> None:
     studio.expect_state("application_running")
     keys.press("Shift+F5")
     studio.expect_state("visualization_ready")
-    # What the run showed on the blocks is no step of undo.
+    # Statuses on the blocks are not undo steps.
     keys.press("Control+z")
     expect(block(studio, "Forward")).not_to_contain_text("go on")
     keys.press("Control+y")
@@ -128,7 +128,7 @@ def package_is_taken_by_keys(studio: Studio) -> None:
 
 
 def walk_to(studio: Studio, target: Locator) -> None:
-    """Presses Tab until the keyboard is there."""
+    """Presses Tab until the element has the focus."""
     for _ in range(40):
         if target.evaluate("element => element === document.activeElement"):
             return
@@ -137,7 +137,7 @@ def walk_to(studio: Studio, target: Locator) -> None:
 
 
 def ports_names_and_order_by_keys(studio: Studio) -> None:
-    """A port, a name, another place and back, without leaving the keyboard."""
+    """Changes a port, a name and a position, and reverts them, without leaving the keyboard."""
     keys = studio.page.keyboard
     keys.press("F4")
     focused(studio, "port-lin_speed")
@@ -158,7 +158,7 @@ def ports_names_and_order_by_keys(studio: Studio) -> None:
 
 
 def dialogues_by_keys(studio: Studio) -> None:
-    """Each opens with the focus in it, at what is wanted first; Escape gives it back to the tree."""
+    """Each dialogue opens with the focus on its main field; Escape returns the focus to the tree."""
     page, keys = studio.page, studio.page.keyboard
     dialogue = page.get_by_role("dialog")
     wanted = {
@@ -207,14 +207,14 @@ def test_by_mouse(shared_studio: Studio) -> None:
         studio.picture(f"built-{scheme}")
 
     the_tree_is_changed_by_hand(studio)
-    fault_is_found_and_mended(studio)
-    package_is_taken_away(studio)
+    fault_is_found_and_fixed(studio)
+    package_is_exported(studio)
     behaviour_is_reused(studio)
     world_is_chosen(studio)
 
 
 def new_action(studio: Studio, action: str) -> None:
-    """Makes an action from the explorer, and types its code."""
+    """Creates an action from the explorer, and types its code."""
     studio.at("new-action").first.click()
     studio.page.get_by_role("dialog").get_by_role("textbox").fill(action)
     if action == "CheckObstacle":
@@ -227,8 +227,8 @@ def new_action(studio: Studio, action: str) -> None:
     studio.saved()
 
 
-def fault_is_found_and_mended(studio: Studio) -> None:
-    """A mistake in Python is named with its line, and gone after the mending."""
+def fault_is_found_and_fixed(studio: Studio) -> None:
+    """An error in Python is reported with its line, and disappears after the fix."""
     path = "actions/Turn.py"
     bad = source("Turn").replace("twist.angular.z", "twist.angular.zz")
     line = bad.splitlines().index('        twist.angular.zz = get_input(self, "ang_speed")') + 1
@@ -253,8 +253,8 @@ def edit(studio: Studio, path: str, text: str) -> None:
     studio.saved()
 
 
-def package_is_taken_away(studio: Studio) -> None:
-    """The dialogue tells what will be in the package; the downloads hold it."""
+def package_is_exported(studio: Studio) -> None:
+    """The dialogue lists the content of the package; the downloads have it."""
     studio.at("open-take-away").click()
     expect(studio.at("package-files")).to_contain_text("package.xml")
     expect(studio.at("package-dependencies")).to_contain_text("geometry_msgs")
@@ -283,7 +283,7 @@ def package_is_taken_away(studio: Studio) -> None:
 
 
 def is_whole(button: str, data: bytes) -> bool:
-    """Whether a download can be read, and holds what it is about."""
+    """Returns whether a download is readable, and has the expected content."""
     if button == "download-project":
         archive = zipfile.ZipFile(io.BytesIO(data))
         return archive.testzip() is None and {"project.json", "actions/Turn.py"} <= set(archive.namelist())
@@ -298,7 +298,7 @@ def is_whole(button: str, data: bytes) -> bool:
 
 
 def behaviour_is_reused(studio: Studio) -> None:
-    """A behaviour of the library comes with what it needs, and a second time under its own name."""
+    """A behaviour of the library is added with its files, and a second time under another name."""
     studio.at("file-trees/MainTree.json").click()
     block(studio, "ReactiveSequence").click()
     studio.page.locator(".flexlayout__tab_button", has_text="Library").click()
@@ -326,7 +326,7 @@ def library_source(action: str) -> str:
 
 
 def world_is_chosen(studio: Studio) -> None:
-    """Another universe, by its picture; the project keeps it."""
+    """Another universe is chosen by its picture; the project stores it."""
     studio.at("open-worlds").click()
     expect(studio.at("choice-maze").locator("img")).to_be_visible()
     studio.at("choice-maze").click()

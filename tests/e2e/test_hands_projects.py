@@ -1,4 +1,4 @@
-"""The start page by hand: every way in, every way to put projects in order, and no way to lose one."""
+"""The start page by hand: every way to add projects and to organize them, and no way to lose one."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def choose(studio: Studio, name: str, item: str) -> None:
 
 
 def drop(studio: Studio, filename: str, data: bytes) -> None:
-    """Lets a file fall onto the page, as from the desktop."""
+    """Drops a file onto the page, as from the desktop."""
     transfer = studio.page.evaluate_handle(
         "([name, data]) => { const transfer = new DataTransfer();"
         " const bytes = Uint8Array.from(atob(data), c => c.charCodeAt(0));"
@@ -76,7 +76,7 @@ def home(studio: Studio) -> None:
 
 
 def make(studio: Studio, names: list[str]) -> None:
-    """Makes empty projects as fast as the server does."""
+    """Creates empty projects as fast as the server does."""
     studio.page.evaluate(
         "async names => { for (const name of names) await fetch('/api/v1/projects', {method: 'POST',"
         " headers: {'Content-Type': 'application/json'}, body: JSON.stringify({name, template: 'empty'})}) }",
@@ -126,7 +126,7 @@ def test_projects_are_made_ordered_and_never_lost(shared_studio: Studio) -> None
 
 
 def a_name_is_refused_or_kept_to_the_letter(studio: Studio) -> None:
-    """Blank or too long: the old one stays, and what is wrong is said; any sign may be in it."""
+    """A blank or too long name is refused with a reason; any character is allowed."""
     odd = "🤖👩‍🔬 <b>“x” & ñ"
     field = studio.page.get_by_role("textbox", name="Rename")
     choose(studio, "Zig zag", "Rename")

@@ -1,4 +1,4 @@
-"""The tree as text beside its canvas, and the way back to what was saved before."""
+"""The tree as text beside its canvas, and older revisions."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def expect_xml(studio: Studio, state: str) -> None:
 def test_what_was_comes_back(shared_studio: Studio) -> None:
     text_and_canvas_stay_in_step_and_every_state_comes_back(shared_studio)
     a_file_goes_back_by_the_explorers_menu(shared_studio)
-    a_problem_is_mended_by_keys(shared_studio)
+    a_problem_is_fixed_by_keys(shared_studio)
     a_page_waits_for_its_style(shared_studio)
 
 
@@ -38,13 +38,13 @@ def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> N
     page.keyboard.press("Control+Shift+X")
     expect_xml(studio, "inStep")
 
-    # What is selected on one side is marked on the other.
+    # The selection of one side is marked on the other.
     studio.at("node-n4").click()
     expect(line(studio, "<CheckObstacle")).to_contain_class("cm-chosenNode")
     line(studio, "<Forward").click()
     expect(studio.at("port-lin_speed")).to_be_visible()
 
-    # A text that is typed becomes the tree in one step; one that cannot be read waits, and survives a reload.
+    # Typed text becomes the tree in one step; invalid text waits, and survives a reload.
     page.keyboard.press("End")
     page.keyboard.insert_text("\n<!-- rest --><Sleep msec='200'/>")
     expect_xml(studio, "inStep")
@@ -58,7 +58,7 @@ def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> N
     expect(studio.at("xml-state")).to_contain_text("Your text was restored.")
     studio.picture("xml-broken-light")
 
-    # The canvas goes on meanwhile: the user is asked, and takes the tree; the comment is still in the text.
+    # The canvas changes meanwhile: the user is asked, and takes the tree; the comment is still in the text.
     studio.at("orientation").click()
     expect_xml(studio, "parted")
     expect_accessible(studio, "dark")
@@ -71,7 +71,7 @@ def text_and_canvas_stay_in_step_and_every_state_comes_back(studio: Studio) -> N
     expect(studio.at("xml-editor")).to_have_count(0)
     studio.saved()
 
-    # The history: what differs, in a picture and in words; a name; and back, which Undo takes back.
+    # The history: differences as a picture and in words, a name, and a restored revision, which Undo reverts.
     page.keyboard.press("Control+Shift+H")
     page.locator("[data-testid^=revision-]").first.click()
     expect(page.locator("[data-change=added]")).to_have_count(1)
@@ -106,8 +106,8 @@ def a_file_goes_back_by_the_explorers_menu(studio: Studio) -> None:
     studio.saved()
 
 
-def a_problem_is_mended_by_keys(studio: Studio) -> None:
-    """A key without its brace: `Ctrl+.` offers what mends it, Enter does it, and the canvas has the keys."""
+def a_problem_is_fixed_by_keys(studio: Studio) -> None:
+    """A key without its brace: `Ctrl+.` offers the fix, Enter applies it, and the canvas has the focus."""
     forward = studio.page.locator("[data-testid=canvas] [data-type=Forward]")
     forward.click()
     field = studio.at("port-lin_speed")

@@ -1,4 +1,4 @@
-"""Projects of JdeRobot's kind: dropped onto the start page as zips, they drive."""
+"""Projects in JdeRobot's style, dropped onto the start page as zips, drive."""
 
 from __future__ import annotations
 

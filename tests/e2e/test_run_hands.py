@@ -1,4 +1,4 @@
-"""A run in the hands of its user, in a browser without WebGL.
+"""A run and its controls, in a browser without WebGL.
 
 Start and cancel, rates, values, output, nodes, messages, lost connections, a second tab that takes over.
 """
@@ -107,19 +107,19 @@ def test_a_run_is_handled(open_studio: Callable[[Browser], Studio], browser_with
     project_of_files(studio)
     a_universe_is_made_without_a_view(studio)
     choose(studio, "sim-speed", "×2")
-    a_start_is_told_and_cancelled(studio)
+    a_start_is_reported_and_cancelled(studio)
     rates_are_changed_while_it_runs(studio)
     the_blackboard_is_written(studio)
     the_console_leads_to_block_and_line(studio)
-    extra_nodes_are_told_apart(studio)
+    launch_nodes_are_distinguished(studio)
     a_message_is_published(studio)
     the_world_is_reset_and_the_program_restarted(studio)
     a_lost_connection_comes_back(studio)
-    a_second_tab_looks_on_and_takes_over(studio)
+    a_second_tab_views_and_takes_over(studio)
 
 
 def project_of_files(studio: Studio) -> None:
-    """A project with these files, written past the page."""
+    """Creates a project with these files, not through the page."""
     studio.new_from("laser_bump_and_go")
     address = f"{studio.server.origin}/api/v1/projects/{studio.page.url.rstrip('/').split('/')[-1]}"
     request = studio.page.request
@@ -140,7 +140,7 @@ def project_of_files(studio: Studio) -> None:
 
 
 def choose(studio: Studio, menu: str, name: str) -> None:
-    """Chooses one of several in a menu that is marked for it."""
+    """Chooses an item in a menu that is marked for it."""
     studio.at(menu).click()
     studio.page.get_by_role("menuitemradio", name=name, exact=True).click()
 
@@ -150,7 +150,7 @@ def panel(studio: Studio, name: str) -> None:
 
 
 def a_universe_is_made_without_a_view(studio: Studio) -> None:
-    """What 3D would show is said in a sentence; palette, list, fields and text work all the same."""
+    """A sentence replaces the 3D view; palette, list, fields and text work all the same."""
     panel(studio, "3D")
     expect(studio.at("viewer-3d")).to_contain_text("has no WebGL: the Video view shows the same world")
     panel(studio, "Video")
@@ -174,8 +174,8 @@ def a_universe_is_made_without_a_view(studio: Studio) -> None:
     panel(studio, "MainTree")
 
 
-def a_start_is_told_and_cancelled(studio: Studio) -> None:
-    """The bar names each rung; *Cancel* ends what was begun, without a word of failure."""
+def a_start_is_reported_and_cancelled(studio: Studio) -> None:
+    """The bar names each rung; *Cancel* ends the start, without an error."""
     bar, cancel = studio.at("run-progress"), studio.at("run-progress").get_by_role("button", name="Cancel")
     studio.page.evaluate(
         """() => {
@@ -189,7 +189,7 @@ def a_start_is_told_and_cancelled(studio: Studio) -> None:
     studio.at("run").click()
     cancel.click()
     expect(bar).to_have_count(0)
-    # How far it came by then is the machine's affair.
+    # The distance by then depends on the machine.
     expect(studio.at("executor-state")).not_to_have_attribute("data-state", "application_running")
     expect(studio.at("banner").filter(has_text="cancelled")).to_have_count(0)
     studio.run()
@@ -214,7 +214,7 @@ def rates_are_changed_while_it_runs(studio: Studio) -> None:
 
 
 def the_view_follows_the_running_block(studio: Studio) -> None:
-    """Also when it had been moved elsewhere."""
+    """Also after the user had moved the view."""
     block = studio.at("node-n3")
     studio.at("canvas").hover()
     wait_until(lambda: scrolled_away(studio, block), "the block is out of sight")
@@ -228,7 +228,7 @@ def the_view_follows_the_running_block(studio: Studio) -> None:
 
 
 def scrolled_away(studio: Studio, block: Locator) -> bool:
-    """Turns the wheel over the canvas once; tells whether a block can be seen no more."""
+    """Scrolls the canvas once; returns whether no block is visible any more."""
     studio.page.mouse.wheel(0, 600)
     view, box = studio.at("canvas").bounding_box(), block.bounding_box()
     return box is None or view is None or box["y"] + box["height"] < view["y"]
@@ -270,13 +270,13 @@ def the_blackboard_is_written(studio: Studio) -> None:
 
 
 def flashes(studio: Studio, key: str) -> bool:
-    """Whether a value of the blackboard is being lit up."""
+    """Returns whether a value of the blackboard is highlighted."""
     lights = "row => row.querySelector('span').getAnimations().length > 0"
     return bool(studio.at(f"blackboard-{key}").evaluate(lights))
 
 
 def the_servers_view_is_turned(studio: Studio) -> None:
-    """By dragging, scrolling and keys: the picture of a world that stands still is another one."""
+    """By dragging, scrolling and keys: the picture of a paused world changes."""
     panel(studio, "Video")
     view, mouse = studio.at("viewer-video"), studio.page.mouse
     box = view.bounding_box()
@@ -314,7 +314,7 @@ def the_console_leads_to_block_and_line(studio: Studio) -> None:
     expect(code).to_have_attribute("data-path", "actions/Work.py")
     console.get_by_role("button", name="worker").first.click()
     expect(studio.at("inspector")).to_have_attribute("aria-label", "worker")
-    console.get_by_role("searchbox").click()  # as a hand goes there: the canvas, which was shown, lets go
+    console.get_by_role("searchbox").click()  # as a user's pointer would: the hovered canvas loses it
     console.get_by_role("searchbox").fill("")
     console.get_by_role("combobox", name="Level").select_option("error")
     expect(lines).to_contain_text("take care")
@@ -323,7 +323,7 @@ def the_console_leads_to_block_and_line(studio: Studio) -> None:
     console.get_by_role("combobox", name="Level").select_option("info")
 
 
-def extra_nodes_are_told_apart(studio: Studio) -> None:
+def launch_nodes_are_distinguished(studio: Studio) -> None:
     panel(studio, "Topics")
     studio.at("topics").get_by_text("Extra nodes").click()
     brief, talker = studio.at("launch-brief"), studio.at("launch-talker")
@@ -402,7 +402,7 @@ def the_world_is_reset_and_the_program_restarted(studio: Studio) -> None:
     panel(studio, "Console")
     expect(studio.at("console").get_by_role("log")).to_contain_text("the pace is 7.0")
     studio.expect_state("application_running")
-    assert studio.stat("t") > before, "the world went on"
+    assert studio.stat("t") > before, "the world continued"
 
 
 def a_lost_connection_comes_back(studio: Studio) -> None:
@@ -411,22 +411,22 @@ def a_lost_connection_comes_back(studio: Studio) -> None:
     expect(studio.at("banner")).to_contain_text("The server cannot be reached.")
     expect(studio.at("executor-state")).to_have_attribute("data-shown", "lost")
     studio.at("pause").click()
-    # It says who it was: the manager may not have heard of the loss yet.
+    # It sent its id: the manager may not have noticed the loss yet.
     with studio.page.expect_websocket(lambda socket: "/control?client=" in socket.url):
         context.set_offline(False)
-    # What the program's new start had to say, and neither the connection nor the key that came to nothing.
+    # The output of the program's new start, and neither the connection nor the key without effect.
     expect(studio.at("banner")).to_contain_text("The node brief ended")
     studio.expect_state("application_running")
     studio.page.reload()
     studio.expect_state("application_running")
     expect(studio.at("console")).to_contain_text("the pace is 7.0")
     before = studio.stat("t")
-    wait_until(lambda: studio.stat("t") > before, "time goes on for this page")
-    # On a busy machine the end of the old page is heard of after the beginning of the new one.
+    wait_until(lambda: studio.stat("t") > before, "time continues for this page")
+    # On a busy machine the end of the old page is noticed after the start of the new one.
     expect(studio.at("run")).to_have_attribute("aria-disabled", "false")
 
 
-def a_second_tab_looks_on_and_takes_over(studio: Studio) -> None:
+def a_second_tab_views_and_takes_over(studio: Studio) -> None:
     second = Studio(studio.page.context.new_page(), studio.server)
     second.page.goto(studio.page.url)
     second.expect_state("application_running")
@@ -449,7 +449,7 @@ def a_second_tab_looks_on_and_takes_over(studio: Studio) -> None:
     studio.at("resume").click()
     second.expect_state("application_running")
 
-    studio.page.close()  # who drove comes back no more
+    studio.page.close()  # the former driver does not return
     expect(second.at("looking-on")).to_have_count(0)
     expect(second.at("run")).to_have_attribute("aria-disabled", "false")
     second.end_session()

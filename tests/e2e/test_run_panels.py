@@ -1,4 +1,4 @@
-"""What one sees and does beside the tree while the robot runs: timeline, topics, ROS tools."""
+"""The panels beside the tree during a run: timeline, topics, ROS tools."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_a_run_is_followed_beside_the_tree(
     studio.run()
     timeline_tells_what_nodes_did(studio)
     topics_are_heard_and_plotted(studio)
-    ros_tools_are_told_the_environment(studio)
+    ros_tools_get_the_environment(studio)
     a_window_outlives_a_reload_and_goes_with_the_page(studio)
 
 
@@ -58,7 +58,7 @@ def topics_are_heard_and_plotted(studio: Studio) -> None:
     pictures(studio, "topics")
 
 
-def ros_tools_are_told_the_environment(studio: Studio) -> None:
+def ros_tools_get_the_environment(studio: Studio) -> None:
     studio.page.get_by_role("button", name="Connect ROS tools…").click()
     environment = studio.at("ros-environment")
     expect(environment).to_contain_text("export ROS_DOMAIN_ID=")
@@ -88,7 +88,7 @@ def a_window_outlives_a_reload_and_goes_with_the_page(studio: Studio) -> None:
 
 
 def row(studio: Studio, name: str) -> Locator:
-    """A node's row of the timeline."""
+    """Returns a node's row of the timeline."""
     return studio.at("timeline").get_by_role("button", name=re.compile(f"^{name},"))
 
 
@@ -98,7 +98,7 @@ def panel(studio: Studio, name: str) -> None:
 
 
 def pictures(studio: Studio, name: str) -> None:
-    """Keeps a picture in each theme."""
+    """Stores a picture in each theme."""
     studio.picture(f"run-{name}-light")
     studio.at("theme-toggle").click()
     studio.page.wait_for_timeout(400)

@@ -1,4 +1,4 @@
-"""Every screen of the IDE in both themes: nothing that keeps somebody from using it; a picture to look at."""
+"""Every screen of the IDE in both themes: accessible, with a picture for inspection."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ PANELS = ("Timeline", "Topics", "Problems", "Blackboard", "Library", "Outline", 
 
 
 def screens(studio: Studio) -> Iterator[str]:
-    """Opens one after the other."""
+    """Opens one after another."""
     page = studio.page
     yield "running"
-    studio.at("pause").click()  # what stands still is drawn sooner
+    studio.at("pause").click()  # a paused world is drawn sooner
     studio.expect_state("paused")
     for name in PANELS:
         page.get_by_role("tab", name=name, exact=True).click()

@@ -1,4 +1,4 @@
-"""An executor that is alive and does not answer: what one sees of it, and that the next Run works."""
+"""An executor that is alive and does not answer: the page reports it, and the next Run works."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def manager_of(server: Server) -> psutil.Process:
-    """The manager of the one session that runs."""
+    """Returns the manager of the only running session."""
     (manager,) = [child for child in server.process.children() if "manager" in child.cmdline()]
     return manager
 
@@ -32,7 +32,7 @@ def manager_of(server: Server) -> psutil.Process:
 def test_a_frozen_executor_is_shown_then_ended_and_run_starts_another(
     tmp_path: Path, browser_without_webgl: Browser
 ) -> None:
-    # On a busy machine a page takes its time to notice, and without a GPU 3D keeps it from all else.
+    # A busy machine delays the page, and without a GPU the 3D view blocks it.
     with serving(tmp_path, BT_STUDIO_SESSION_SILENCE_S="15") as server:
         page = browser_without_webgl.new_context(viewport={"width": 1440, "height": 900}).new_page()
         studio = Studio(page, server)
@@ -43,7 +43,7 @@ def test_a_frozen_executor_is_shown_then_ended_and_run_starts_another(
 
 
 def freeze(studio: Studio) -> None:
-    """Freezes the executor of a run for a while, then for good, and runs again."""
+    """Freezes the executor of a run for a while, then permanently, and runs again."""
     studio.new_from("laser_bump_and_go")
     studio.run()
     first = manager_of(studio.server)
@@ -60,7 +60,7 @@ def freeze(studio: Studio) -> None:
     expect(studio.at("console")).to_contain_text("The executor answers again")
 
     first.suspend()
-    studio.at("pause").click()  # what is asked meanwhile gets an answer, too
+    studio.at("pause").click()  # a request during the freeze is answered, too
     expect(banner).to_have_attribute("data-kind", "silence")
     studio.picture("silent")
     expect(banner).to_contain_text("The session has ended.")

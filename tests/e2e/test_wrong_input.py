@@ -1,4 +1,4 @@
-"""What goes wrong is said where it is wrong, and a second Run works."""
+"""Errors are shown at their place, and a second Run works."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FORWARD = "actions/Forward.py"
 
 
 def source_of(studio: Studio, path: str) -> str:
-    """The stored text of a file of the open project."""
+    """Returns the stored text of a file of the open project."""
     project = studio.page.url.rstrip("/").split("/")[-1]
     return str(
         studio.page.evaluate(
@@ -115,7 +115,7 @@ def test_an_unclosed_brace_in_a_port_is_marked_and_stops_the_run(studio: Studio)
     studio.run()
 
 
-def test_a_world_that_dies_is_told_and_the_next_run_works(studio: Studio) -> None:
+def test_a_world_that_dies_is_reported_and_the_next_run_works(studio: Studio) -> None:
     studio.new_from("laser_bump_and_go")
     studio.run()
     world = next(p for p in studio.server.children() if "executor.world" in " ".join(p.cmdline()))

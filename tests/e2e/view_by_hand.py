@@ -1,4 +1,4 @@
-"""What a hand does in the 3D view: in a world that stands still, and driving in one that waits."""
+"""Mouse and keyboard in the 3D view: in a paused world, and while driving in a waiting one."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from tests.e2e.studio import Studio
 
 LAYERS = ("LIDAR rays", "Trail", "Grid", "Coordinate frames", "Camera's field of view")
-# How `look` of viewer/Surroundings.tsx and the view's angle place the camera over the walled room, in m.
+# The camera over the walled room by `look` of viewer/Surroundings.tsx and the view's angle, in m.
 ROOM_DIAGONAL_M = math.hypot(10.4, 10.4, 1.4)
 HEIGHT_M = 0.2 + 1.05 * ROOM_DIAGONAL_M
 HALF_VIEW = math.tan(math.radians(45 / 2))
 
 
 def the_view_is_used_by_hand(studio: Studio, observer: Observer) -> None:
-    """Turned, filled with layers, measured in, and bodies carried about in it."""
+    """The view is turned, filled with layers, measured in, and bodies are dragged in it."""
     tab = studio.page.get_by_role("tab", name="3D", exact=True)
     bar = studio.page.locator(".flexlayout__tabset_tabbar_outer").filter(has=tab)
     bar.get_by_role("button", name="Maximize").click()
@@ -41,34 +41,34 @@ def the_view_is_used_by_hand(studio: Studio, observer: Observer) -> None:
 
 
 def tool(studio: Studio, name: str) -> Locator:
-    """A button of the 3D view."""
+    """Returns a button of the 3D view."""
     return studio.at("viewer-3d").get_by_role("button", name=name, exact=True)
 
 
 def area(studio: Studio) -> FloatRect:
-    """Where the drawing is on the page."""
+    """Returns the rectangle of the drawing on the page."""
     box = studio.at("viewer-3d").locator("canvas").first.bounding_box()
     assert box
     return box
 
 
 def drawn(studio: Studio) -> bytes:
-    """The drawing, without its right part, where the tools and their menus are."""
+    """Returns the drawing, without its right part, where the tools and their menus are."""
     box = area(studio)
     return studio.page.screenshot(clip={**box, "width": box["width"] * 0.7})
 
 
 def changes(studio: Studio, gesture: Callable[[], None], what: str) -> None:
-    """Makes a gesture and waits until the drawing is another one."""
+    """Makes a gesture and waits until the drawing changes."""
     before = drawn(studio)
     gesture()
     wait_until(lambda: drawn(studio) != before, what)
 
 
 def the_view_is_turned(studio: Studio) -> None:
-    """By the three gestures; *Default view* takes each back, to the pixel."""
+    """By the three gestures; *Default view* reverts each, to the pixel."""
     mouse, box = studio.page.mouse, area(studio)
-    x, y = box["x"] + 60, box["y"] + box["height"] - 60  # where nothing stands that could be carried
+    x, y = box["x"] + 60, box["y"] + box["height"] - 60  # where nothing stands that could be dragged
 
     def drag(button: str) -> None:
         mouse.move(x, y)
@@ -97,11 +97,11 @@ def the_view_is_turned(studio: Studio) -> None:
 
 
 def layers_come_and_go(studio: Studio) -> None:
-    """Each layer is seen, and leaves what it covered as it was."""
+    """Each layer is visible, and leaves no trace when it is switched off."""
     tool(studio, "Show in the view").click()
     rays = studio.page.get_by_role("menuitemcheckbox", name=LAYERS[0], exact=True)
-    for _ in range(2):  # asked for anew, the scan is that of now
-        changes(studio, rays.click, "the scan is asked for anew")
+    for _ in range(2):  # requested again, the scan is the current one
+        changes(studio, rays.click, "the scan is requested again")
     for layer in LAYERS:
         item = studio.page.get_by_role("menuitemcheckbox", name=layer, exact=True)
         was, before = item.get_attribute("aria-checked") or "", drawn(studio)
@@ -119,7 +119,7 @@ def layers_come_and_go(studio: Studio) -> None:
 
 
 def a_distance_is_measured(studio: Studio) -> None:
-    """Between two clicks on the floor, which is as far below as the room is wide."""
+    """Between two clicks on the floor, whose distance below is the width of the room."""
     mouse, box = studio.page.mouse, area(studio)
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2 + 100
     measured = studio.at("measured")
@@ -162,12 +162,12 @@ def bodies_are_carried_and_put_back(studio: Studio, observer: Observer) -> None:
 
 
 def at(observer: Observer, body: str) -> tuple[float, float]:
-    """Where a body is, in m."""
+    """Returns the position of a body in m."""
     return observer.track(body)[-1][1:]
 
 
 def the_robot_is_driven_by_hand(studio: Studio) -> None:
-    """With keys and with the buttons; the view stays where it is, or follows."""
+    """With keys and with the buttons; the view stays, or follows."""
     page, pad = studio.page, studio.at("teleop")
     box = area(studio)
     corner: FloatRect = {"x": box["x"], "y": box["y"] + box["height"] - 60, "width": 60, "height": 60}
@@ -175,7 +175,7 @@ def the_robot_is_driven_by_hand(studio: Studio) -> None:
     tool(studio, "Drive by hand").click()
     before = page.screenshot(clip=corner)
     drive(studio)
-    assert page.screenshot(clip=corner) == before, "the view stands still"
+    assert page.screenshot(clip=corner) == before, "the view stays"
     follow.click()
     expect(follow).to_have_attribute("aria-pressed", "true")
     drive(studio)
@@ -192,7 +192,7 @@ def the_robot_is_driven_by_hand(studio: Studio) -> None:
 
 
 def drive(studio: Studio) -> None:
-    """Backwards for a moment: ahead there may be a wall."""
+    """Drives backwards for a moment: a wall may be ahead."""
     before = studio.stat("distance")
     studio.page.keyboard.down("s")
     expect(studio.at("teleop").get_by_role("button", name="Back")).to_have_attribute("data-held", "true")

@@ -1,4 +1,4 @@
-"""Nav2's `navigate_to_pose` as far as a goal goes: accepts it, works for a moment, and says how it ended."""
+"""A part of Nav2's `navigate_to_pose`: accepts a goal, works for a moment, and reports the result."""
 
 import json
 import sys

@@ -1,4 +1,4 @@
-"""A real session whose processes are stopped (SIGSTOP): what is reported, and where the ladder ends."""
+"""A real session whose processes are stopped (SIGSTOP): it records the reports and the final state."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _LEFT = {"world": State.CONNECTED, "application": State.VISUALIZATION_READY}
 
 @dataclass
 class Outcome:
-    """What came of one stopped process; times since it was stopped."""
+    """The reports after one process was stopped; times count from then."""
 
     victim: str
     state: State
@@ -36,7 +36,7 @@ class Outcome:
 
 
 class HangingSession:
-    """One manager with one client; `stop_child` may be called again and again."""
+    """One manager with one client; `stop_child` may be called repeatedly."""
 
     def __init__(self, manager, client):
         self.manager = manager
@@ -44,7 +44,7 @@ class HangingSession:
         self.run = run_data()
 
     def child(self, kind):
-        """The living process of a kind, or None."""
+        """Returns the living process of a kind, or None."""
         for process in psutil.Process(self.manager.pid).children():
             with contextlib.suppress(psutil.Error):
                 if f"executor.{kind}.process" in process.cmdline():
@@ -61,7 +61,7 @@ class HangingSession:
                 await asyncio.sleep(0.02)
 
     async def climb(self, state):
-        """Goes to a state from wherever the ladder is."""
+        """Climbs or descends to a state."""
         await self.ask("disconnect")
         universe, application = self.run["universe"], self.run["application"]
         for command, data, rung in [
@@ -74,16 +74,16 @@ class HangingSession:
             if list(State).index(rung) <= list(State).index(state):
                 await self.ask(command, data)
         if state is State.IDLE:
-            await self.ask("connect")  # it starts the spares again; they stay
+            await self.ask("connect")  # it starts the spares again, which remain
         assert self.client.state == (State.CONNECTED if state is State.IDLE else state)
 
     async def ask(self, command, data=None):
-        """Sends a command that has to be done."""
+        """Sends a command that must succeed."""
         reply = await self.client.ask(command, data, timeout_s=120)
         assert reply == "ack", (command, reply)
 
     async def stop_child(self, kind, state):
-        """Climbs, stops a process, and waits until that is reported and all is right again."""
+        """Climbs, stops a process, and waits until the session has reported and replaced it."""
         await self.climb(state)
         is_used = state in _IN_USE[kind]
         victim = await self.spare(kind)
@@ -105,7 +105,7 @@ class HangingSession:
         return outcome
 
     async def runs(self):
-        """Tells whether a run ticks now."""
+        """Runs the application, and waits until it ticks."""
         at = len(self.client.events)
         await self.ask("run", self.run)
         await self.client.event("tick", lambda d: d["n"] > 3, after=at)
@@ -113,7 +113,7 @@ class HangingSession:
 
 @contextlib.asynccontextmanager
 async def hanging_session():
-    """A session of its own."""
+    """Opens a session of its own."""
     async with manager_process() as manager:
         client = await SessionClient(manager.ready["port"]).open(stream=False)
         yield HangingSession(manager, client)

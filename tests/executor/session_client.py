@@ -26,7 +26,7 @@ decode_frame = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View).dec
 
 
 def app_zip(example="laser_bump_and_go", **overlay):
-    """The app of an example as base64; `overlay` replaces actions by name."""
+    """Returns the app of an example as base64; `overlay` replaces actions by name."""
     folder = ROOT / "examples" / example
     files = {
         str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*.*") if "__pycache__" not in str(p)
@@ -98,7 +98,7 @@ class SessionClient:
             return condition()
 
     async def event(self, name, where=lambda data: True, *, after=0, timeout_s=60):
-        """The first event of a name after the given place in `events`."""
+        """Returns the first event of a name after the given place in `events`."""
 
         def find():
             return next((e for e in self.events[after:] if e["command"] == name and where(e["data"])), None)
@@ -130,7 +130,7 @@ class SessionClient:
         return states[-1]
 
     def robot_position(self):
-        """Where the first robot is now, from scene and poses."""
+        """Returns the position of the first robot, from scene and poses."""
         scene = next((f for _, f in reversed(self.frames) if isinstance(f, Scene)), None)
         if scene is None:
             return None
@@ -147,7 +147,7 @@ class SessionClient:
 
 
 async def _until_closed(socket):
-    """The messages of a socket until it is closed, in whatever way."""
+    """Yields the messages of a socket until it is closed, in any way."""
     with contextlib.suppress(ConnectionClosed):
         async for message in socket:
             yield message
@@ -155,7 +155,7 @@ async def _until_closed(socket):
 
 @contextlib.asynccontextmanager
 async def manager_process(*arguments, env=None):
-    """A manager in a process of its own; afterwards nothing of it may be left."""
+    """Runs a manager in a process of its own; afterwards nothing of it may be left."""
     reader, writer = os.pipe()
     process = await asyncio.create_subprocess_exec(
         sys.executable,

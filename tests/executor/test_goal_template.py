@@ -1,4 +1,4 @@
-"""The template of an action that sends a goal, as the editor offers it, against real action servers."""
+"""The editor's template of an action that sends a goal, with real action servers."""
 
 import asyncio
 import json
@@ -75,7 +75,7 @@ async def _send(manager, server, x, status):
 
 @pytest.mark.parametrize(("x", "status"), [("1.5", "SUCCESS"), ("-1.0", "FAILURE")])
 def test_in_lockstep_a_goal_is_sent_to_a_server_of_the_project(x, status):
-    """Nobody outside is heard in lock-step: an action of the project is the server. It comes out the same."""
+    """Lock-step reaches no other process: an action of the project is the server. The result is equal."""
     code = "".join(
         f"<Action name='{name}'><![CDATA[{source}]]></Action>"
         for name, source in (("Act", GOAL), ("Serve", SERVER))

@@ -1,4 +1,4 @@
-"""Real processes that are stopped on some rung: it is reported, and the session comes right."""
+"""Real processes that are stopped on some rung: the hang is reported, and the session recovers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ pytestmark = pytest.mark.simulation
 
 
 def cases_of_today():
-    """As many as the budget has, evenly over all states; which ones, is drawn."""
+    """Returns as many cases as the budget allows, evenly over all states, drawn at random."""
     seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
     chance, wanted = random.Random(seed), count("hangs_real")  # noqa: S311

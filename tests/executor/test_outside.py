@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from executor.child_messages import StartApplication, StartWorld
 from executor.manager.manager import outside_domain_id
 from tests.executor.session.play import DATA, Play
 from tests.executor.session_client import ROOT, SessionClient, manager_process, run_data
@@ -18,7 +19,7 @@ DOMAIN_ID = 225
 
 @contextlib.asynccontextmanager
 async def outside_robot():
-    """A plain program, with nothing in its environment but its domain."""
+    """Runs a plain program, with nothing of ROS in its environment but its domain."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("ROS_", "FAST"))}
     process = await asyncio.create_subprocess_exec(
         sys.executable,
@@ -34,14 +35,14 @@ async def outside_robot():
 
 
 async def named_end(client, topic, end):
-    """The nodes at an end of a topic; DDS may tell of topics before it names their nodes."""
-    for _ in range(100):
-        assert await client.ask("list_topics") == "ack"
-        rows = {row["name"]: row for row in client.named("topics")[-1]["topics"]}
-        if rows.get(topic, {}).get(end):
-            break
-        await asyncio.sleep(0.2)
-    return rows[topic][end]
+    """Returns the nodes at an end of a topic; DDS may announce topics before the names of their nodes."""
+    async with asyncio.timeout(60):
+        while True:
+            assert await client.ask("list_topics") == "ack"
+            rows = {row["name"]: row for row in client.named("topics")[-1]["topics"]}
+            if names := rows.get(topic, {}).get(end):
+                return names
+            await asyncio.sleep(0.2)  # the rate of this command is limited
 
 
 @pytest.mark.simulation
@@ -72,7 +73,7 @@ async def test_the_application_drives_an_outside_robot_and_a_pause_stops_it():
         await client.close()
 
 
-# --- the machine alone ----------------------------------------------------------------------------
+# --- the state machine alone ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("asked", "domain"), [({}, 7), ({"domain_id": 12}, 12)])
@@ -80,9 +81,10 @@ def test_both_processes_go_into_the_outside_domain(asked, domain):
     play = Play()
     object.__setattr__(play.session.about, "outside_domain_id", 7)
     play.command("run", **DATA["run"] | {"universe": {"universe": "none", **asked}})
-    starts = [e.message for e in play.effects if getattr(e, "message", {}).get("type") == "start"]
-    assert [start["domain_id"] for start in starts] == [domain, domain]
-    assert [start.get("outside") for start in starts] == [True, None]
+    told = [getattr(effect, "message", None) for effect in play.effects]
+    starts = [each for each in told if isinstance(each, StartApplication | StartWorld)]
+    assert [start.domain_id for start in starts] == [domain, domain]
+    assert [start.outside for start in starts if isinstance(start, StartApplication)] == [True]
     assert play.reply(play.command("run")) == "ack"
     assert play.session.run.domain_id == play.session.about.ros_domain_id
 

@@ -71,13 +71,14 @@ async def test_run_pause_step_resume_stop_and_run_again():
 
 
 async def settled(client):
-    """Where the robot is when no pose is on its way any more."""
-    for _ in range(100):
-        place = client.robot_position()
-        await asyncio.sleep(0.3)
-        if place is not None and place == client.robot_position():
-            return place
-    raise TimeoutError("the robot never comes to rest")
+    """Returns the robot's position once it does not change between two reports of a paused world."""
+    async with asyncio.timeout(60):
+        while True:
+            place = client.robot_position()
+            for _ in range(2):  # a single report may follow at once
+                await client.event("sim", lambda data: data["paused"], after=len(client.events))
+            if place is not None and place == client.robot_position():
+                return place
 
 
 async def test_topics_are_listed_echoed_published_and_described():
@@ -98,10 +99,10 @@ async def test_topics_are_listed_echoed_published_and_described():
         assert message["type"] == "nav_msgs/msg/Odometry"
         assert message["message"]["child_frame_id"] == "base_footprint"
         rate = None
-        while not rate:  # the first lists start the measuring
+        while not rate:  # the first list starts the measurement
             assert await client.ask("list_topics") == "ack"
             rate = next(t["hz"] for t in client.named("topics")[-1]["topics"] if t["name"] == "/odom")
-            await asyncio.sleep(0.2)  # a client may not ask without pause
+            await asyncio.sleep(0.2)  # the rate of this command is limited
         assert (await client.ask("echo_topic", {"topic": "/ghost"}))["code"] == "unknown_topic"
 
         twist = "geometry_msgs/msg/Twist"

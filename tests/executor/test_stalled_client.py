@@ -1,4 +1,4 @@
-"""A client that stops reading costs nothing, and gets the present when it reads again, not the past."""
+"""A client that stops reading costs nothing; later it gets the current state, not old frames."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A zoo of children for the manager, good and bad: `python child.py HABIT --channel-fd N`."""
+"""Children for the manager, good and bad: `python child.py HABIT --channel-fd N`."""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ REPOSITORY = Path(__file__).parents[2]
 
 
 class FakeDocker(socketserver.ThreadingUnixStreamServer):
-    """Listens at a path; `containers` has everything that was made and not removed."""
+    """Listens at a path; `containers` has every container that was created and not removed."""
 
     daemon_threads = True
 
@@ -56,7 +56,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
         with self._lock:
             if name in self.listeners:
                 self.listeners.pop(name).close()
-            if name in self.containers:  # else it was removed in the meantime
+            if name in self.containers:  # otherwise it was removed meanwhile
                 self.containers[name]["State"] = {
                     "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
                 }  # fmt: skip
@@ -85,7 +85,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
             self._listen(name, container, fetch_listener(door, session, token))
 
     def _listen(self, name, container, listener):
-        """Keeps what an executor listens at, unless it was ended while it fetched that."""
+        """Stores the executor's listening socket, unless the executor ended meanwhile."""
         with self._lock:
             if self.containers.get(name) is container and container["State"]["Running"]:
                 self.listeners[name] = listener
@@ -123,7 +123,7 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_header("Content-Length", str(len(data)))
         self.send_header("Connection", "close")
         self.end_headers()
-        if data:  # after an answer without a body the keeper has gone
+        if data:  # the keeper disconnects after an answer without a body
             self.wfile.write(data)
 
     def _act(self, path, query, body):
@@ -179,10 +179,10 @@ class _Handler(BaseHTTPRequestHandler):
 
 
 def gate_of(folder):
-    """The folder that a gate below `folder` shares with executors."""
+    """Returns the folder that a gate below `folder` shares with executors."""
     return Path(folder) / "gate"
 
 
 def control_of(folder):
-    """Where that gate listens for the keeper."""
+    """Returns the socket on which that gate listens for the keeper."""
     return Path(folder) / "control" / "gate.sock"

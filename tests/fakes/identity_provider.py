@@ -1,4 +1,4 @@
-"""An OpenID Connect provider: it believes whoever comes to be the person that the test says."""
+"""An OpenID Connect provider that accepts every sign-in as the person that the test names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CLIENT_ID, SECRET = "bt-studio", "between-the-two-of-us-and-nobody-else"
 
 
 class IdentityProvider:
-    """Its address, and who comes."""
+    """Its address, and the next person to sign in."""
 
     def __init__(self, port):
         self.issuer = f"http://127.0.0.1:{port}"
@@ -23,7 +23,7 @@ class IdentityProvider:
         self.asked = []
 
     def authorize(self, address):
-        """What a browser is sent on to after a sign-in there."""
+        """Redirects the browser after a sign-in."""
         asked = {name: values[0] for name, values in parse_qs(urlsplit(address).query).items()}
         assert asked["client_id"] == CLIENT_ID
         assert asked["code_challenge_method"] == "S256"
@@ -32,7 +32,7 @@ class IdentityProvider:
         return f"{urlsplit(asked['redirect_uri']).path}?{back}"
 
     def answer(self, path):
-        """The document at an address."""
+        """Returns the document at an address."""
         if path == "/.well-known/openid-configuration":
             return {
                 "issuer": self.issuer,
@@ -51,7 +51,7 @@ class IdentityProvider:
 
 @contextmanager
 def identity_provider():
-    """Serves one until the block ends."""
+    """Serves a provider until the block ends."""
 
     class Handler(BaseHTTPRequestHandler):
         def do_GET(self):

@@ -123,7 +123,7 @@ def update(self):
 
 
 def write_wanderer(folder: Path) -> Path:
-    """Writes a project that drives with a LIDAR and turns before what is near."""
+    """Writes a project that drives with a LIDAR and turns away from obstacles."""
     graph = Graph()
     graph.node("root", ROOT)
     graph.node("all", "ReactiveSequence")

@@ -1,4 +1,4 @@
-"""Stand-ins for ROS 2's `launch` and `launch_ros`, of which there are no wheels: they say what would run.
+"""Stand-ins for ROS 2's `launch` and `launch_ros`, which have no wheels: they report what would be started.
 
 They know the classes and arguments that our launch files use, and nothing else. `tests/ros_launch` compares
 the command lines that they give with those of the real ones, from a checkout of these.
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Process:
-    """What would be started: an executable of a package, with the words after it."""
+    """A process that would be started: an executable of a package, with its arguments."""
 
     package: str
     executable: str
@@ -29,7 +29,7 @@ class Process:
 
 @dataclass(frozen=True)
 class Included:
-    """A launch file that would be included, and what it would find set."""
+    """A launch file that would be included, with its arguments."""
 
     path: Path
     configurations: dict[str, Any]
@@ -37,7 +37,7 @@ class Included:
 
 @dataclass
 class Context:
-    """launch.LaunchContext, and what came of the launch."""
+    """launch.LaunchContext, with the results of the launch."""
 
     launch_configurations: dict[str, Any]
     processes: list[Process] = field(default_factory=list)
@@ -45,7 +45,7 @@ class Context:
 
 
 class Entity:
-    """Base of all."""
+    """Base of all entities."""
 
     def execute(self, context: Context) -> list[Entity] | None:
         raise NotImplementedError
@@ -211,7 +211,7 @@ class Node(Entity):
 
 
 def visit(entities: Sequence[Entity], context: Context) -> None:
-    """Carries out actions, and those that they give."""
+    """Executes actions, and those that they return."""
     for entity in entities:
         visit(entity.execute(context) or [], context)
 
@@ -233,7 +233,7 @@ MODULES = {
 
 
 def launch(monkeypatch: Any, path: Path, arguments: dict[str, str]) -> Context:
-    """Reads a launch file and works out what it would start."""
+    """Reads a launch file and returns what it would start."""
     for name, members in MODULES.items():
         module = types.ModuleType(name)
         module.__dict__.update({member.__name__: member for member in members})

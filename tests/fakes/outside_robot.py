@@ -1,4 +1,4 @@
-"""A robot that is none of ours: a plain rclpy program that measures, and says what it is told to do."""
+"""A robot outside of BT Studio: a plain rclpy program that publishes scans and prints its commands."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class Robot(Node):
-    """Sees free space all round."""
+    """Publishes scans without obstacles."""
 
     def __init__(self) -> None:
         super().__init__("outside_robot")

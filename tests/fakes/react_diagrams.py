@@ -11,7 +11,7 @@ ROOT = "Tree Root"
 
 @dataclass
 class Graph:
-    """Blocks and links, added one by one; ids are readable so that tests can name them."""
+    """Blocks and links, added one by one; ids are readable so that tests can refer to them."""
 
     old_port_types: bool = False
     blocks: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -31,7 +31,7 @@ class Graph:
         return id_
 
     def tag(self, id_: str, value: str, *, writes: bool = False) -> str:
-        """Adds a value; one that `writes` takes what an output port gives."""
+        """Adds a value; one that `writes` receives the value of an output port."""
         kind = "tag input" if writes else "tag output"
         rows = [self._port(id_, kind, kind)]
         color = "var(--color-tag)"
@@ -94,7 +94,7 @@ class Graph:
 
 
 def chain(*names: str) -> Graph:
-    """Returns a graph in which each block has the next as its only child, from the root on."""
+    """Returns a graph in which each block has the next as its only child, starting at the root."""
     graph = Graph()
     before = graph.node("root", ROOT)
     for number, name in enumerate(names):

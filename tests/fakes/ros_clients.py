@@ -1,4 +1,4 @@
-"""Clients of a service and of an action whose servers answer when a test says so."""
+"""Clients of a service and of an action whose servers answer when a test requests it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _module(name: str, **members: Any) -> ModuleType:
 
 
 class Goal:
-    """A goal of Nav2's NavigateToPose, as far as one is written here."""
+    """A goal of Nav2's NavigateToPose, reduced to the fields used here."""
 
     def __init__(self) -> None:
         position, orientation = SimpleNamespace(x=0.0, y=0.0), SimpleNamespace(w=0.0)
@@ -45,7 +45,7 @@ class Handle:
 
 
 class Client:
-    """Both kinds of client: what was sent, and the future that its answer goes into."""
+    """Both kinds of client: the sent requests, and the futures of their answers."""
 
     def __init__(self, *about: Any) -> None:
         self.about = about
@@ -67,7 +67,7 @@ class Client:
 
 
 class Node:
-    """Makes clients, and remembers them."""
+    """Creates clients, and stores them."""
 
     def __init__(self) -> None:
         self.clients: list[Client] = []

@@ -1,1 +1,1 @@
-"""A user who means harm, and another who works meanwhile; for `tests/docker` and `tests/backend`."""
+"""A hostile user, and another one who works meanwhile; for `tests/docker` and `tests/backend`."""

@@ -1,7 +1,7 @@
-"""Another user at work: opens, lists, saves trees and Python files, and says how long each took.
+"""Another user at work: opens, lists, saves trees and Python files, and measures each request.
 
-`python -m tests.hostile.bystander` takes a plan as JSON on stdin and prints samples as JSON: kind, when it
-began, milliseconds, status. Every answer must be the true one: a save's revision is the next save's base.
+`python -m tests.hostile.bystander` takes a plan as JSON on stdin and prints samples as JSON: kind, start,
+milliseconds, status. Every answer must be correct: a save's revision is the next save's base.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class Sample(NamedTuple):
 
 
 class Bystander:
-    """Somebody with one project and one connection that stays, as a browser has."""
+    """A user with one project and one persistent connection, as a browser has."""
 
     def __init__(  # noqa: PLR0917 - as a plan has it
         self, host: str, port: int, origin: str, cookie: str, project: str, session: str = ""
@@ -40,11 +40,11 @@ class Bystander:
         self._files = {file["path"]: file for file in opened["files"]}
 
     def close(self) -> None:
-        """Leaves."""
+        """Closes the connection."""
         self._connection.close()
 
     def round(self, pause_s: float = 0.0) -> None:
-        """One of each kind, with pauses between them."""
+        """Sends one request of each kind, with pauses between them."""
         self._rounds += 1
         one = f"projects/{self._project}"
         for step in (
@@ -87,7 +87,7 @@ class Bystander:
         try:
             self._connection.request(method, f"/api/v1/{path}", data, headers)
             response = self._connection.getresponse()
-        except http.client.RemoteDisconnected:  # it was idle for long
+        except http.client.RemoteDisconnected:  # the connection was idle for long
             self._connection.close()
             self._connection.request(method, f"/api/v1/{path}", data, headers)
             response = self._connection.getresponse()

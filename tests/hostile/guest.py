@@ -1,7 +1,7 @@
-"""What somebody with a read-only link tries through the web, all of it or one kind at a time.
+"""Attacks by a guest with a read-only link through the web, all together or one kind at a time.
 
-`python -m tests.hostile.guest` takes a plan as JSON on stdin and prints what was answered as JSON. It makes
-itself *nice*, so that on one machine the server is slowed down by what it is asked, not by who asks.
+`python -m tests.hostile.guest` takes a plan as JSON on stdin and prints the answers as JSON. It makes itself
+*nice*, so that on one machine only the requests slow the server down, not the client.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ HEAVY = (
 
 
 def _bomb() -> bytes:
-    """A zip of some 300 KB that unpacks to 300 MB."""
+    """Returns a zip of some 300 KB that unpacks to 300 MB."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as packed:
         packed.writestr("project.json", '{"format": "bt-studio/project", "version": 1, "name": "Bomb"}')
@@ -68,7 +68,7 @@ async def heavy(site: Site, note: Counter[str]) -> None:
 
 
 async def cheap(site: Site, note: Counter[str]) -> None:
-    """Whatever is quickly asked for, on a connection that stays."""
+    """Sends requests that cost the client little, on a persistent connection."""
     paths = ("me", "catalog/nodes", f"projects/{site.project}/revisions", "catalog/universes", "nothing")
     async with connected(site) as (reader, writer):
         for _ in range(25):
@@ -90,7 +90,7 @@ async def _kept_alive(reader: asyncio.StreamReader) -> str:
 
 
 async def forged(site: Site, note: Counter[str]) -> None:
-    """Another address each time, and names that are not the server's."""
+    """Sends forged client addresses and host names."""
     address = ".".join(str(CHANCE.randrange(256)) for _ in range(4))
     lies = {"X_Forwarded_For": address, "X_Real_IP": address, "Forwarded": f"for={address}"}
     more = CHANCE.choice(
@@ -109,7 +109,7 @@ async def forged(site: Site, note: Counter[str]) -> None:
 
 
 async def passwords(site: Site, note: Counter[str]) -> None:
-    """Guesses with the page's own form."""
+    """Guesses passwords with the page's own form."""
     async with connected(site) as (reader, writer):
         writer.write(site.head("GET", "/accounts/login/", {"Cookie": "a=b"}))
         page = (await reader.read()).decode("latin-1")
@@ -140,7 +140,7 @@ async def passwords(site: Site, note: Counter[str]) -> None:
 
 
 async def bodies(site: Site, note: Counter[str]) -> None:
-    """More than anybody may send, with a length, without one, and with one that is a lie."""
+    """Sends bodies above the limit: with a length, without one, and with a wrong one."""
 
     async def endless(wrap: Callable[[bytes], bytes]) -> AsyncIterator[bytes]:
         for _ in range(1500 * 4):
@@ -164,7 +164,7 @@ async def bodies(site: Site, note: Counter[str]) -> None:
 
 
 async def slow(site: Site, note: Counter[str]) -> None:
-    """A head or a body that comes byte by byte."""
+    """Sends a head or a body byte by byte."""
     async with connected(site) as (reader, writer):
         head = site.head("POST", "/api/v1/trees/diagram", {"Content-Length": "900000", "Content-Type": JSON})
         if CHANCE.random() < 0.5:
@@ -185,7 +185,7 @@ async def slow(site: Site, note: Counter[str]) -> None:
 
 
 async def junk(site: Site, note: Counter[str]) -> None:
-    """What is no request, or too large a head of one."""
+    """Sends bytes that are no request, or a head that is too large."""
     what = (
         b"\x16\x03\x01" + os.urandom(500),
         b"GET / HTTP/9.9\r\n\r\n",
@@ -202,7 +202,7 @@ async def junk(site: Site, note: Counter[str]) -> None:
 
 
 async def zips(site: Site, note: Counter[str]) -> None:
-    """A small archive that is large inside; the hostile user's own account may at least send it."""
+    """Sends a small archive that is large inside; the hostile user's own account may at least upload it."""
     kind, path = "application/octet-stream", "/api/v1/projects/import?filename=Bomb.zip"
     cookie = CHANCE.choice([cookie for cookie in (site.guest, site.user) if cookie])
     note[await ask(site, "POST", path, BOMB, Content_Type=kind, Cookie=cookie)] += 1
@@ -216,7 +216,7 @@ async def deep(site: Site, note: Counter[str]) -> None:
 
 
 async def sockets(site: Site, note: Counter[str]) -> None:
-    """Many sockets that are held for a while, and read nothing."""
+    """Holds many sockets for a while, and reads nothing."""
     held = []
     try:
         for _ in range(HELD):
@@ -231,7 +231,7 @@ async def sockets(site: Site, note: Counter[str]) -> None:
 
 
 async def frames(site: Site, note: Counter[str]) -> None:
-    """Frames as fast as they are taken: small ones, large ones, and one that never ends."""
+    """Sends frames as fast as the server takes them: small ones, large ones, and an endless one."""
     path = CHANCE.choice(("notices", "notices", "notices", "language"))
     async with websocket(site, f"/ws/projects/{site.project}/{path}") as (status, (reader, writer)):
         reading = asyncio.ensure_future(_thrown_away(reader))
@@ -278,11 +278,11 @@ KINDS: dict[str, tuple[Callable[[Site, Counter[str]], Awaitable[None]], int]] = 
     "sockets": (sockets, 15),
     "frames": (frames, 12),
 }
-"""What is tried, and by how many at a time."""
+"""The attacks, and the number of clients of each."""
 
 
 async def tried(kind: str, site: Site, note: Counter[str], goes_on: Callable[[int], bool]) -> None:
-    """All who try one kind, until it is enough."""
+    """Runs all clients of one kind until the time is over."""
     once, many = KINDS[kind]
 
     async def again_and_again() -> None:
@@ -299,14 +299,14 @@ async def tried(kind: str, site: Site, note: Counter[str], goes_on: Callable[[in
 
 
 async def all_at_once(site: Site, rounds: int) -> dict[str, Counter[str]]:
-    """Every kind beside the others, each so many times by each who tries it."""
+    """Runs every kind at the same time, each with its number of clients."""
     notes = {kind: Counter() for kind in KINDS}
     await asyncio.gather(*(tried(kind, site, notes[kind], lambda done: done < rounds) for kind in KINDS))
     return notes
 
 
 async def in_phases(site: Site, seconds: float, phase_s: float) -> list[tuple[str, float, dict[str, int]]]:
-    """One kind after the other with all its force, and all beside each other after each round of them."""
+    """Runs one kind after another with full force, and all together after each round."""
     told: list[tuple[str, float, dict[str, int]]] = []
     end = time.time() + seconds
     while time.time() < end:

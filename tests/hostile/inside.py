@@ -1,7 +1,7 @@
-"""An action that harms whatever a session shares with others: its gate, its container, its manager.
+"""An action that attacks everything a session shares with others: its gate, its container, its manager.
 
-It does one kind after the other and begins with the one in the file's last line, so that a program that was
-ended for one of them is started again with the next.
+It runs one attack after another and begins with the one in the file's last line, so that a program that was
+ended during one of them is started again with the next.
 """
 
 import contextlib
@@ -23,7 +23,7 @@ STINT_S = 8
 
 
 def gates():
-    """Every socket that is there, and some that might be."""
+    """Returns every existing socket, and some possible ones."""
     found = [GATE / "gate.sock"]
     with contextlib.suppress(OSError):
         found += [path for path in GATE.rglob("*") if path.is_socket()]
@@ -32,7 +32,7 @@ def gates():
 
 
 def flood_gates(until):
-    """Connections that say nothing, half a word, too much, or a wrong token; as many as there may be."""
+    """Opens connections that send nothing, half a line, too much, or a wrong token; as many as possible."""
     words = (
         b"",
         b'{"session": ',
@@ -65,7 +65,7 @@ def many_threads(until):
 
 
 def many_processes(until):
-    """Children that each have children."""
+    """Starts children that each start children."""
     while time.monotonic() < until:
         try:
             os.fork()
@@ -105,7 +105,7 @@ def many_files(until):
 
 
 def much_work(until):
-    """All processors, and system calls as fast as they go."""
+    """Uses all processors, and makes system calls as fast as possible."""
     libc = ctypes.CDLL(None)
 
     def spin():
@@ -120,14 +120,14 @@ def much_work(until):
 
 
 def much_said(until):
-    """Lines for the console of the one who watches, and for the log."""
+    """Prints lines for the viewer's console and for the log."""
     while time.monotonic() < until:
         print("x" * 5000)
         os.write(2, b"y" * 5000 + b"\n")
 
 
 def managers_port(until):
-    """The manager's own server, without its token."""
+    """Connects to the manager's own server, without its token."""
     held = []
     while time.monotonic() < until:
         try:
@@ -158,7 +158,7 @@ class Forward(py_trees.behaviour.Behaviour):
         self.number = FIRST  # noqa: F821 - the last line of what is run
 
     def update(self):
-        """Lets the tree tick on meanwhile, as a program that wants to live would."""
+        """Continues to tick meanwhile, as a program does that wants to survive."""
         if not hasattr(self, "at_it") or not self.at_it.is_alive():
             kind = KINDS[self.number % len(KINDS)]
             self.number += 1

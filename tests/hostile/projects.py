@@ -1,4 +1,4 @@
-"""A project that is as large as its quota lets it be."""
+"""A project as large as its quota allows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ NODES_PER_TREE = 20_000
 
 
 def large_tree(nodes: int, name: str) -> str:
-    """A diagram of a tree with so many nodes, none deeper than the third level."""
+    """Returns a diagram of a tree with that many nodes, none deeper than the third level."""
     top: dict[str, Any] = {"type": "Sequence", "name": "", "children": []}
     found = {"r": top}
     while len(found) < nodes - 1:
@@ -26,7 +26,7 @@ def large_tree(nodes: int, name: str) -> str:
 
 
 def large_files(nodes: int, files: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """What is saved so that a project has so many nodes, in trees of 20,000; `files` are those it has."""
+    """Returns files that add up to that many nodes, in trees of 20,000; `files` are the existing ones."""
     bases = {file["path"]: file["revision"] for file in files}
     first = next(path for path in bases if path.startswith("trees/")).split("/")[1].removesuffix(".json")
     changes = []

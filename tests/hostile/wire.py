@@ -1,4 +1,4 @@
-"""Requests as somebody sends them who keeps to no rule: raw, slow, endless or none at all."""
+"""Requests of a client that obeys no rule: raw, slow, endless or invalid."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Streams = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """What is attacked, and with what.
+    """The server under attack, and the attacker's accounts.
 
     Attributes:
         host: where it listens.
@@ -43,7 +43,7 @@ class Site:
     account: str
 
     def head(self, method: str, path: str, headers: Mapping[str, str]) -> bytes:
-        """The head of a request; headers that are given stand in for the usual ones."""
+        """Returns the head of a request; given headers replace the usual ones."""
         usual = {
             "Host": self.origin.partition("://")[2],
             "Origin": self.origin,
@@ -55,7 +55,7 @@ class Site:
 
 
 def guest_cookie(link: str) -> str:
-    """The cookie of somebody who opens a read-only link."""
+    """Returns the cookie of a guest who opens a read-only link."""
     jar = http.cookiejar.CookieJar()
     opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor(jar))
     opener.open(link, timeout=PATIENCE_S).close()  # the link of a server of our own
@@ -64,7 +64,7 @@ def guest_cookie(link: str) -> str:
 
 @asynccontextmanager
 async def connected(site: Site) -> AsyncIterator[Streams]:
-    """A connection that is dropped in the end, whatever was to come."""
+    """Opens a connection that is dropped at the end, whatever is pending."""
     reader, writer = await asyncio.open_connection(site.host, site.port)
     try:
         yield reader, writer
@@ -73,7 +73,7 @@ async def connected(site: Site) -> AsyncIterator[Streams]:
 
 
 async def status_of(reader: asyncio.StreamReader) -> str:
-    """The status of an answer, whose body is read to its end; or what became of the connection."""
+    """Returns the status of an answer after reading its body; otherwise the end of the connection."""
     async with asyncio.timeout(PATIENCE_S):
         line = await reader.readline()
         while await reader.read(1 << 16):
@@ -88,7 +88,7 @@ async def ask(
     body: bytes | AsyncIterable[bytes] = b"",
     **headers: str,
 ) -> str:
-    """One request; `headers` have `_` for `-`. A body in parts is sent for as long as it is taken."""
+    """Sends one request; `headers` have `_` for `-`. A body in parts is sent while the server reads it."""
     given = {name.replace("_", "-"): value for name, value in headers.items()}
     if isinstance(body, bytes) and body:
         given.setdefault("Content-Length", str(len(body)))
@@ -119,13 +119,13 @@ async def _send_parts(
 
 
 def chunk(data: bytes) -> bytes:
-    """A part of a body without a length."""
+    """Returns a part of a body without a length."""
     return b"%x\r\n%s\r\n" % (len(data), data)
 
 
 @asynccontextmanager
 async def websocket(site: Site, path: str, **headers: str) -> AsyncIterator[tuple[str, Streams]]:
-    """The status of a handshake, and the connection."""
+    """Returns the status of a handshake, and the connection."""
     given = {
         "Connection": "Upgrade",
         "Upgrade": "websocket",
@@ -140,7 +140,7 @@ async def websocket(site: Site, path: str, **headers: str) -> AsyncIterator[tupl
 
 
 def frame(data: bytes, *, opcode: int = 1, is_last: bool = True, says: int | None = None) -> bytes:
-    """A frame of a client; `says` is the length that it tells, whatever follows."""
+    """Returns a frame of a client; `says` is its stated length, whatever follows."""
     length = len(data) if says is None else says
     first = opcode | (0x80 if is_last else 0)
     if length < 126:

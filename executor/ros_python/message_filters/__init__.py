@@ -1,4 +1,4 @@
-"""Filters that sit between subscriptions and callbacks, and bring together what belongs together."""
+"""Filters between subscriptions and callbacks, which combine messages that belong together."""
 
 from message_filters.cache import Cache
 from message_filters.simple import SimpleFilter, Subscriber

@@ -8,7 +8,7 @@ from message_filters.simple import SimpleFilter, stamp_of
 
 
 class Cache(SimpleFilter):
-    """Keeps the last `cache_size` messages, and puts each out as it comes."""
+    """Stores the last `cache_size` messages, and passes each on when it arrives."""
 
     def __init__(self, f: Any, cache_size: int = 1, allow_headerless: bool = False) -> None:  # noqa: FBT001, FBT002
         super().__init__()
@@ -18,11 +18,11 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: Any) -> None:  # noqa: N802 - its name in ROS
-        """Keeps what a filter puts out."""
+        """Stores the output of a filter."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Takes a message."""
+        """Stores a message."""
         stamp = stamp_of(msg, allow_headerless=self.allow_headerless, who="message_filters_cache")
         if stamp is None:
             return

@@ -1,4 +1,4 @@
-"""What all filters have in common, and the one that they begin with."""
+"""The base class of all filters, and the filter of a subscription."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ DEFAULT_DEPTH = 10
 
 
 class SimpleFilter:
-    """Calls back with what it puts out."""
+    """Calls its callbacks with each output."""
 
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
     def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802 - its name in ROS
-        """Has `cb` called with each output and then `args`."""
+        """Registers `cb`, which is called with each output and then `args`."""
         connection = len(self.callbacks)
         self.callbacks[connection] = (cb, args)
         return connection
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802 - its name in ROS
-        """Puts something out."""
+        """Passes an output to all callbacks."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
 
 
 class Subscriber(SimpleFilter):
-    """Puts out what comes on a topic: `Subscriber(node, Image, "/image", qos_profile=10)`."""
+    """Passes on the messages of a topic: `Subscriber(node, Image, "/image", qos_profile=10)`."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__()
@@ -43,7 +43,7 @@ class Subscriber(SimpleFilter):
         self.sub = self.node.create_subscription(message_type, self.topic, self.callback, **options)
 
     def callback(self, msg: Any) -> None:
-        """Takes a message."""
+        """Passes on a message."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802 - its name in ROS
@@ -51,14 +51,14 @@ class Subscriber(SimpleFilter):
         return str(self.topic)
 
     def __getattr__(self, key: str) -> Any:
-        """Anything else is asked of the subscription."""
+        """Forwards all other attributes to the subscription."""
         if key == "sub":
             raise AttributeError(key)
         return getattr(self.sub, key)
 
 
 def stamp_of(message: Any, *, allow_headerless: bool, who: str) -> Time | None:
-    """Returns the time of a message; that of now for one without header, if that is allowed."""
+    """Returns the stamp of a message; the current time for one without header, if that is allowed."""
     stamp = getattr(getattr(message, "header", None), "stamp", None)
     if stamp is not None:
         return stamp if hasattr(stamp, "nanoseconds") else Time.from_msg(stamp)

@@ -1,4 +1,4 @@
-"""Messages of several topics that belong to one moment, exactly or about."""
+"""Combines messages of several topics that have the same time, exactly or approximately."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Puts out one message of each input when all have the same stamp.
+    """Passes on one message of each input when all have the same stamp.
 
-    It keeps `queue_size` messages of each input that wait for the others.
+    At most `queue_size` messages of each input wait for the others.
     """
 
     def __init__(self, fs: Sequence[Any], queue_size: int) -> None:
@@ -25,7 +25,7 @@ class TimeSynchronizer(SimpleFilter):
         self.connectInput(fs)
 
     def connectInput(self, fs: Sequence[Any]) -> None:  # noqa: N802 - its name in ROS
-        """Takes what filters put out."""
+        """Takes the outputs of filters as inputs."""
         self.queues: list[dict[int, Any]] = [{} for _ in fs]
         self.input_connections = [
             source.registerCallback(self.add, queue, index)
@@ -53,10 +53,10 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Puts out one message of each input when their stamps differ by less than `slop` seconds.
+    """Passes on one message of each input when their stamps differ by less than `slop` seconds.
 
-    Of each other input the message nearest to the one that came is tried first. With `allow_headerless`, the
-    time at which a message comes counts where it has no stamp.
+    Of each other input, the message nearest to the new one is tried first. With `allow_headerless`, a message
+    without a stamp counts from the time of its arrival.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         with self.lock:
             now = stamp.nanoseconds
             self._keep(msg, my_queue, now)
-            if now not in my_queue:  # older than all that wait
+            if now not in my_queue:  # older than all waiting messages
                 return
             near = [[now] if queue is my_queue else self._near(queue, now) for queue in self.queues]
             if (stamps := self._fitting(near, [])) is not None:

@@ -1,4 +1,4 @@
-"""How things of `geometry_msgs` are taken into another frame. Nothing that is given is changed."""
+"""Transforms messages of `geometry_msgs` into another frame; arguments are not modified."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def do_transform_point(point: Any, transform: Any) -> Any:
 
 
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
-    """Returns a `Vector3Stamped` in the transform's frame; a vector is turned and not moved."""
+    """Returns a `Vector3Stamped` in the transform's frame; a vector is rotated but not translated."""
     result = Vector3Stamped(header=deepcopy(transform.header))
     _put(result.vector, rotate(_motion(transform).rotation, _xyz(vector3.vector)))
     return result
@@ -69,7 +69,7 @@ def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
 
 
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """Returns a `WrenchStamped` in the transform's frame; force and torque are turned and not moved."""
+    """Returns a `WrenchStamped` in the transform's frame; force and torque are rotated but not translated."""
     result = WrenchStamped(header=deepcopy(transform.header))
     turn = _motion(transform).rotation
     _put(result.wrench.force, rotate(turn, _xyz(wrench.wrench.force)))
@@ -78,7 +78,7 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> Any:
-    """Returns a covariance of x, y, z and the turns about them, in the transform's axes: R C Rᵀ."""
+    """Returns a covariance of x, y, z and the rotations about them, in the transform's axes: R C Rᵀ."""
     turn = _motion(transform).rotation
     columns = [rotate(turn, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
     both = np.kron(np.eye(2), np.array(columns).T)
@@ -86,7 +86,7 @@ def transform_covariance(cov_in: Any, transform: Any) -> Any:
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """Returns a message as it is."""
+    """Returns the message itself."""
     return msg
 
 

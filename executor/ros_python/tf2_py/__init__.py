@@ -1,4 +1,4 @@
-"""The core of tf2: transforms over time, and the errors of looking them up."""
+"""The core of tf2: transforms over time, and the exceptions of look-ups."""
 
 from tf2_py.core import BufferCore
 from tf2_py.errors import (

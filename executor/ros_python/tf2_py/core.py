@@ -1,4 +1,4 @@
-"""`BufferCore`: what is known of all frames, and what follows from it."""
+"""`BufferCore`: stores the transforms between frames, and combines them."""
 
 from __future__ import annotations
 
@@ -28,32 +28,32 @@ _NOT_NORMALISED = 1e-2  # how far the squared length of a quaternion may be from
 
 
 class _Climb(NamedTuple):
-    """A way up the tree: each frame on it, and where the first one is in it; and why the way ended."""
+    """A path up the tree: its frames, the pose of the first one in each, and why the path ended."""
 
     frames: dict[str, Motion]
     ended: ExtrapolationException | None
 
 
 class BufferCore:
-    """Holds transforms for `cache_time`, 10 s unless said otherwise, and static ones for ever."""
+    """Stores transforms for `cache_time`, 10 s by default; static ones without limit."""
 
     def __init__(self, cache_time: Any = None) -> None:
         self._cache_ns = Duration(seconds=CACHE_S).nanoseconds if cache_time is None else _ns(cache_time)
         self._frames: dict[str, History] = {}
         self._lock = threading.RLock()
 
-    # --- what is known ---
+    # --- storing ---
 
     def set_transform(self, transform: Any, authority: str = "default_authority") -> None:
-        """Takes where a frame is at the time of the stamp; ignores, with a warning, what is none."""
+        """Stores the transform of a frame at the time of its stamp; ignores an invalid one with a warning."""
         self._set(transform, authority, is_static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> None:
-        """Takes where a frame always is."""
+        """Stores a transform that is valid at all times."""
         self._set(transform, authority, is_static=True)
 
     def clear(self) -> None:
-        """Forgets what moves; what is static stays."""
+        """Removes all transforms except static ones."""
         with self._lock:
             for name, history in self._frames.items():
                 if not history.is_static:
@@ -82,7 +82,7 @@ class BufferCore:
             self._check("get_latest_common_time", target_frame, source_frame)
             return Time(nanoseconds=self._latest_common(target_frame, source_frame))
 
-    # --- looking up ---
+    # --- look-ups ---
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> Any:
         """Returns the transform that takes what is in `source_frame` into `target_frame`.
@@ -92,7 +92,7 @@ class BufferCore:
         Raises:
             LookupException: a frame is not known.
             ConnectivityException: nothing connects them.
-            ExtrapolationException: the time lies outside of what was heard.
+            ExtrapolationException: the time is outside of the stored samples.
             InvalidArgumentException: a name is none.
         """
         with self._lock:
@@ -105,7 +105,8 @@ class BufferCore:
     ) -> Any:
         """Returns the transform from one frame at one time into another at another time.
 
-        In between, what is in `fixed_frame` is taken to stay where it is. Raises as `lookup_transform_core`.
+        Between the two times, the source is assumed to be at rest in `fixed_frame`. Raises as
+        `lookup_transform_core`.
         """
         with self._lock:
             self._check("lookupTransform", target_frame, source_frame, fixed_frame)
@@ -114,7 +115,7 @@ class BufferCore:
         return _message(target_frame, source_frame, stamp_ns, compose(from_fixed, into_fixed))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[bool, str]:
-        """Tells whether `lookup_transform_core` would find something, and else why not."""
+        """Returns whether `lookup_transform_core` would succeed, and the reason if not."""
         try:
             self.lookup_transform_core(target_frame, source_frame, time)
         except TransformException as error:
@@ -124,14 +125,14 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[bool, str]:
-        """Tells whether `lookup_transform_full_core` would find something, and else why not."""
+        """Returns whether `lookup_transform_full_core` would succeed, and the reason if not."""
         try:
             self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
         except TransformException as error:
             return False, str(error)
         return True, ""
 
-    # --- names that programs for debugging use ---
+    # --- names that debugging programs use ---
 
     def _frameExists(self, frame_id: str) -> bool:  # noqa: N802 - its name in tf2
         return frame_id in self._known()
@@ -182,7 +183,7 @@ class BufferCore:
         return _Climb(frames, None)
 
     def _latest_common(self, target: str, source: str) -> int:
-        """Returns the time of the oldest of the latest samples on the way; 0 where all is static."""
+        """Returns the time of the oldest of the latest samples on the path; 0 if all are static."""
         up, down = self._latest_of(source), self._latest_of(target)
         common = next((frame for frame in down if frame in up), None)
         if common is None:
@@ -191,7 +192,7 @@ class BufferCore:
         return 0 if math.isinf(latest_ns) else int(latest_ns)
 
     def _latest_of(self, frame: str) -> dict[str, float]:
-        """Returns the frames above one, and the time for which the way to each is known; inf if always."""
+        """Returns the ancestors of a frame, and the latest time of the path to each; inf if it is static."""
         known, found = math.inf, {frame: math.inf}
         while (history := self._frames.get(frame)) and (sample := history.latest):
             if not history.is_static:
@@ -241,7 +242,7 @@ class BufferCore:
 
 
 def _problem_of(child: str, parent: str, transform: Any) -> str:
-    """Says why a transform is none; empty if it is one."""
+    """Returns why a transform is invalid; empty if it is valid."""
     if not child or not parent:
         return "a frame has no name"
     if child == parent:
@@ -271,7 +272,7 @@ def _message(target: str, source: str, stamp_ns: int, motion: Motion) -> Any:
 
 
 def _ns(time: Any) -> int:
-    """Returns ns of a `Time`, a `Duration`, or of the message of one."""
+    """Returns nanoseconds of a `Time`, a `Duration`, or the message of one."""
     if hasattr(time, "nanoseconds"):
         return int(time.nanoseconds)
     return int(time.sec) * 1_000_000_000 + int(time.nanosec)

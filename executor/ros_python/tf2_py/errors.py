@@ -1,25 +1,25 @@
-"""Why there is no transform."""
+"""Exceptions of tf2."""
 
 
 class TransformException(Exception):  # noqa: N818 - its name in tf2
-    """Anything that tf2 raises."""
+    """Base of all exceptions of tf2."""
 
 
 class ConnectivityException(TransformException):
-    """Both frames are known, and nothing connects them."""
+    """Both frames exist, but they are not connected."""
 
 
 class LookupException(TransformException):
-    """A frame is not known."""
+    """A frame does not exist."""
 
 
 class ExtrapolationException(TransformException):
-    """The time lies outside of what was heard."""
+    """The time is outside of the stored samples."""
 
 
 class InvalidArgumentException(TransformException):
-    """The name of a frame is none."""
+    """The name of a frame is invalid."""
 
 
 class TimeoutException(TransformException):
-    """No answer came in time."""
+    """There was no transform before the timeout."""

@@ -1,4 +1,4 @@
-"""Where one frame was in its parent, over time."""
+"""The poses of one frame in its parent, over time."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tf2_py.motion import Motion, between
 
 
 class Sample(NamedTuple):
-    """Where a frame was at a moment, in ns."""
+    """The pose of a frame at a time in ns."""
 
     stamp_ns: int
     parent: str
@@ -19,7 +19,7 @@ class Sample(NamedTuple):
 
 
 class History:
-    """The samples of one frame, in the order of their stamps; a static frame has one that always holds."""
+    """The samples of one frame, in the order of their stamps; a static frame has one that is always valid."""
 
     def __init__(self, cache_ns: int, *, is_static: bool = False) -> None:
         self.is_static = is_static
@@ -56,7 +56,7 @@ class History:
         return len(self._samples)
 
     def at(self, stamp_ns: int) -> Sample:
-        """Returns the sample of a moment, interpolated; of the latest stamp at 0.
+        """Returns the sample at a time, interpolated; 0 is the latest stamp.
 
         Raises:
             ExtrapolationException: the moment lies outside of the history.
@@ -70,7 +70,7 @@ class History:
         if before is None or place == len(self._samples):
             raise ExtrapolationException(self._outside(stamp_ns))
         after = self._samples[place]
-        if after.parent != before.parent:  # it was hung elsewhere in between: until then the old one holds
+        if after.parent != before.parent:  # between two parents the old one is valid
             return before._replace(stamp_ns=stamp_ns)
         share = (stamp_ns - before.stamp_ns) / (after.stamp_ns - before.stamp_ns)
         return Sample(stamp_ns, before.parent, between(before.motion, after.motion, share), before.authority)
@@ -90,7 +90,7 @@ class History:
 
 
 def seconds(stamp_ns: int) -> str:
-    """Writes a stamp in seconds."""
+    """Formats a stamp in seconds."""
     return f"{stamp_ns // 1_000_000_000}.{stamp_ns % 1_000_000_000:09d}"
 
 

@@ -12,21 +12,21 @@ _NEARLY_PARALLEL = 1.0 - 1e-9
 
 
 class Motion(NamedTuple):
-    """Takes a point of the child's frame to the parent's."""
+    """Transforms a point from the child's frame into the parent's."""
 
     translation: Vector = (0.0, 0.0, 0.0)
     rotation: Turn = (0.0, 0.0, 0.0, 1.0)
 
 
 def compose(outer: Motion, inner: Motion) -> Motion:
-    """Returns the motion that does `inner` first and `outer` then."""
+    """Returns the motion that applies `inner`, then `outer`."""
     moved = rotate(outer.rotation, inner.translation)
     x, y, z = (a + b for a, b in zip(outer.translation, moved, strict=True))
     return Motion((x, y, z), multiply(outer.rotation, inner.rotation))
 
 
 def inverse(motion: Motion) -> Motion:
-    """Returns the motion that undoes another."""
+    """Returns the inverse motion."""
     x, y, z, w = motion.rotation
     back = (-x, -y, -z, w)
     dx, dy, dz = rotate(back, motion.translation)
@@ -48,7 +48,7 @@ def multiply(a: Turn, b: Turn) -> Turn:
 
 
 def rotate(turn: Turn, vector: Vector) -> Vector:
-    """Returns a vector, turned."""
+    """Returns a rotated vector."""
     x, y, z, w = turn
     vx, vy, vz = vector
     # v + 2w (q × v) + 2 q × (q × v)
@@ -68,14 +68,14 @@ def normalised(turn: Turn) -> Turn:
 
 
 def between(before: Motion, after: Motion, share: float) -> Motion:
-    """Returns the motion at a share of the way from one to another: straight, and turning evenly."""
+    """Interpolates between two motions: the translation linearly, the rotation at a constant rate (slerp)."""
     x, y, z = (a + share * (b - a) for a, b in zip(before.translation, after.translation, strict=True))
     return Motion((x, y, z), _slerp(before.rotation, after.rotation, share))
 
 
 def _slerp(a: Turn, b: Turn, share: float) -> Turn:
     cosine = sum(p * q for p, q in zip(a, b, strict=True))
-    sign = -1.0 if cosine < 0 else 1.0  # q and -q are one turn: the shorter way is taken
+    sign = -1.0 if cosine < 0 else 1.0  # q and -q are the same rotation: the shorter arc is used.
     cosine = min(1.0, abs(cosine))
     if cosine > _NEARLY_PARALLEL:
         first, second = 1.0 - share, share

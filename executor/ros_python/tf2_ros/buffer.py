@@ -1,4 +1,4 @@
-"""`Buffer`: looks transforms up, and waits for them."""
+"""`Buffer`: looks up transforms, and waits for them."""
 
 from __future__ import annotations
 
@@ -23,9 +23,10 @@ POLL_S = 0.01
 class Buffer(BufferCore, BufferInterface):
     """Holds transforms; a `TransformListener` fills it.
 
-    Given a node, it offers the service `tf2_frames`, and forgets what moved when the node's time jumps back.
-    While `lookup_transform` waits, it takes what its listeners got, so that waiting also works in a callback
-    of a node with one thread. In lock-step no time passes during a callback: there it does not wait.
+    Given a node, it offers the service `tf2_frames`, and removes its samples when the node's time jumps
+    back. While `lookup_transform` waits, it takes the messages of its listeners itself: the executor of a
+    node with one thread is blocked in the callback that waits. In lock-step no time passes during a callback,
+    so there it does not wait.
     """
 
     def __init__(self, cache_time: Any = None, node: Any = None) -> None:
@@ -42,21 +43,21 @@ class Buffer(BufferCore, BufferInterface):
         self.jump_handle = self.clock.create_jump_callback(threshold, post_callback=self.time_jump_callback)
 
     def time_jump_callback(self, time_jump: Any) -> None:
-        """Forgets what moved: what was heard is of another time."""
+        """Removes the samples from before a time jump."""
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
     def set_transform(self, transform: Any, authority: str = "default_authority") -> None:
-        """Takes where a frame is at the time of the stamp."""
+        """Stores the transform of a frame at the time of its stamp."""
         super().set_transform(transform, authority)
         self._tell_waiting()
 
     def set_transform_static(self, transform: Any, authority: str = "default_authority") -> None:
-        """Takes where a frame always is."""
+        """Stores a transform that is valid at all times."""
         super().set_transform_static(transform, authority)
         self._tell_waiting()
 
-    # --- looking up ---
+    # --- look-ups ---
 
     def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
         """Returns the transform from `source_frame` into `target_frame`; waits for it up to `timeout`.
@@ -104,7 +105,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = None,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002 - as in tf2
     ) -> Any:
-        """Tells whether there is a transform over time, waiting for it up to `timeout`."""
+        """Returns whether there is a transform over time, after waiting up to `timeout`."""
         ways = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self._wait(lambda: self.can_transform_full_core(*ways)[0], timeout)
         result = self.can_transform_full_core(*ways)

@@ -1,4 +1,4 @@
-"""What every buffer can do with things that have a frame and a stamp."""
+"""The interface of buffers: transforms and converts objects that have a frame and a stamp."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = [
 
 
 class TypeException(Exception):  # noqa: N818 - its name in tf2
-    """Nobody said how this type is transformed or converted."""
+    """No function is registered for this type."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -33,7 +33,7 @@ class TypeException(Exception):  # noqa: N818 - its name in tf2
 
 
 class NotImplementedException(Exception):  # noqa: N818 - its name in tf2
-    """This buffer cannot look transforms up."""
+    """This buffer does not implement look-ups."""
 
     def __init__(self) -> None:
         self.errstr = "CanTransform or LookupTransform not implemented"
@@ -41,57 +41,57 @@ class NotImplementedException(Exception):  # noqa: N818 - its name in tf2
 
 
 class TransformRegistration:
-    """How things of a type are transformed: a function of the thing and a `TransformStamped`."""
+    """Registers the transform of a type: a function of the object and a `TransformStamped`."""
 
     _functions: ClassVar[dict[Any, Callable[[Any, Any], Any]]] = {}
 
     def add(self, key: Any, callback: Callable[[Any, Any], Any]) -> None:
-        """Says how things of the type `key` are transformed."""
+        """Registers the transform of the type `key`."""
         self._functions[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """Returns how things of a type are transformed.
+        """Returns the transform of a type.
 
         Raises:
-            TypeException: nobody said so.
+            TypeException: no transform is registered.
         """
         return _found(self._functions, key)
 
 
 class ConvertRegistration:
-    """How things of one type become things of another, directly or by way of a message."""
+    """Registers conversions between types, direct ones and those by way of a message."""
 
     _to_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
     _from_message: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
     _direct: ClassVar[dict[Any, Callable[[Any], Any]]] = {}
 
     def add_to_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Says how things of a type become a message."""
+        """Registers the conversion of a type to a message."""
         self._to_message[key] = callback
 
     def add_from_msg(self, key: Any, callback: Callable[[Any], Any]) -> None:
-        """Says how a message becomes a thing of a type."""
+        """Registers the conversion of a message to a type."""
         self._from_message[key] = callback
 
     def add_convert(self, key: tuple[Any, Any], callback: Callable[[Any], Any]) -> None:
-        """Says how things of the first type become things of the second."""
+        """Registers the conversion of the first type to the second."""
         self._direct[key] = callback
 
     def get_to_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Returns what `add_to_msg` was given."""
+        """Returns the function that `add_to_msg` registered."""
         return _found(self._to_message, key)
 
     def get_from_msg(self, key: Any) -> Callable[[Any], Any]:
-        """Returns what `add_from_msg` was given."""
+        """Returns the function that `add_from_msg` registered."""
         return _found(self._from_message, key)
 
     def get_convert(self, key: tuple[Any, Any]) -> Callable[[Any], Any]:
-        """Returns what `add_convert` was given."""
+        """Returns the function that `add_convert` registered."""
         return _found(self._direct, key)
 
 
 class BufferInterface:
-    """Transforms things; how transforms are looked up is left to `lookup_transform`."""
+    """Transforms objects; subclasses implement `lookup_transform`."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -99,7 +99,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Any = None, new_type: Any = None
     ) -> Any:
-        """Returns a thing with a header in another frame, at the time of its stamp.
+        """Returns an object with a header in another frame, at the time of its stamp.
 
         `tf2_geometry_msgs` must be imported for the types of `geometry_msgs`.
         """
@@ -117,7 +117,7 @@ class BufferInterface:
         timeout: Any = None,
         new_type: Any = None,
     ) -> Any:
-        """Returns a thing in another frame at another time, as if it stayed in `fixed_frame` in between."""
+        """Returns an object in another frame at another time; until then it is at rest in `fixed_frame`."""
         header = object_stamped.header
         wait = timeout or Duration()
         found = self.lookup_transform_full(
@@ -126,7 +126,7 @@ class BufferInterface:
         return self._transformed(object_stamped, found, new_type)
 
     def lookup_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
-        """Returns a transform; a buffer says how."""
+        """Returns a transform; implemented by the buffer."""
         raise NotImplementedException
 
     def lookup_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
@@ -138,11 +138,11 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = None,
     ) -> Any:
-        """Returns a transform over time; a buffer says how."""
+        """Returns a transform over time; implemented by the buffer."""
         raise NotImplementedException
 
     def can_transform(self, target_frame: str, source_frame: str, time: Any, timeout: Any = None) -> Any:
-        """Tells whether there is a transform; a buffer says how."""
+        """Returns whether there is a transform; implemented by the buffer."""
         raise NotImplementedException
 
     def can_transform_full(  # noqa: PLR0913, PLR0917 - as in tf2
@@ -154,7 +154,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = None,
     ) -> Any:
-        """Tells whether there is a transform over time; a buffer says how."""
+        """Returns whether there is a transform over time; implemented by the buffer."""
         raise NotImplementedException
 
     def _transformed(self, thing: Any, transform: Any, new_type: Any) -> Any:
@@ -163,16 +163,16 @@ class BufferInterface:
 
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802 - its name in tf2
-    """Gives a thing a header."""
+    """Adds a header to an object."""
     obj.header = Header(frame_id=frame_id, stamp=stamp)
     return obj
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """Returns a thing as one of another type; a copy if it is of that type already.
+    """Returns an object converted to another type; a copy if it has that type already.
 
     Raises:
-        TypeException: nobody said how.
+        TypeException: no conversion is registered.
     """
     registered = ConvertRegistration()
     direct = registered._direct.get((type(a), b_type))

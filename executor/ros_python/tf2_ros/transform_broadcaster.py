@@ -1,4 +1,4 @@
-"""`TransformBroadcaster`: says on `/tf` where frames are."""
+"""`TransformBroadcaster`: publishes transforms on `/tf`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`TransformListener`: fills a buffer with what is said on `/tf` and `/tf_static`."""
+"""`TransformListener`: fills a buffer from `/tf` and `/tf_static`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ DEPTH = 100
 
 
 class TransformListener:
-    """Hears transforms while its node is spun; with `spin_thread`, by a thread of its own."""
+    """Receives transforms while its node is spun; with `spin_thread`, on a thread of its own."""
 
     def __init__(
         self, buffer: Any, node: Any, *, spin_thread: bool = False, qos: Any = None, static_qos: Any = None
@@ -42,7 +42,7 @@ class TransformListener:
             self.dedicated_listener_thread.start()
 
     def unregister(self) -> None:
-        """Hears no more."""
+        """Ends both subscriptions."""
         listeners = getattr(self.buffer, "_listeners", [])
         if self in listeners:
             listeners.remove(self)
@@ -53,12 +53,12 @@ class TransformListener:
         self.node.destroy_subscription(self.tf_static_sub)
 
     def callback(self, data: Any) -> None:
-        """Takes what moves."""
+        """Stores transforms of `/tf`."""
         for transform in data.transforms:
             self.buffer.set_transform(transform, "default_authority")
 
     def static_callback(self, data: Any) -> None:
-        """Takes what is fixed."""
+        """Stores transforms of `/tf_static`."""
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, "default_authority")
 
@@ -66,11 +66,11 @@ class TransformListener:
 
     @property
     def _time_passes(self) -> bool:
-        """Whether more can come while somebody waits; not in lock-step, where the world waits too."""
+        """Whether messages can arrive during a wait; not in lock-step, where the world waits too."""
         return not getattr(self.node.executor, "holds_time", False)
 
     def _take(self) -> None:
-        """Takes what came, instead of the executor that cannot while a callback waits."""
+        """Takes messages in place of the executor, which is blocked while a callback waits."""
         if self._spins:
             return
         for subscription, take in ((self.tf_static_sub, self.static_callback), (self.tf_sub, self.callback)):

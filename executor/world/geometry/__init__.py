@@ -1,1 +1,1 @@
-"""Poses, meshes and what things look like: pure, without a physics engine."""
+"""Poses, meshes and visual shapes: pure, without a physics engine."""

@@ -1,4 +1,4 @@
-"""The parts of a person, with hinges, in the frame of a standing person who looks along x."""
+"""The parts of a person, with hinges, in the frame of a standing person who faces along x."""
 
 from __future__ import annotations
 

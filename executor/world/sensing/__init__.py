@@ -1,1 +1,1 @@
-"""What robots and cameras measure."""
+"""Measurements of robots and cameras."""

@@ -2,7 +2,7 @@ import { Center, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 
 interface WaitingProps {
-  /** Which text of `frame:waiting` says what is being waited for. */
+  /** The text of `frame:waiting` for this wait. */
   readonly reason: 'openingProject' | 'loadingViewer' | 'loadingEditor';
 }
 

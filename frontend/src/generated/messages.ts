@@ -214,7 +214,7 @@ export interface Tree {
   nodes: TreeNode[];
 }
 
-/** What one tick changed. */
+/** The changes of one tick. */
 export interface Tick {
   n: number;
   changed: [number, NodeStatus][];
@@ -268,7 +268,7 @@ export interface Finished {
   message: string;
 }
 
-/** How well the simulation keeps up, about once a second. */
+/** The load of the simulation, about once a second. */
 export interface Sim {
   real_time_factor: number;
   speed: number;

@@ -110,7 +110,7 @@ export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
   return preorder(diagram).filter((id) => wanted.has(id) && !covered(id));
 }
 
-/** What people call the node: its instance name, else the tree it stands for, else its type. */
+/** The displayed name of a node: its instance name, else the tree it stands for, else its type. */
 export function displayName(node: DiagramNode): string {
   return node.name ?? node.tree ?? node.type;
 }

@@ -88,7 +88,7 @@ function merge(older: Diagram, newer: Diagram, removed: ReadonlySet<NodeId>): Di
   return { ...newer, root, nodes, drafts: drafts.filter((id) => id !== root) };
 }
 
-/** What happened to the blocks between two states of a tree. */
+/** The changes of blocks between two states of a tree. */
 export function treeDifference(older: Diagram, newer: Diagram): TreeDifference {
   const changes = new Map<NodeId, NodeDifference>();
   const removed = new Set(Object.keys(older.nodes).filter((id) => !(id in newer.nodes)));

@@ -200,7 +200,7 @@ function kindFixes(
   }
 }
 
-/** What can be done about a finding at a press, the likeliest first. */
+/** The fixes of a finding, the most likely first. */
 export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabulary): Fix[] {
   const id = problem.node;
   if (id === null || !(id in diagram.nodes)) return [];

@@ -4,7 +4,7 @@ import type { Diagram, DiagramNode } from './diagram';
 /** Files by their paths in a project. */
 export type Sources = Readonly<Record<string, string>>;
 
-/** What bringing a behaviour into a project comes to. */
+/** The result of adding a behaviour to a project. */
 export interface Insertion {
   /** The tree to use, under the name that it has in the project. */
   readonly tree: string;

@@ -1,7 +1,7 @@
 import { childrenOf, isWithin, parentOf, type Diagram, type NodeId } from './diagram';
 import { specOf, wouldRecurse, type NodeSpec, type Vocabulary } from './vocabulary';
 
-/** What a new block is: a type and, of a `SubTree`, the tree. */
+/** The kind of a new block: a type and, of a `SubTree`, the tree. */
 export interface Kind {
   readonly type: string;
   readonly tree?: string;

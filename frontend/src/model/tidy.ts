@@ -41,7 +41,7 @@ interface Row {
   right: Side;
   /** The depth to which the row reaches. */
   end: number;
-  /** Who is outermost on the right, nearest first as one looks down: each with the depth it reaches. */
+  /** The outermost nodes on the right, from the top down: each with the depth it reaches. */
   readonly reach: { readonly index: number; readonly end: number }[];
   readonly middles: number[];
   /** What is given to those in between when a subtree is pushed away by one that is not its neighbour. */

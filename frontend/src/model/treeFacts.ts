@@ -1,7 +1,7 @@
 import { subtreeOf, type Diagram } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
 
-/** What the other trees of a project have to know of one. */
+/** The facts about a tree that the other trees of a project use. */
 export interface TreeFacts {
   /** Trees that it calls when it runs; those of drafts do not count. */
   readonly calls: ReadonlySet<string>;
@@ -48,7 +48,7 @@ export function treeFacts(diagram: Diagram): TreeFacts {
   return facts;
 }
 
-/** Whether a tree is to the others what it was. */
+/** Whether the facts of a tree are unchanged. */
 export function sameFacts(a: TreeFacts, b: TreeFacts): boolean {
   const isSamePort = (port: PortSpec, index: number): boolean =>
     JSON.stringify(port) === JSON.stringify(b.ports[index]);

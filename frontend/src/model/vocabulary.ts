@@ -4,7 +4,7 @@ import type { TreeFacts } from './treeFacts';
 
 export type Family = 'control' | 'decorator' | 'action' | 'condition' | 'subtree';
 
-/** What can be known about a type of node: of the catalogue, of the project's actions, or a subtree. */
+/** The description of a node type: from the catalogue, the project's actions, or a subtree. */
 export interface NodeSpec {
   readonly type: string;
   readonly family: Family;

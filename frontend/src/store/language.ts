@@ -22,5 +22,5 @@ interface LanguageData {
   readonly findings: Readonly<Record<string, readonly CodeFinding[]>>;
 }
 
-/** What is known of the help with Python; never saved, never undone. */
+/** The state of the language server; never saved, never undone. */
 export const useLanguageStore = create<LanguageData>(() => ({ state: { kind: 'off' }, findings: {} }));

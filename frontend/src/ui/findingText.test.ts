@@ -36,7 +36,7 @@ describe('findings of the server in Spanish', () => {
     }
   });
 
-  describe('are told', () => {
+  describe('are shown', () => {
     const unused = {
       code: 'BT0401',
       message: '“speed” is read by the port or script “x”, but nothing in the tree writes it.',

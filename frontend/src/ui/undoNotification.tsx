@@ -7,7 +7,7 @@ interface UndoNotification {
   undo: () => void;
 }
 
-/** Says what was done, and offers to take it back for as long as the note is shown. */
+/** Reports what was done, and offers to undo it while the notification is shown. */
 export function undoNotification({ message, undoLabel, undo }: UndoNotification): void {
   const id = notifications.show({
     autoClose: 10_000,

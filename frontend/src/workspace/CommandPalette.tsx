@@ -12,7 +12,7 @@ import classes from './commandPalette.module.css';
 import type { DocumentTab } from './documents';
 import { openTab, useTabs } from './tabs';
 
-/** What is wanted most often comes first. */
+/** The most frequent ones come first. */
 const GROUPS: CommandGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
 
 interface Command {

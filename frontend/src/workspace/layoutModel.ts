@@ -43,7 +43,7 @@ const LOOKING: readonly (readonly PanelId[])[] = [
 export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
 
-/** Panels beside which another feels at home, the likest first. */
+/** The panels beside which another belongs, the most similar first. */
 export const companionsOf = (id: PanelId): readonly PanelId[] => [
   ...(LOOKING.find((kind) => kind.includes(id)) ?? []).filter((other) => other !== id),
   ...NEIGHBOURS,

@@ -28,7 +28,7 @@ class Act(py_trees.behaviour.Behaviour):
 
 
 def action(body):
-    """The source of an action with the given methods."""
+    """Returns the source of an action with the given methods."""
     return HEAD + "".join(f"    {line}\n" if line else "\n" for line in body.strip("\n").split("\n"))
 
 
@@ -52,7 +52,7 @@ def run_data(app_zip, **more):
 
 @contextlib.asynccontextmanager
 async def session(*, limits=None, mute_after_s=float("inf")):
-    """A session with a fake world and the real application."""
+    """Opens a session with a fake world and the real application."""
     domain_id = free_domain_id()
     programs = session_programs(domain_id)
     world = (sys.executable, str(ROOT / "tests/fakes/clock_world.py"), "--mute-after", str(mute_after_s))
@@ -135,10 +135,10 @@ class Act(py_trees.behaviour.Behaviour):
         assert await client.ask("run", run_data(app(source, tree))) == "ack"
         await client.event("blackboard", lambda d: any(e["key"] == "count" for e in d["entries"]))
         assert await client.ask("pause") == "ack"
-        await asyncio.sleep(0.3)
+        # The acknowledgement follows the last tick: both come on the channel of the application.
         at = len(client.events)
         before = client.named("tick")[-1]["n"]
-        await asyncio.sleep(0.3)
+        await asyncio.sleep(0.3)  # the time is the test: several periods, in each of which a tick would come
         assert client.named("tick", after=at) == []
         assert await client.ask("step") == "ack"
         assert (await client.event("tick", after=at))["data"]["n"] == before + 1

@@ -1,4 +1,4 @@
-"""What actions written for other hosts take for granted: rclpy's own context, `INVALID`, stubs."""
+"""Actions written for other hosts use rclpy's own context, `INVALID` and stubs."""
 
 from __future__ import annotations
 

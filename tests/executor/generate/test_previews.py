@@ -1,4 +1,4 @@
-"""The chooser's pictures: each universe and robot has one, of the right size, that shows something."""
+"""Each universe and robot has a picture for the chooser, of the right size and not empty."""
 
 from pathlib import Path
 
@@ -40,7 +40,7 @@ def test_a_committed_picture_is_what_the_command_draws(
         cv2.imread(str(path), cv2.IMREAD_COLOR).astype(int)
         for path in (tmp_path / "football.webp", universe_preview("football"))
     )
-    assert np.abs(drawn - committed).mean() < 6  # another GPU may shade a little differently
+    assert np.abs(drawn - committed).mean() < 6  # another GPU may shade slightly differently
 
 
 def test_a_robots_picture_has_the_robot_in_it() -> None:

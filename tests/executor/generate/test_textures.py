@@ -1,4 +1,4 @@
-"""The textures of the universe editor are those that the world paints with."""
+"""The editor's textures equal those of the world."""
 
 import json
 from pathlib import Path
@@ -16,7 +16,7 @@ COMMITTED = textures.FOLDER
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What the command writes now."""
+    """Returns the files that the command writes."""
     folder = tmp_path_factory.mktemp("generated") / "textures"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(textures, "FOLDER", folder)
@@ -41,7 +41,7 @@ def test_the_committed_files_are_those_that_the_command_writes(written: Path) ->
 def test_a_committed_picture_is_what_the_command_draws(written: Path, name: str) -> None:
     drawn, committed = pixels(written / f"{name}.jpg"), pixels(COMMITTED / f"{name}.jpg")
     assert drawn.shape == committed.shape
-    assert np.abs(drawn - committed).mean() < 1  # another libjpeg may round a little differently
+    assert np.abs(drawn - committed).mean() < 1  # another libjpeg may round slightly differently
     assert drawn.std() > 3, "it shows something"
 
 

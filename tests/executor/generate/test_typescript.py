@@ -16,8 +16,8 @@ def test_every_message_has_its_interface():
 
 def test_defaults_are_optional_only_where_they_may_be_absent():
     text = typescript.generate()
-    assert "  max_hz?: number;" in text  # a command: the client may leave it out
-    assert "  hint: string;" in text  # an event: the server always says it
+    assert "  max_hz?: number;" in text  # a command: the client may omit it
+    assert "  hint: string;" in text  # an event: the server always sends it
     assert "  mesh?: string;" in text  # omit_defaults
 
 

@@ -1,4 +1,4 @@
-"""Runs projects in lock-step, as `bt-studio run` does: named on standard input, answered with JSON."""
+"""Runs projects in lock-step, as `bt-studio run` does: reads their names from stdin and answers with JSON."""
 
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""Projects of JdeRobot's kind: imported, in the universe that is proposed, they drive."""
+"""Imported projects in JdeRobot's style drive in the proposed universe."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def studio(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 
 def drive(folder: Path, write: Callable[[Path], Path], *how: object) -> tuple[dict[str, Any], str]:
-    """Imports a project and runs it as it is; returns its report and what was said."""
+    """Imports a project and runs it unchanged; returns its report and its output."""
     project, report = folder / "imported", folder / "report.json"
     done = studio("import", write(folder / "theirs"), "-o", project)
     assert done.returncode == 0, done.stderr

@@ -1,4 +1,4 @@
-"""The examples in their worlds, by simulation; and what a run reports."""
+"""The examples in their simulated worlds, and the report of a run."""
 
 import json
 import os
@@ -51,7 +51,7 @@ def test_bump_and_go_travels_turns_and_never_collides(bump_and_go: dict[str, Any
 
 
 def count_turns(headings: list[float]) -> int:
-    """Counts stretches in which the heading keeps changing."""
+    """Counts the periods in which the heading keeps changing."""
     import math
 
     moving = [abs(math.remainder(b - a, 2 * math.pi)) > 0.02 for a, b in pairwise(headings)]

@@ -1,4 +1,4 @@
-"""What actions do with rclpy and Python in lock-step: as in a session, or a fault that says so."""
+"""Actions that use rclpy and Python in lock-step behave as in a session, or cause a fault with a reason."""
 
 from __future__ import annotations
 
@@ -57,18 +57,18 @@ def project(folder: Path, body: str, **files: str) -> Path:
 
 
 def run(folder: Path, duration_s: float = 3) -> tuple[int, dict[str, Any], str]:
-    """Runs in lock-step in the process that runs all of these: each must leave it clean for the next."""
+    """Runs a project in the process that runs all of these: each must leave it clean for the next."""
     return RUNNER.run(folder, duration_s)
 
 
 class Runner:
-    """A process that runs one project after the other."""
+    """A process that runs one project after another."""
 
     def __init__(self) -> None:
         self._process: subprocess.Popen[str] | None = None
 
     def run(self, folder: Path, duration_s: float) -> tuple[int, dict[str, Any], str]:
-        """Returns exit status, report and all that was said."""
+        """Returns exit status, report and all output."""
         if self._process is None:
             command = [sys.executable, str(Path(__file__).with_name("lockstep_runs.py"))]
             environment = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -192,7 +192,7 @@ def update(self):
     assert status == 0, said
     assert report["root_status"] == "SUCCESS"
     assert "heard 1 True True False True" in said
-    # Simulated time passed while the action waited: it would have in real time, too.
+    # Simulated time passed while the action waited, as real time would.
     assert 0.25 <= report["sim_time_s"] < 3
 
 
@@ -234,7 +234,7 @@ def test_shutting_ros_down_is_a_fault(tmp_path: Path, call: str, sentence: str) 
     assert report["errors"][0]["line"] == 18
 
 
-def test_waiting_for_ever_ends_with_the_run(tmp_path: Path) -> None:
+def test_waiting_without_end_ends_with_the_run(tmp_path: Path) -> None:
     body = SPEAK + "def update(self):\n    rclpy.spin(self.node)\n"
     status, report, said = run(project(tmp_path, body))
     assert status == 1

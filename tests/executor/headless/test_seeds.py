@@ -1,4 +1,4 @@
-"""`run --seed`: what the seed reaches, in processes of their own whose texts would hash differently."""
+"""`run --seed` determines all random values, also in processes with different hash seeds."""
 
 import json
 import os
@@ -70,7 +70,7 @@ def project(folder: Path, name: str, source: str, robot: str = "turtle2") -> Pat
 
 
 def run(folder: Path, seed: int, hash_seed: str) -> tuple[str, dict[str, Any]]:
-    """What the actions printed, with the last line apart from the times, and the report without them."""
+    """Returns the output of the actions, with the last line separate, and the report without real times."""
     report = folder.with_suffix(f".{seed}.json")
     command = [str(Path(sys.executable).with_name("bt-studio")), "run", str(folder), "--lockstep"]
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""The page that shows a run: who may look, what comes, and what goes back."""
+"""The page that shows a run: access, pictures, and the viewer's camera."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Launch files: what they ask for, and what is wrong with them."""
+"""Launch files: the nodes that they request, and their errors."""
 
 from __future__ import annotations
 

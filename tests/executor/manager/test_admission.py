@@ -1,4 +1,4 @@
-"""Who may drive a manager: the token, hosts and origins, by the rules and over real sockets."""
+"""Access to a manager by token, host and origin: the rules alone, and over real sockets."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ async def test_without_a_token_it_listens_on_loopback_alone():
 
 @contextlib.asynccontextmanager
 async def typed(*arguments, **variables):
-    """`python -m executor.manager` as a user types it."""
+    """Runs `python -m executor.manager` as a user types it."""
     process = await asyncio.create_subprocess_exec(
         *(sys.executable, "-m", "executor.manager", "--port", "0", *arguments),
         stderr=asyncio.subprocess.PIPE,

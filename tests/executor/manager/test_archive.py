@@ -1,4 +1,4 @@
-"""Archives from outside, hostile in every known way."""
+"""Untrusted archives, hostile in every known way."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_a_directory_of_millions_is_refused_before_it_is_read(tmp_path):
 
 
 def test_overlapping_entries_count_by_their_unpacked_size(tmp_path, monkeypatch):
-    """A bomb of the kind in which all entries of the directory point at the same data."""
+    """In such a bomb all entries of the directory refer to the same data."""
     monkeypatch.setattr(archive, "MAX_TOTAL_BYTES", 50_000)
     whole = base64.b64decode(packed(("aaaa", b"0" * 20_000)))
     start, end = whole.rfind(b"PK\1\2"), whole.rfind(b"PK\5\6")

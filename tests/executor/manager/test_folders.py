@@ -1,4 +1,4 @@
-"""Where apps are unpacked, also when an earlier run has filled the disk."""
+"""The folders of unpacked applications, also after an earlier run has filled the disk."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.executor.session_client import app_zip
 
 @pytest.fixture
 def disk(tmp_path, monkeypatch):
-    """A place for temporary files that has no room while `hoard` is there."""
+    """Yields a folder for temporary files whose disk is full while `hoard` exists."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     (tmp_path / "hoard").mkdir()
     (tmp_path / "hoard" / "big").write_text("…")

@@ -1,4 +1,4 @@
-"""A real manager that is reached by a socket which the gate handed to it."""
+"""A real manager that listens at a socket from the gate."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from tests.executor.session_client import TOKEN, manager_process
 
 
 class Gate:
-    """A gate, and the keeper's side of it."""
+    """A gate, with the keeper's end of it."""
 
     def __init__(self, folder):
         self._folder = folder

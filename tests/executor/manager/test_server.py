@@ -1,4 +1,4 @@
-"""The sockets of a session, with fake children."""
+"""The sockets of a session with fake children."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ async def test_a_bad_frame_gets_an_error_and_the_socket_stays(frame, code):
 
 
 def answered(client):
-    """How many replies came; those counted are dropped, else a long test counts them again and again."""
+    """Counts new replies and drops them: a long test must not count them repeatedly."""
     replies = sum(event["command"] in {"ack", "error"} for event in client.events)
     client.events.clear()
     client.replies = getattr(client, "replies", 0) + replies

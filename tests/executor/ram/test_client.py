@@ -1,4 +1,4 @@
-"""A whole session driven by JdeRobot's own npm client, with the real world and the real application."""
+"""A whole session driven by JdeRobot's own npm client, with the real world and application."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ class Raw:
         self.seen = []
 
     async def ask(self, command, data=None):
-        """Sends a command; returns what came until it was answered, shortened."""
+        """Sends a command; returns the messages up to its answer, shortened."""
         self.count += 1
         await self.socket.send(json.dumps({"id": f"r{self.count}", "command": command, "data": data}))
         came = []
@@ -162,7 +162,7 @@ async def test_it_listens_on_loopback_alone():
     await it.close()
 
 
-async def test_an_application_that_died_is_told_with_its_state():
+async def test_the_death_of_an_application_is_reported_with_its_state():
     async with ram(application="dies_when_started") as (_, raw):
         await raw.ask("connect")
         await raw.ask("launch_world", {"name": "maze", "scene": {"name": "x", "type": None}})

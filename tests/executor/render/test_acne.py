@@ -1,4 +1,4 @@
-"""A lit flat face that nothing shades has one shade: the shadow map does not show on what casts into it."""
+"""A lit flat face without anything above it has one shade: the shadow map does not shade its own surfaces."""
 
 import math
 
@@ -18,7 +18,7 @@ SIZE = (480, 360)
 
 
 def scene_of(sun: tuple[float, float, float], wide_m: float) -> Scene:
-    """A wall, and two small things so far apart that the shadow map covers that much."""
+    """Returns a wall, and two small objects so far apart that the shadow map covers that range."""
     post = Shape("box", [0.02, 0.02, 0.02], IDENTITY, [0.5, 0.5, 0.5, 1])
     wall = Shape("box", WALL, IDENTITY, [0.8, 0.5, 0.3, 1])
     objects = [
@@ -43,7 +43,7 @@ def renderer() -> GlRenderer:
 
 
 def shades(renderer: GlRenderer, scene: Scene, poses: NDArray[np.float32], view: Viewpoint) -> list[float]:
-    """Returns how far the brightness of the pixels of each lit face of the wall is apart."""
+    """Returns the spread of the brightness of the pixels of each lit face of the wall."""
     picture = renderer.draw(poses, view, *SIZE, smooth=False).astype(int)
     rows, metres = renderer.segmentation(poses, view, *SIZE), renderer.depth(poses, view, *SIZE)
     place = matrices(poses)[0].astype(float)
@@ -87,7 +87,7 @@ def test_a_wall_does_not_shade_itself(
 
 
 def test_the_wall_throws_its_shadow_from_its_foot_on(renderer: GlRenderer) -> None:
-    """No gap between a thing and its shadow, through which it would seem to float."""
+    """There is no gap between an object and its shadow, which would make it seem to float."""
     renderer.load(scene_of(SUNS[0], 14.0))
     poses = poses_of(14.0, 0.0)
     view = look_at((3.0, 0.0, 2.0), (0.05, 0.0, 0.0), 0.6)

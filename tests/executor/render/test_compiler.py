@@ -1,4 +1,4 @@
-"""The compiler of shaders leaves the memory when its work is done, and comes back when it is needed."""
+"""The shader compiler leaves the memory when its work is done, and is loaded again on demand."""
 
 import re
 from pathlib import Path
@@ -16,7 +16,7 @@ POSES = np.array([[0, 0, 0.5, 0, 0, 0, 1]], np.float32)
 
 
 def code_kb() -> int:
-    """How much of the compiler's code is in this process's memory."""
+    """Returns how much of the compiler's code is in this process's memory, in KB."""
     total, counts = 0, False
     for line in Path("/proc/self/smaps").read_text().splitlines():
         if re.match(r"^[0-9a-f]+-[0-9a-f]+ ", line):
@@ -43,7 +43,7 @@ def test_it_goes_when_a_scene_has_settled_and_returns_for_the_next() -> None:
         assert busy > 5_000
         assert code_kb() < busy / 4
     renderer.close()
-    again = GlRenderer()  # compiles all of it once more
+    again = GlRenderer()  # compiles all of it again
     again.load(scene())
     np.testing.assert_array_equal(again.draw(POSES, VIEW, 160, 120), first)
     again.close()

@@ -1,4 +1,4 @@
-"""Depth in metres and the object behind each pixel, the same from both renderers."""
+"""Depth in m and the object of each pixel, equal from both renderers."""
 
 import math
 from collections.abc import Iterator
@@ -41,7 +41,7 @@ def test_depth_is_measured_along_the_axis(renderer: Renderer) -> None:
     assert depth.shape == (240, 320)
     assert depth.dtype == np.float32
     assert depth[120, 160] == pytest.approx(4.0, abs=0.01)
-    # The face is flat: its depth does not grow towards the sides, as a distance along rays would.
+    # The face is flat: its depth does not grow towards the sides, unlike the distance along the rays.
     assert depth[120, 105] == pytest.approx(4.0, abs=0.01)
     assert np.isposinf(depth[0]).all()
 

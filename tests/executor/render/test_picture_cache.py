@@ -1,4 +1,4 @@
-"""A view that is drawn again in parts is the picture that drawing all of it gives."""
+"""A view that is redrawn in parts equals a full redraw."""
 
 import math
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ def renderer() -> Iterator[GlRenderer]:
 
 @pytest.fixture
 def parts(monkeypatch: pytest.MonkeyPatch) -> list[list[Rectangle] | None]:
-    """What each picture was drawn in; None is the whole."""
+    """Returns the redrawn parts of each picture; None is a full redraw."""
     seen: list[list[Rectangle] | None] = []
     ask = CachedPicture.outdated
 
@@ -44,7 +44,7 @@ def parts(monkeypatch: pytest.MonkeyPatch) -> list[list[Rectangle] | None]:
 
 
 def moved(poses: Poses, rows: NDArray[np.intp], generator: np.random.Generator) -> Poses:
-    """Carries things about at random."""
+    """Moves objects at random."""
     after = poses.copy()
     after[rows, :2] += generator.uniform(-0.3, 0.3, (len(rows), 2)).astype(np.float32)
     after[rows, 2] = np.maximum(after[rows, 2] + generator.uniform(-0.1, 0.2, len(rows)), 0.05)
@@ -67,7 +67,7 @@ def test_parts_drawn_again_are_as_if_all_had_been_drawn(
     for turn in range(14):
         if turn == 7:
             view = look_at((eye[0] * 0.6, eye[1] * 0.5, 2.5), target, 1.05)
-        # What stands in the universe for good is carried about too, as a hand may do.
+        # Static objects of the universe move too, as when a user drags them.
         rows = generator.choice(len(poses), size=int(generator.integers(1, 4)), replace=False)
         poses = moved(poses, rows, generator)
         before = renderer.redraw(poses, view, *SIZE).copy()

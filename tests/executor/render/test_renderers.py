@@ -1,4 +1,4 @@
-"""Both renderers draw the same scene alike, and put things where the lens says."""
+"""Both renderers draw a scene alike, and project points as the camera model requires."""
 
 import math
 from collections.abc import Iterator

@@ -84,5 +84,5 @@ def test_redrawn_parts_look_as_if_all_had_been_drawn() -> None:
     expected = fresh.draw(ways[-1], VIEW, 320, 240)
     moving.close()
     fresh.close()
-    # The maps may lie a little apart, so edges of shadows may differ by a pixel.
+    # The maps may differ by a fraction of a texel, so edges of shadows may differ by a pixel.
     assert np.mean(np.abs(picture.astype(int) - expected).max(axis=2) > 30) == pytest.approx(0.0, abs=0.005)

@@ -1,4 +1,4 @@
-"""Smoothing gives a staircase the slope of the edge that it came from, and leaves the rest alone."""
+"""Smoothing gives a staircase the slope of its original edge, and changes nothing else."""
 
 import cv2
 import numpy as np
@@ -8,7 +8,7 @@ from executor.render.smoothing import smoothed
 
 
 def half_plane(slope: float, *, finer: int = 1) -> NDArray[np.uint8]:
-    """White below a line through the picture's middle, drawn `finer` times as large."""
+    """Returns a picture that is white below a line through its middle, drawn `finer` times as large."""
     height, width = 60 * finer, 80 * finer
     y, x = np.mgrid[:height, :width] + 0.5
     white = y - height / 2 > slope * (x - width / 2)

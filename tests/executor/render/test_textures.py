@@ -1,4 +1,4 @@
-"""Pictures on things: where they lie, what both renderers make of them, and which files are refused."""
+"""Textures: their position on objects, in both renderers, and the files that are refused."""
 
 import math
 import struct
@@ -42,7 +42,7 @@ def world_of(models: str, assets: Path | None = None, ground: str = "{}") -> Bul
 
 
 def shot(renderer: Renderer, world: BulletWorld) -> NDArray[np.uint8]:
-    """Looks at the wall's face, at 100 pixels a metre."""
+    """Draws the wall's face at 100 pixels a metre."""
     renderer.load(world.scene)
     view = look_at((0, -1, 1), (0, 3, 1), 2 * math.atan(1.5 / 3.9))
     return renderer.draw(world.poses(), view, 300, 160, smooth=False)
@@ -53,7 +53,7 @@ def test_a_checkered_wall_changes_where_it_must(renderers: tuple[Renderer, Rende
     picture = shot(renderers[0], world)
     row = picture[80 - 25, :, 0].astype(int) > 128  # a quarter of a metre above the middle
     edges = np.flatnonzero(np.diff(row)) + 1
-    # The wall is seen from x = -1.5 to 1.5; its corner is at -2, and each field is half a metre wide.
+    # The wall is visible from x = -1.5 to 1.5; its corner is at -2, and each square is half a metre wide.
     assert edges == pytest.approx([50, 100, 150, 200, 250], abs=1.5)
     upper, lower = picture[80 - 25, 25, 0], picture[80 + 25, 25, 0]
     assert abs(int(upper) - int(lower)) > 80

@@ -1,4 +1,4 @@
-"""A user's own robot: meshes, xacro, sensors placed by config; what is wrong is said with file and line."""
+"""A user's own robot: meshes, xacro, sensors placed by the configuration; errors have file and line."""
 
 import struct
 from pathlib import Path
@@ -66,7 +66,7 @@ FACES = [
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
-    """A project with a robot `cart` whose body is an OBJ and whose wheels are STL, described in xacro."""
+    """Returns a project with a robot `cart`: the body is an OBJ, the wheels are STL, described in xacro."""
     folder = tmp_path / "robots" / "cart"
     (folder / "meshes").mkdir(parents=True)
     (folder / "robot.yaml").write_text(YAML.format(urdf="cart.urdf.xacro"))
@@ -92,7 +92,7 @@ def test_it_drives_is_seen_and_measures(project: Path) -> None:
     assert abs(y) < 0.005
     lidar = robot.config.lidars[0]
     ranges = robot.scan(lidar).ranges
-    assert ranges[89:91] == pytest.approx(1.9 - x, abs=0.02)  # the middle of a half circle looks ahead
+    assert ranges[89:91] == pytest.approx(1.9 - x, abs=0.02)  # the middle of a half circle is straight ahead
     assert np.isinf(ranges[0])
     assert set(world.scene.meshes) == {"cart/meshes/body.obj", "cart/package://cart/meshes/wheel.stl"}
     meshes = [shape.mesh for o in world.scene.objects for shape in o.shapes if shape.shape == "mesh"]

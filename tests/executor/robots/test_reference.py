@@ -1,4 +1,4 @@
-"""The schema of `robot.yaml`, as it is committed, and the template that the editor makes robots of."""
+"""The committed schema of `robot.yaml`, and the editor's template for robots."""
 
 from __future__ import annotations
 

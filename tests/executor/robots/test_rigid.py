@@ -1,4 +1,4 @@
-"""Merged links are the same bodies: masses by points, and by what Bullet makes of both."""
+"""Merged links have the same dynamics: compared by point masses, and in Bullet."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ CART = """<robot name="cart">
 
 
 def _inertial_of(cloud: list[tuple[float, float, float, float]], pose: Pose) -> Inertial:
-    """Of points in a frame at a pose."""
+    """Returns the inertia of points in a frame at a pose."""
     masses = np.array([mass for *_, mass in cloud])
     points = np.array([point for *point, _ in cloud])
     center = masses @ points / masses.sum()
@@ -121,7 +121,7 @@ def bullet() -> Iterator[Bullet]:
 
 
 def test_bullet_sees_one_body_as_it_sees_its_parts(bullet: Bullet) -> None:
-    """Hung up by nothing and pushed at the arm, both turn and drift alike."""
+    """Without gravity, and pushed at the arm, both rotate and move alike."""
     ends = []
     for apart in ((), ("mast", "caster")):
         with physical_urdf(CART, {}, apart) as path:

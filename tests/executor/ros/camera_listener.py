@@ -1,4 +1,4 @@
-"""A plain rclpy program in a process of its own: counts pictures, and says what it heard as JSON."""
+"""A plain rclpy program in a process of its own: counts pictures, and reports them as JSON."""
 
 import json
 import sys
@@ -14,7 +14,7 @@ LIMIT_S = 180.0
 
 
 class Listener(Node):
-    """Hears the first camera and the LIDAR."""
+    """Subscribes to the first camera and the LIDAR."""
 
     def __init__(self) -> None:
         super().__init__("listener")

@@ -7,17 +7,17 @@ import pytest
 if TYPE_CHECKING:
     from rclpy.context import Context
 
-DOMAIN_ID = 221  # sessions take theirs from below
+DOMAIN_ID = 221  # sessions use lower numbers
 
 with warnings.catch_warnings():
-    # rclpy's parser takes a module that Python 3.11 calls deprecated; it is loaded with the first node.
+    # rclpy's parser uses a module that Python 3.11 deprecates; the first node loads it.
     warnings.simplefilter("ignore", DeprecationWarning)
     import lark  # noqa: F401
 
 
 @pytest.fixture
 def context() -> Iterator["Context"]:
-    """An rclpy context of its own."""
+    """Yields an rclpy context of its own."""
     import rclpy
     from rclpy.context import Context
 

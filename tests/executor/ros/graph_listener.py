@@ -1,4 +1,4 @@
-"""A plain rclpy program in a process of its own: hears the world's topics, and says what it heard as JSON."""
+"""A plain rclpy program in a process of its own: receives the world's topics, and reports them as JSON."""
 
 import json
 import sys
@@ -17,7 +17,7 @@ LIMIT_S = 60.0
 
 
 class Listener(Node):
-    """Subscribes to what it finds, with the type and the reliability that the graph declares."""
+    """Subscribes to each topic, with the type and the reliability that the graph declares."""
 
     def __init__(self) -> None:
         super().__init__("listener")

@@ -43,7 +43,7 @@ def own_robot(folder: Path, root: str, z: float, more: str = "") -> Any:
 
 
 def frames_of(config: Any) -> dict[str, tuple[str, float]]:
-    """Parent and height by child, with what odometry places."""
+    """Returns parent and height by child, including the frames of odometry."""
     found = {base_frames.odometry_frame(config): ("odom", 0.0)}
     for each in base_frames.fixed_transforms(config):
         found[each.child_frame_id] = (each.header.frame_id, each.transform.translation.z)
@@ -81,7 +81,7 @@ def test_a_footprint_below_the_root_keeps_its_one_parent(tmp_path: Path) -> None
 
 
 def test_the_covariance_is_that_of_many_runs() -> None:
-    """The same way, many times with other noise: how far the believed poses scatter."""
+    """The same path, many times with different noise: the scatter of the estimated poses."""
     config = load_robot("burger").drive.model_copy(update={"slip_noise": 0.01})
     ends, told = [], None
     for seed in range(600):

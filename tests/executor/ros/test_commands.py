@@ -1,4 +1,4 @@
-"""What robots take on `/cmd_vel`: Twist, TwistStamped, or both; from other participants and their own."""
+"""Robots accept Twist, TwistStamped, or both on `/cmd_vel`, from this participant and from others."""
 
 import time
 from collections.abc import Iterator
@@ -34,7 +34,7 @@ def world() -> Iterator[BulletWorld]:
 
 @pytest.fixture
 def outside() -> Iterator[Context]:
-    """The participant of another process, as far as the middleware is concerned."""
+    """Yields the context of a second participant, which stands for another process."""
     made = Context()
     rclpy.init(context=made, domain_id=DOMAIN_ID)
     yield made
@@ -50,7 +50,7 @@ def stamped(linear: float, at_s: float = 0.0) -> TwistStamped:
 
 
 def drive(world: BulletWorld, node: WorldNode, publisher: Any, message: Any, until_m: float) -> float:
-    """Publishes until the robot has driven so far; returns how far it came."""
+    """Publishes until the robot has driven that distance; returns the distance."""
     end_s = time.monotonic() + WAIT_S
     while world.robots[0].distance_m < until_m and time.monotonic() < end_s:
         publisher.publish(message)
@@ -125,7 +125,7 @@ def test_a_command_is_valid_from_its_stamp(
 def test_a_stamped_command_ends_with_its_timeout_from_the_stamp(world: BulletWorld) -> None:
     robot = world.robots[0]
     world.step(240)
-    robot.command(0.2, 0.0, world.time_s - 0.5)  # it holds for 0.1 s more
+    robot.command(0.2, 0.0, world.time_s - 0.5)  # valid for another 0.1 s
     world.step(24)
     assert robot.odometry.linear > 0.01
     world.step(240)
@@ -135,7 +135,7 @@ def test_a_stamped_command_ends_with_its_timeout_from_the_stamp(world: BulletWor
 def test_in_one_participant_the_robot_uses_the_type_of_the_application(
     world: BulletWorld, context: Context
 ) -> None:
-    """As in lock-step: a participant holds one type for a topic, and the first command counts."""
+    """As in lock-step: a participant supports one type for a topic, and the first command counts."""
     node, application = WorldNode(world, context), Node("application", context=context)
     undo = share_commands(node, context)
     for kind, message in ((TwistStamped, stamped(0.2)), (Twist, stamped(0.2).twist)):

@@ -1,4 +1,4 @@
-"""Another process with plain rclpy hears every picture that is published: the settings of Fast DDS work."""
+"""Another process with plain rclpy receives every published picture: the settings of Fast DDS work."""
 
 import json
 import math
@@ -18,8 +18,8 @@ from tests.budget import count
 ROOT = Path(__file__).parents[3]
 DOMAIN_ID = 222
 PICTURES = count("camera_delivery")
-# A slow speed: what is tested is that nothing is lost, not how fast this machine is today. The full count is
-# meant for a quiet one.
+# A slow speed: the test is that nothing is lost, whatever the speed of this machine. The full count needs
+# an idle machine.
 SPEED = 0.25 if PICTURES < 100 else 1.0
 
 
@@ -56,7 +56,7 @@ def test_no_picture_is_lost_between_processes() -> None:
         channel.close()
     stamps = said["stamps"]
     assert len(stamps) == PICTURES
-    # A machine too slow even for this draws fewer pictures, and says so; what it draws must arrive.
+    # An even slower machine draws fewer pictures, and reports that; those that it draws must arrive.
     gaps = {round((b - a) * 15) for a, b in pairwise(stamps)}
     assert gaps <= set(range(1, math.ceil(1 / share) + 1))
     assert said["scans"] > 0
@@ -65,7 +65,7 @@ def test_no_picture_is_lost_between_processes() -> None:
 
 
 def smallest_share(channel: Channel[object, object]) -> float:
-    """Of their rates at which cameras drew at worst."""
+    """Returns the smallest share of their rates at which the cameras drew."""
     shares = [1.0]
     while (message := channel.receive(0)) is not None:
         if message["type"] == "sim":

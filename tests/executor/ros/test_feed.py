@@ -4,7 +4,7 @@ from executor.ros.feed import Feed, Feeds
 
 
 class Publisher:
-    """Counts what it is given; `listeners` says how many hear it."""
+    """Counts its messages; `listeners` is the number of its subscribers."""
 
     def __init__(self, listeners: int) -> None:
         self.listeners = listeners

@@ -1,4 +1,4 @@
-"""ROS truth: another process with plain rclpy sees each topic with its declared type, QoS, frame and rate."""
+"""Another process with plain rclpy sees each topic with its declared type, QoS, frame and rate."""
 
 import json
 import os
@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[3]
 DOMAIN_ID = 223
 HEARD_S = 3.0  # of simulated time
 
-# topic: type, reliable, frame, rate; without the pictures, which test_delivery counts.
+# topic: type, reliable, frame, rate; pictures are left out, since test_delivery counts them
 TOPICS: dict[str, tuple[str, str | None, float]] = {
     "/clock": ("rosgraph_msgs/msg/Clock", None, 60),
     "/odom": ("nav_msgs/msg/Odometry", "odom", 30),
@@ -48,7 +48,7 @@ robots:
 
 
 def least_camera_share(channel: Channel[Any, Any]) -> float:
-    """The least share of their rates at which cameras drew, by the world's own word: they yield to time."""
+    """Returns the smallest share of their rates at which cameras drew: they slow down first."""
     shares = [1.0]
     while message := channel.receive(0):
         if message["type"] == "sim":
@@ -58,7 +58,7 @@ def least_camera_share(channel: Channel[Any, Any]) -> float:
 
 @pytest.fixture(scope="module")
 def heard() -> Iterator[dict[str, Any]]:
-    """What a listener in a process of its own heard of a world in another."""
+    """Returns the messages that a listener in another process received from a world in a third one."""
     environment = {**os.environ, **ros_environment(DOMAIN_ID), "PYTHONPATH": str(ROOT)}
     ours, theirs = socket_pair()
     world = subprocess.Popen(
@@ -95,7 +95,7 @@ def heard() -> Iterator[dict[str, Any]]:
 @pytest.mark.parametrize("topic", TOPICS)
 def test_a_topic_is_as_declared(heard: dict[str, Any], topic: str) -> None:
     kind, frame, rate = TOPICS[topic]
-    assert heard["seen"][topic] == {"type": kind, "reliable": True}  # which matches both kinds of subscribers
+    assert heard["seen"][topic] == {"type": kind, "reliable": True}  # it matches both kinds of subscribers
     if frame is not None:
         assert heard["frames"][topic] == frame
     stamps = heard["stamps"][topic]

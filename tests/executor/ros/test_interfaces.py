@@ -1,4 +1,4 @@
-"""Message packages of which there is no wheel: what they define, that they work, and what is said without."""
+"""Message packages without a wheel: their definitions, their use, and the message when they are missing."""
 
 import importlib
 import math

@@ -51,7 +51,7 @@ def test_best_effort_published_and_reliable_requested(graph: Any) -> None:
     mismatches.look()
     world.create_subscription(LaserScan, "/mine", print, 10)
     mismatches.look()
-    assert len(told) == 2  # it was gone meanwhile: another run, say
+    assert len(told) == 2  # it was gone meanwhile, as after another run
 
 
 def test_topics_of_the_world_match_both_kinds_of_subscribers(context: Context) -> None:
@@ -84,7 +84,7 @@ def test_topics_of_the_world_match_both_kinds_of_subscribers(context: Context) -
 
 
 class End:
-    """An end as the graph tells of it: in one process a topic has one type only."""
+    """An end of a topic in the graph: within one process a topic has only one type."""
 
     def __init__(self, node: str, kind: str) -> None:
         from rclpy.qos import QoSProfile
@@ -127,7 +127,7 @@ def test_types_that_differ(
     ends = [[End(*end) for end in side] for side in (publishers, subscribers)]
     mismatches = Mismatches(Graph(*ends), lambda message: told.append(to_builtins(message)))
     mismatches.look()
-    # A robot may be about to hear a second type: what it does not hear is reported at the second look.
+    # A robot may subscribe to a second type soon: if it does not, the second check reports it.
     assert not any(found["subscriber"] == "/world" for found in told)
     mismatches.look()
     mismatches.look()

@@ -1,4 +1,4 @@
-"""The world's topics, heard by another node of this process: types, rates, frames, QoS, values."""
+"""The world's topics, received by another node of this process: types, rates, frames, QoS, values."""
 
 import math
 import time
@@ -124,7 +124,7 @@ def test_cameras_yield_where_the_machine_is_late_and_come_back(rig: Rig) -> None
                 while take(ear) is not None:
                     pass
 
-    pass_time(2.25, 0.25)  # of each quarter of a second only a tenth is made up for
+    pass_time(2.25, 0.25)  # of each quarter of a second only a tenth is caught up
     assert [message["text"] for message in said if message["type"] == "log"] == [SLOW_CAMERAS]
     assert said[-1]["camera_share"] < 1
     pass_time(FIRST_PATIENCE + 2, 0.05)

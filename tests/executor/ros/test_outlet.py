@@ -1,4 +1,4 @@
-"""What the world publishes through: in order, and never held up by a subscriber."""
+"""The outlet of the world keeps the order of messages, and a subscriber never blocks it."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def test_publishing_does_not_block_and_the_newest_message_is_kept() -> None:
     may_send.set()
     until(lambda: len(sent) == DEPTH + 2)
     outlet.close()
-    # The first was under way already; of the others the last few of their topic, then the other topic.
+    # The first message was being sent already; then the last few of that topic, then the other topic.
     assert [data for publisher, data in sent if publisher == "pictures"] == [
         b"0",
         *(b"%d" % number for number in range(50 - DEPTH, 50)),
@@ -116,7 +116,7 @@ def test_a_flush_lets_all_out_while_nothing_is_held_up() -> None:
 @pytest.mark.simulation
 @pytest.mark.timeout(240)
 def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
-    """It is stopped at random moments: in some of them it holds the lock of its shared memory."""
+    """It is stopped at random moments: at some of them it holds the lock of its shared memory."""
     domain_id = free_domain_id()
     environment = {**os.environ, **ros_environment(domain_id), "PYTHONPATH": str(ROOT)}
     ours, theirs = socket_pair()
@@ -142,8 +142,8 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
                 begun_s = time.monotonic()
                 answered(channel)
                 asked_s.append(time.monotonic() - begun_s)
-                time.sleep(0.1)
-            # Held up, it would be for two seconds and more; a machine busy elsewhere may do so once.
+                time.sleep(0.1)  # the spread is the test: the world publishes several times between requests
+            # A blocked world would take two seconds and more; a busy machine may cause one late answer.
             late += max(asked_s) > 1.5
             listener.send_signal(signal.SIGCONT)
         assert late <= 1

@@ -1,4 +1,4 @@
-"""The executor of applications waits for everything, and calls it back as rclpy's own does."""
+"""The executor of applications waits for all kinds of entities, and calls them as rclpy's own does."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -13,7 +13,7 @@ from std_srvs.srv import Trigger
 
 from executor.ros.spin import LOOK_EVERY, PatientExecutor
 
-LONG_S = 20.0  # a missing wake-up fails by the test's time-out
+LONG_S = 20.0  # the test's time-out detects a missing wake-up
 
 
 @pytest.fixture

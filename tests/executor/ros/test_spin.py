@@ -1,4 +1,4 @@
-"""Draining calls back everything that is ready, of every kind, and nothing else."""
+"""Draining calls everything that is ready, of every kind, and nothing else."""
 
 from collections.abc import Iterator
 
@@ -84,7 +84,7 @@ def test_timers_services_and_guards_are_called(node: Node, executor: DrainingExe
     answered = client.call_async(Trigger.Request())
     node.create_guard_condition(lambda: heard.append("guard")).trigger()
     timer = node.create_timer(0.0, lambda: (heard.append("timer"), timer.cancel()))
-    for _ in range(200):  # answers take a way of their own through the middleware
+    for _ in range(200):  # the middleware delivers answers separately
         executor.drain()
         if answered.done():
             break

@@ -15,7 +15,7 @@ from executor.ros.topics import MOST_ECHOED, TopicError, TopicRequest, Topics
 
 
 class Panel:
-    """A node with topics, and what it said."""
+    """A node with topics, and its replies."""
 
     def __init__(self, context: Context) -> None:
         self.node = Node("world", context=context)

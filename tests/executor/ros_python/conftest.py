@@ -1,4 +1,4 @@
-"""The offered Python parts of ROS, on the path as an action finds them."""
+"""Adds our Python parts of ROS to the path, as for an action."""
 
 from executor.application import compat
 from tests.executor.ros.conftest import context

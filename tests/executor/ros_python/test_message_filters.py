@@ -1,4 +1,4 @@
-"""Messages brought together by their stamps: against a search of all combinations."""
+"""Messages combined by their stamps, compared with a search of all combinations."""
 
 import itertools
 from typing import Any

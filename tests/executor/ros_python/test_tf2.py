@@ -1,4 +1,4 @@
-"""Looking transforms up: against matrices, and against what tf2 documents."""
+"""Look-ups of transforms, compared with matrices and with tf2's documentation."""
 
 import math
 from collections.abc import Iterable
@@ -46,7 +46,7 @@ def plain(x: float, angle: float = 0.0) -> Any:
 
 
 def matrix(message: TransformStamped) -> NDArray[np.float64]:
-    """The transform as a matrix: by the textbook's formula, not by that of the code."""
+    """Returns the transform as a matrix, by the textbook's formula and not by that of the code."""
     move, turn = message.transform.translation, message.transform.rotation
     x, y, z, w = turn.x, turn.y, turn.z, turn.w
     return np.array(
@@ -167,7 +167,7 @@ def test_from_one_time_to_another_by_a_fixed_frame() -> None:
     assert Time.from_msg(found.header.stamp).nanoseconds == 3_000_000_000
 
 
-# --- what is wrong ---
+# --- errors ---
 
 
 def test_an_unknown_frame_and_a_split_tree_are_distinguished() -> None:

@@ -1,7 +1,6 @@
-"""tf2 between nodes: broadcasters, listeners, and waiting for what is not there yet."""
+"""tf2 between nodes: broadcasters, listeners, and waits for later transforms."""
 
 import threading
-import time
 from typing import Any
 
 import pytest
@@ -32,8 +31,11 @@ def test_a_broadcast_is_received_in_a_callback_that_waits(node: Node, context: C
     fixed, moving = StaticTransformBroadcaster(other), TransformBroadcaster(other)
     found: list[Any] = []
 
+    waits = threading.Event()
+
     def look() -> None:
         timer.cancel()
+        waits.set()
         found.append(buffer.lookup_transform("odom", "laser", at(5.0), Duration(seconds=20)))
 
     timer = node.create_timer(0.01, look)
@@ -41,7 +43,7 @@ def test_a_broadcast_is_received_in_a_callback_that_waits(node: Node, context: C
     executor.add_node(node)
     thread = threading.Thread(target=lambda: executor.spin_once(timeout_sec=20))
     thread.start()
-    time.sleep(0.05)
+    assert waits.wait(20)
     fixed.sendTransform(stamped("base", "camera", plain(1.0)))
     fixed.sendTransform([stamped("base", "laser", plain(0.5))])
     moving.sendTransform(stamped("odom", "base", plain(2.0), 5.0))

@@ -1,4 +1,4 @@
-"""Sessions written as plays: say what happens, look at what comes out."""
+"""Tests of the session as plays: events go in, and the test compares the effects."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ ANSWERS = {
 
 
 def child_message(child: Kind, type_: str, /, **fields: Any) -> Any:
-    """The message of a child, as its channel would decode it."""
+    """Returns a child's message, as its channel would decode it."""
     return convert({"type": type_, **fields}, FromApplication if child == "application" else FromWorld)
 
 
 class Play:
-    """A session with a driver and well-behaved children, unless told otherwise."""
+    """A session with a driver and well-behaved children by default."""
 
     def __init__(self, *, driver: str = "d", obedient: bool = True) -> None:
         self.session = Session(About(version="test", ros_domain_id=41))
@@ -80,7 +80,7 @@ class Play:
         return self.session.state
 
     def happens(self, event: Event) -> list[Effect]:
-        """Lets an event happen, and what obedient children do about it; returns all effects."""
+        """Handles an event, and the answers of obedient children; returns all effects."""
         effects = self.session.handle(event, self.now)
         self.effects += effects
         if self.obedient:
@@ -90,7 +90,7 @@ class Play:
         return effects
 
     def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
-        """What obedient children and the manager do about an effect."""
+        """Yields the answers of obedient children and the manager to an effect."""
         match effect:
             case Tell(message=child_messages.StartWorld()):
                 return [self._said(effect, "ready", renderer="egl", tf=True, universe="Walled room")]
@@ -133,24 +133,24 @@ class Play:
         self.happens(TimePassed())
 
     def reply(self, request: str) -> str | None:
-        """What a request was answered with: `ack`, the code of an error, or None."""
+        """Returns the reply to a request: `ack`, the code of an error, or None."""
         for effect in self.effects:
             if isinstance(effect, Send) and effect.request == request:
                 return "ack" if effect.name == "ack" else effect.payload.code  # type: ignore[attr-defined]
         return None
 
     def sent(self, name: str, client: str | None = None) -> list[Any]:
-        """The payloads of the events of one kind that went to all clients, or to one."""
+        """Returns the data of the events of one kind that were sent to all clients, or to one."""
         return [
             e.payload for e in self.effects if isinstance(e, Send) and e.name == name and e.client == client
         ]
 
     def told(self, kind: Kind) -> list[str]:
-        """The types of messages that a kind of child was sent."""
+        """Returns the types of messages that were sent to a kind of child."""
         return [name_of(e.message) for e in self.effects if isinstance(e, Tell) and e.kind == kind]
 
     def did(self, effect_type: type[Spawn | Kill | Retire | Interrupt]) -> list[str]:
-        """Which kinds of children were spawned, killed, …"""
+        """Returns the kinds of children that were spawned, killed, …"""
         return [e.kind for e in self.effects if isinstance(e, effect_type)]
 
     def climb(self, state: State) -> None:

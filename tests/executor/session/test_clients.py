@@ -38,7 +38,7 @@ def test_a_page_that_is_loaded_again_drives_at_once():
 def test_a_client_may_come_back_under_its_id():
     play = Play()
     clients = play.session.clients
-    assert clients.client_id("d") == "d"  # its lost connection was not heard of yet
+    assert clients.client_id("d") == "d"  # the loss of its connection was not noticed yet
     play.happens(ClientLeft("d"))
     assert clients.client_id("d") == "d"
     assert clients.client_id(None) not in {None, "d"}

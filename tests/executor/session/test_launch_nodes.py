@@ -1,4 +1,4 @@
-"""Extra nodes of launch files: real processes beside fake children."""
+"""Launch nodes: real processes beside fake children."""
 
 from __future__ import annotations
 
@@ -81,13 +81,13 @@ async def test_a_launch_file_that_cannot_be_read_is_reported_with_its_line():
         await client.close()
 
 
-# --- the machine alone ----------------------------------------------------------------------------
+# --- the state machine alone ----------------------------------------------------------------------
 
 PLAN = LaunchPlan((NodeSpec("a", "a", "", "a.py", "launch/a.launch.yaml", 1, ("python", "a.py")),))
 
 
 class NodePlay(Play):
-    """A play whose application has an extra node."""
+    """A play whose application has a launch node."""
 
     def answers(self, effect):
         answers = super().answers(effect)

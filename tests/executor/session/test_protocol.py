@@ -247,7 +247,7 @@ def test_stop_ends_the_application_and_leaves_the_world():
 
 
 def hang(command):
-    """A play in which the application does not answer any more; returns it and the request."""
+    """Returns a play whose application does not answer any more, and the request."""
     play = Play()
     play.climb(State.PAUSED if command == "step" else State.APPLICATION_RUNNING)
     play.effects.clear()

@@ -1,4 +1,4 @@
-"""Children that hang, as plays: what is said after 2 s, what is done after 8 s, and what is no hang."""
+"""Children that hang: the report after 2 s, the end after 8 s, and cases that are not a hang."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ NODE = {"parent": 0, "type": "A", "kind": "ACTION", "name": "A", "path": "main/A
 
 
 class Watched(Play):
-    """A play whose children beat, unless they are named in `quiet` or `stuck`."""
+    """A play whose children send beats, unless they are named in `quiet` or `stuck`."""
 
     def __init__(self):
         super().__init__()
@@ -33,7 +33,7 @@ class Watched(Play):
         self.turns = 0
 
     def goes_on(self, seconds, step_s=LOOK_S):
-        """Lets time pass with all that children do in it."""
+        """Passes time, with the beats of the children in it."""
         for _ in range(round(seconds / step_s)):
             self.now += step_s
             self.turns += 1
@@ -124,7 +124,7 @@ def test_a_pause_may_last():
 def test_delays_of_the_manager_itself_do_not_count():
     play = play_in(State.APPLICATION_RUNNING)
     for _ in range(20):
-        play.goes_on(30, step_s=30)  # it was stopped for half a minute; all was queued meanwhile
+        play.goes_on(30, step_s=30)  # it was stopped for half a minute, and all events were queued
     play.quiet.add("world")
     play.goes_on(60, step_s=30)
     assert play.faults == []
@@ -195,7 +195,7 @@ def test_a_child_that_ignores_the_signal_is_reported_too():
 
 
 def loading(**how):
-    """An application that took its start and does not become ready."""
+    """Returns an application that has received its start and does not become ready."""
     play = Watched()
     play.climb(State.VISUALIZATION_READY)
     play.goes_on(3)
@@ -305,7 +305,7 @@ def test_a_second_spare_that_dies_fails_the_run():
     assert play.state is State.CONNECTED
 
 
-def test_a_spare_that_always_freezes_is_not_started_for_ever():
+def test_a_spare_that_always_freezes_is_not_started_without_end():
     play = Watched()
     play.climb(State.CONNECTED)
     play.quiet.add("application")
@@ -339,7 +339,7 @@ def test_a_command_is_confirmed_by_the_world_or_fails_saying_so(state, command):
     assert play.reply(late) in {"not_answering", None, "wrong_state"}
 
 
-def test_a_pause_that_the_world_does_not_confirm_lets_the_application_go_on():
+def test_a_pause_that_the_world_does_not_confirm_lets_the_application_continue():
     play = play_in(State.APPLICATION_RUNNING)
     play.quiet.add("world")
     answers = play.answers

@@ -1,4 +1,4 @@
-"""Packed poses come back as they were, to a hair."""
+"""Packed poses are restored within the precision of the format."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def test_poses_come_back() -> None:
     assert len(packed) == len(poses) * POSE_BYTES
     back = np.array([unpack(packed[at : at + POSE_BYTES]) for at in range(0, len(packed), POSE_BYTES)])
     assert np.abs(back[:, :3] - poses[:, :3]).max() < 6e-5
-    # q and -q are the same direction.
+    # q and -q are the same rotation.
     same = np.sign((back[:, 3:] * poses[:, 3:]).sum(axis=1, keepdims=True))
     assert np.abs(back[:, 3:] * same - poses[:, 3:]).max() < 5e-5
     assert np.linalg.norm(back[:, 3:], axis=1) == pytest.approx(1, abs=1e-6)

@@ -1,4 +1,4 @@
-"""Descendants of this process: found as they come, whole branches at a time, and nobody else."""
+"""Descendants of this process are found when they start, whole branches at a time, and no other process."""
 
 import os
 import subprocess
@@ -23,7 +23,7 @@ def test_a_branch_is_found_when_it_grows_and_gone_when_it_ended():
         [sys.executable, "-c", BRANCH], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as parent:
         child = int(parent.stdout.readline())
-        for _ in range(FORGET_EVERY + 1):  # with and without reading all again
+        for _ in range(FORGET_EVERY + 1):  # with and without a full scan
             found = [process.pid for process in descendants.look()]
             assert set(found) - before == {parent.pid, child}
             assert found.index(parent.pid) < found.index(child)

@@ -33,7 +33,7 @@ def test_ports_without_a_reader_or_a_mapping_are_removed(tmp_path):
             (tmp_path / name).write_bytes(b"x")
             os.utime(tmp_path / name, (0, 0))
     (tmp_path / "fastrtps_port7412_sl").write_bytes(b"")  # its readers share it
-    os.utime(tmp_path / "fastrtps_port7414")  # somebody may just be making it
+    os.utime(tmp_path / "fastrtps_port7414")  # another process may be creating it
     with (tmp_path / "fastrtps_port7416").open() as port, mmap.mmap(port.fileno(), 0, prot=mmap.PROT_READ):
         assert remove_abandoned_segments(tmp_path) == 1
     assert not list(tmp_path.glob("*7410*"))

@@ -1,4 +1,4 @@
-"""Children that behave and children that do not: nothing is left, and the reason is reported."""
+"""Well-behaved and hostile children: no process is left, and the reason is reported."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def program(habit, **limits):
 
 
 def fakes_alive():
-    """The fake children that are still there."""
+    """Returns the fake children that still live."""
     children = psutil.Process().children(recursive=True)
     living = [p for p in children if p.is_running() and p.status() != psutil.STATUS_ZOMBIE]
     return [p for p in living if FAKE.name in " ".join(p.cmdline())]

@@ -1,4 +1,4 @@
-"""A user's tools behind their socket: ruff, and a language server for each editor."""
+"""A user's tools at their socket: ruff, and a language server for each editor."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ async def test_only_clients_with_the_token_are_served(tmp_path):
 async def test_they_end_without_clients(tmp_path):
     async with tools(tmp_path, grace_s=0.3) as (path, running):
         async with client(path, "language"):
-            await asyncio.sleep(0.6)
+            await asyncio.sleep(0.6)  # the time is the test: twice the grace period
             assert not running.done()
         await asyncio.wait_for(running, 30)
 

@@ -1,4 +1,4 @@
-"""Finds faces that lie in one plane, look the same way and overlap: which of them is seen is then chance."""
+"""Finds overlapping faces in one plane that face the same way: which of them is visible is then undefined."""
 
 from __future__ import annotations
 
@@ -49,16 +49,16 @@ class _Piece:
         return np.asarray(self.corners.max(axis=(0, 1)))
 
     def holds(self, points: Floats) -> bool:
-        """Whether all points are within it."""
+        """Returns whether it contains all points."""
         if not self.is_convex:
             return False
         return bool((points @ self.normals.T - self.offsets < -1e-6).all())
 
 
 def overlapping(scene: Scene, poses: NDArray[np.float32]) -> list[str]:
-    """Names the pairs of shapes whose faces fight for the same pixels, each with the area in cm².
+    """Yields the pairs of shapes with overlapping faces, each with the area in cm².
 
-    People are left out: they walk, and what they walk through is chance.
+    People are left out: they walk, so their overlaps are only momentary.
     """
     pieces = [piece for piece in _pieces(scene, poses) if len(piece.corners)]
     found = []
@@ -104,7 +104,7 @@ def _piece(
 
 
 def _neighbours(pieces: list[_Piece]) -> Iterator[tuple[_Piece, _Piece]]:
-    """Gives the pairs that touch and do not look alike: of equal colours nobody sees which is in front."""
+    """Yields the pairs that touch and differ in looks: with equal colours the order is invisible."""
     lows = np.array([piece.low for piece in pieces]) - APART_M
     highs = np.array([piece.high for piece in pieces]) + APART_M
     for i, j in itertools.combinations(range(len(pieces)), 2):
@@ -115,7 +115,7 @@ def _neighbours(pieces: list[_Piece]) -> Iterator[tuple[_Piece, _Piece]]:
 
 
 def _common(one: _Piece, other: _Piece) -> Iterator[tuple[float, Floats]]:
-    """Gives what two pieces have in common: its area, and points just in front of it."""
+    """Returns the intersection of two pieces: its area, and points just in front of it."""
     same_way = one.normals @ other.normals.T > SAME_WAY
     limit = ON_ROBOTS_M if one.is_robot and other.is_robot else APART_M
     apart = np.abs(one.offsets[:, None] - other.offsets[None, :])

@@ -1,4 +1,4 @@
-"""No two faces of different looks lie in one plane: they would flicker, here and in the browser alike."""
+"""No two faces of different looks overlap in one plane: they would flicker, here and in the browser."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""SDF worlds: what we have is taken over, the rest is listed with its line."""
+"""SDF worlds: the supported part is imported, the rest is listed with its line."""
 
 import pytest
 

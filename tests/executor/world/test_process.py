@@ -21,7 +21,7 @@ decode = msgspec.msgpack.Decoder(Scene | Poses).decode
 
 
 class Remote:
-    """A world process, and what it says."""
+    """A world process, and its messages."""
 
     def __init__(self) -> None:
         ours, theirs = socket_pair()
@@ -38,7 +38,7 @@ class Remote:
         self.tell("start", universe=universe, seed=1, speed=1.0, domain_id=DOMAIN_ID, **fields)
 
     def hear(self, kind: str, **fields: Any) -> dict[str, Any]:
-        """Returns the next message of a type with these fields; others are passed over."""
+        """Returns the next message of a type with these fields; others are skipped."""
         while True:
             message = self.channel.receive(60)
             assert message is not None, f"no {kind} came"
@@ -59,7 +59,7 @@ def shared() -> Iterator[Remote]:
 
 @pytest.fixture
 def remote(shared: Remote) -> Remote:
-    """The running world, paused at time zero."""
+    """Yields the running world, paused at time zero."""
     if not hasattr(shared, "started"):
         shared.tell("pause")
         assert shared.hear("error")["code"] == "not_started"
@@ -77,7 +77,7 @@ def remote(shared: Remote) -> Remote:
 
 
 def poses_until(remote: Remote, client: str, x_m: float) -> float:
-    """Waits until the robot has come so far; returns the simulated time."""
+    """Waits until the robot has reached a position; returns the simulated time."""
     scene = None
     while True:
         message = remote.hear("frame", client=client)

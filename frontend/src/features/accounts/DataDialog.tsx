@@ -14,7 +14,7 @@ interface DataDialogProps {
 
 const MIB = 1024 * 1024;
 
-/** How much room one takes, everything as a download, and the end of the account. */
+/** The user's disk use, the download of all data, and the deletion of the account. */
 export function DataDialog({ me, isOpen, onClose }: DataDialogProps) {
   const { t } = useTranslation('accounts');
   return (

@@ -8,7 +8,7 @@ interface MakeOwnerProps {
   readonly onCancel: () => void;
 }
 
-/** Asks once more before the project is somebody else's. */
+/** Asks for confirmation before the project gets another owner. */
 export function MakeOwner({ who, isBusy, onConfirm, onCancel }: MakeOwnerProps) {
   const { t } = useTranslation('accounts');
   return (

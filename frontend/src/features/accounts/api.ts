@@ -42,7 +42,7 @@ export interface Usage {
 const part = encodeURIComponent;
 const shares = (projectId: string) => `/projects/${part(projectId)}/shares`;
 
-/** The calls of sharing, groups, and what is kept of oneself. */
+/** The calls of sharing, groups, and the user's own data. */
 export const accounts = {
   shares: (projectId: string) => requestJson<Shares>(shares(projectId)),
   shareWithPerson: (projectId: string, name: string, role: SharedRole) =>

@@ -7,7 +7,7 @@ export function showValue(value: unknown): string {
   return JSON.stringify(value) ?? String(value);
 }
 
-/** What was typed as a value, or what it should have been: a name of `blackboard:wrong`. */
+/** The typed text as a value, or the expected kind: a name of `blackboard:wrong`. */
 export type Read = { readonly value: unknown } | { readonly wrong: 'integer' | 'number' | 'list' | 'dict' };
 
 /**

@@ -10,7 +10,7 @@ export interface MenuPoint {
   readonly isOnBlock: boolean;
 }
 
-/** The rows of the menu, between its lines: `id` of the table of commands. */
+/** The groups of the menu: `id` of the table of commands. */
 const ON_BLOCK = [
   ['canvas.fix'],
   ['canvas.look'],
@@ -38,7 +38,7 @@ interface Item {
 
 const byId = new Map(blockCommands.map((action) => [action.id, action]));
 
-/** What can be done now, in groups. */
+/** The commands that are available now, in groups. */
 function itemsFor(isOnBlock: boolean): Item[][] {
   const offered = (id: string): Item[] => {
     const action = byId.get(id);

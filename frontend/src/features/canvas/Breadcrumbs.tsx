@@ -49,7 +49,7 @@ function shortened(path: readonly NodeId[]): PartOfPath[] {
   });
 }
 
-/** Where one is: the trees that lead here, and the path from the root to the selected block. */
+/** The trees that lead to this one, and the path from the root to the selected block. */
 export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const diagrams = useProjectStore((state) => state.diagrams);

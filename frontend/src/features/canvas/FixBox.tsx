@@ -8,7 +8,7 @@ import classes from './Canvas.module.css';
 interface FixBoxProps {
   readonly diagram: Diagram;
   readonly id: NodeId;
-  /** Gives the keyboard back to the canvas. */
+  /** Returns the focus to the canvas. */
   readonly onClose: () => void;
 }
 

@@ -10,7 +10,7 @@ import { useProjectStore } from '@/store/project';
 
 export interface TreeOnCanvas {
   readonly diagram: Diagram;
-  /** What is drawn: the tree with what is seen inside of its SubTrees. */
+  /** The drawn tree, with the expanded trees of its SubTrees. */
   readonly shown: ExpandedTree;
   readonly vocabulary: Vocabulary;
   readonly layout: Layout;

@@ -25,7 +25,7 @@ export const zoomOut = (): void => void inFront()?.zoomOut(FAST);
 export const zoomReset = (): void => void inFront()?.zoomTo(1, FAST);
 export const fit = (): void => void inFront()?.fitView({ ...FIT, ...SLOW });
 
-/** Goes to what is selected. */
+/** Moves the view to the selection. */
 export function fitSelection(): void {
   const nodes = useProjectStore.getState().selection.map((id) => ({ id }));
   void inFront()?.fitView({ ...FIT, nodes, ...SLOW });

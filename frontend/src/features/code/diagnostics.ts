@@ -16,7 +16,7 @@ function spanAt(doc: Text, line: number, column: number): { from: number; to: nu
   return { from: Math.min(start, end), to: end };
 }
 
-/** What is to be said about the lines of one file: findings of the checks, and what raised. */
+/** The messages for the lines of one file: findings of the checks, and exceptions of the run. */
 export function marksFor(
   doc: Text,
   path: string,

@@ -36,7 +36,7 @@ const look = EditorView.theme({
     borderRadius: 'var(--bts-radius-small)',
     boxShadow: 'var(--bts-shadow-raised)',
   },
-  // What is wrong keeps its place beside the text when what the name means arrives after it.
+  // A diagnostic keeps its place beside the text when the documentation of the name arrives after it.
   '.cm-tooltip-hover': { display: 'flex', flexDirection: 'column' },
   '.cm-tooltip-above .cm-tooltip-lint': { order: 1 },
   '.cm-tooltip-below .cm-tooltip-lint': { order: -1 },

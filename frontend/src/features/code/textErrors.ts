@@ -11,13 +11,13 @@ const READ_AFTER_MS = 300;
 /** Parsing a longer text at each key would delay typing. */
 const LONGEST = 500_000;
 
-/** Where a text stops being what its file's name says. */
+/** The place from which a text is not of the format that its file's name declares. */
 interface TextError {
   readonly offset: number;
   readonly message: string;
 }
 
-/** What is wrong with a text, with the text that this is about. */
+/** The error of a text, with the text itself. */
 export interface TextErrors {
   readonly doc: Text;
   readonly errors: readonly TextError[];
@@ -60,7 +60,7 @@ function xmlErrors(text: string): TextError[] {
   }
 }
 
-/** What keeps a JSON, YAML or XML file from being read. */
+/** The syntax error of a JSON, YAML or XML file. */
 export function textErrors(path: string, text: string): readonly TextError[] {
   if (text.length > LONGEST) return [];
   if (path.endsWith('.json')) return jsonErrors(text);

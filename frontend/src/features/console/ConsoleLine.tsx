@@ -11,9 +11,9 @@ import { findLinks } from './links';
 interface ConsoleLineProps {
   readonly line: LogLine;
   readonly files: ReadonlySet<string>;
-  /** The block that said it, if the running tree has it. */
+  /** The block that printed it, if the running tree has it. */
   readonly node: TreeNode | undefined;
-  /** The extra node that said it, by name. */
+  /** The launch node that printed it, by name. */
   readonly launched: string | undefined;
 }
 

@@ -138,7 +138,7 @@ describe('ConsolePanel', () => {
     expect(toEnd()).toBeNull();
   });
 
-  it('stands still while something in it is pressed', async () => {
+  it('does not scroll while something in it is pressed', async () => {
     useSessionStore.setState(appendLogs(initialSession, [log('one')]));
     show();
     const scroller = screen.getByRole('log');

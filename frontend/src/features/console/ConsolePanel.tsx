@@ -14,7 +14,7 @@ import { filterLines, LEVELS, useConsoleFilter, type ConsoleFilter } from './fil
 const LINE_HEIGHT = 21;
 const SOURCES = ['all', 'action', 'world', 'manager', 'launch'] as const;
 
-/** What actions, world and manager say; follows the end until the user scrolls up. */
+/** The output of actions, world and manager; follows the end until the user scrolls up. */
 export function ConsolePanel() {
   const { t } = useTranslation('console');
   const logs = useSessionStore((state) => state.logs);
@@ -53,7 +53,7 @@ export function ConsolePanel() {
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
     const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
-    // Only who goes up wants to stay: lines that are filtered or measured, and a panel that was hidden, scroll too.
+    // Only a user who scrolls up stops following: filtering, measuring and showing a hidden panel scroll, too.
     if (isAtEnd || (scrollTop < top.current && isScrolling())) setFollowing(isAtEnd);
     top.current = scrollTop;
   };
@@ -149,7 +149,7 @@ export function ConsolePanel() {
 /** For this long after a wheel or key event, scrolling counts as the user's. */
 const HAND_MS = 1000;
 
-/** What the user's hand does to the lines. */
+/** The user's pointer and keys on the lines. */
 function useHand() {
   const [isHeld, setHeld] = useState(false);
   const lastMove = useRef(-Infinity);
@@ -157,14 +157,14 @@ function useHand() {
     lastMove.current = performance.now();
   };
   const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
-    // The click comes after it, and has to find what was pressed.
+    // The click follows, and must find the pressed element.
     const release = () => setTimeout(() => setHeld(false));
     setHeld(true);
     for (const end of ['pointerup', 'pointercancel'])
       ownerDocument.addEventListener(end, release, { once: true });
   };
   return {
-    /** A finger or a button of the mouse is down: what it is on must not run away before it is up again. */
+    /** A finger or a mouse button is down: the lines must not move before it is released. */
     isHeld,
     /** It is the user who scrolls. */
     isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,

@@ -7,7 +7,7 @@ import universe from '@/features/universe/universe.module.css';
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
-/** How the thing that is made is spoken of. */
+/** The texts for the kind of thing. */
 interface Words {
   readonly hint: string;
   readonly taken: string;
@@ -22,7 +22,7 @@ interface CopyFormProps {
   readonly taken: ReadonlySet<string>;
   readonly words: Words;
   readonly testId: string;
-  /** Makes it; what is thrown is shown. */
+  /** Creates it; the text of an exception is shown. */
   readonly onCreate: (base: string, name: string, isUsed: boolean) => Promise<void>;
   readonly onCancel: () => void;
 }
@@ -42,7 +42,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
   const [isUsed, setUsed] = useState(true);
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => {
-    // What comes late finds the focus on the dialogue's first button.
+    // When the content arrives late, the dialogue's first button has the focus.
     const timer = setTimeout(() => field.current?.focus());
     return () => clearTimeout(timer);
   }, []);

@@ -12,7 +12,7 @@ import { useUndoInFront } from './useUndoInFront';
 
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
-/** How a kind of document is spoken of. */
+/** The texts for a kind of document. */
 interface Words {
   readonly unreadable: string;
   readonly problems: string;

@@ -7,7 +7,7 @@ interface PoseFieldsProps {
   /** Of the angles only the heading counts. */
   readonly isUpright?: boolean;
   readonly step?: number;
-  /** Numbers its fields are found by in tests begin so. */
+  /** The prefix of the fields' test ids. */
   readonly testId?: string;
   readonly onChange: (pose: Pose) => void;
 }

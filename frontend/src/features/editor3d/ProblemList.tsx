@@ -9,7 +9,7 @@ interface ProblemListProps {
   readonly problems: readonly DocumentProblem[];
   /** The files of the document's texts. */
   readonly paths: readonly string[];
-  /** How the whole is spoken of. */
+  /** The text for the whole document. */
   readonly title: string;
   readonly editor?: Editor;
 }

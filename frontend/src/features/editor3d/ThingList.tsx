@@ -22,7 +22,7 @@ interface ThingListProps {
   readonly whole: { readonly label: string; readonly icon: typeof IconBox };
   readonly onDuplicate: () => void;
   readonly onDelete: () => void;
-  /** Why a thing cannot be called so; null where it can. Without it, things are not renamed here. */
+  /** Why a name is invalid; null where it is valid. Without this function, things are not renamed here. */
   readonly nameProblem?: (key: string, name: string) => string | null;
   readonly onRename?: (key: string, name: string) => void;
 }

@@ -15,9 +15,9 @@ export const TURN_STEP = Math.PI / 12;
 export interface ViewHandle {
   /** The middle of what is seen of the floor. */
   center(): Point;
-  /** Away from the one who looks, along the nearest axis. */
+  /** Away from the camera, along the nearest axis. */
   forward(): Point;
-  /** Cancels a gesture that is under way; tells whether there was one. */
+  /** Cancels a gesture under way; returns whether there was one. */
   cancel(): boolean;
 }
 
@@ -104,7 +104,7 @@ export function followTexts(editor: Editor): void {
   if (next !== undoStack) editor.store.setState({ undoStack: next });
 }
 
-/** What an edit comes to. */
+/** The result of an edit. */
 interface Change {
   readonly texts: readonly string[];
   readonly select?: readonly string[] | undefined;

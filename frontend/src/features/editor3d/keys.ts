@@ -5,7 +5,7 @@ const MODES: Readonly<Record<string, Mode>> = { m: 'move', r: 'turn', s: 'size' 
 
 export type Act = (editor: Editor, event: KeyboardEvent) => void;
 
-/** What an editor does at the keys that mean the same in all of them. */
+/** The functions of an editor for the keys that all editors share. */
 export interface KeyActs {
   readonly modes: readonly Mode[];
   nudge(along: number, aside: number, up: number, factor: number): void;
@@ -17,7 +17,7 @@ export interface KeyActs {
   readonly others?: Readonly<Record<string, Act>>;
 }
 
-/** What a key does in the view, as the how-to pages list them; others are left to the page. */
+/** Handles a key in the view, as listed in the how-to pages; the page handles other keys. */
 export function onEditorKey(editor: Editor, event: KeyboardEvent, acts: KeyActs): void {
   if (event.altKey) return;
   const isControl = event.ctrlKey || event.metaKey;

@@ -6,7 +6,7 @@ import { closeExportDialog, useExportDialog } from '@/store/dialogs/export';
 
 const Contents = lazyPart(async () => (await import('./ExportContents')).ExportContents);
 
-/** Shows what can be taken along, before it is. */
+/** Shows the content of an export before the download. */
 export function ExportDialog() {
   const { t } = useTranslation('export');
   const isOpen = useExportDialog((state) => state.isOpen);

@@ -12,7 +12,7 @@ interface FaultOfRunProps {
   readonly message: string;
 }
 
-/** What failed in the block in the last run, and the way to the line that did. */
+/** The fault of the block in the last run, with a link to its line. */
 export function FaultOfRun({ tree, id, message }: FaultOfRunProps) {
   const { t } = useTranslation('run');
   const fault = useSessionStore((state) =>

@@ -15,7 +15,7 @@ import { PortList } from './PortList';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
-/** What is done with several blocks as with one. */
+/** The commands for several blocks that equal those for one. */
 const TOGETHER = ['canvas.wrap', 'canvas.extract', 'canvas.disable', 'edit.delete'] as const;
 
 interface Shown {

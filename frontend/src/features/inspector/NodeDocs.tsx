@@ -8,7 +8,7 @@ function childrenText({ minChildren: min, maxChildren: max }: NodeSpec): string 
   return min === max ? String(min) : `${min}–${max}`;
 }
 
-/** What the node does, from the catalogue or the action's docstring. */
+/** The description of the node, from the catalogue or the action's docstring. */
 export function NodeDocs({ spec }: { readonly spec: NodeSpec | undefined }) {
   const { t } = useTranslation('inspector');
   if (!spec?.summary) return null;

@@ -4,10 +4,10 @@ import { useTranslation } from 'react-i18next';
 import { canBePort } from '@/model/ports';
 
 interface PortNameInputProps {
-  /** What it is called so far; empty of a new one. */
+  /** The present name; empty for a new port. */
   readonly before?: string;
   readonly taken: readonly string[];
-  /** Told the name, or null where nothing is to change. */
+  /** Called with the name, or null for no change. */
   readonly onDone: (name: string | null) => void;
 }
 

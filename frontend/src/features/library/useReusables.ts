@@ -3,7 +3,7 @@ import { api } from '@/api/client';
 import type { BehaviourInfo } from '@/api/types';
 import { reusablesOf, type Reusable } from '@/store/project/library';
 
-/** A behaviour with what the panel tells about it. */
+/** A behaviour with the data that the panel shows. */
 export interface Offer extends Reusable {
   readonly group: string;
   readonly summary: string;

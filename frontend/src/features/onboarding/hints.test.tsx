@@ -36,7 +36,7 @@ it('shows three hints, one after the other, and none of them again', async () =>
   expect(reloaded.getState().done).toEqual(seen);
 });
 
-it('leaves a hint out when its user has done what it says', () => {
+it('skips a hint when the user has already followed it', () => {
   const { addTree, setActiveTree, apply } = useProjectStore.getState();
   addTree('Dock');
   setActiveTree('Dock');

@@ -8,7 +8,7 @@ interface PaletteGroupProps {
   readonly title: string;
   readonly choices: readonly Choice[];
   readonly isSearching: boolean;
-  /** Said in place of the blocks when there are none and nothing is searched. */
+  /** Shown in place of the blocks when there are none and the search is empty. */
   readonly empty?: string;
 }
 

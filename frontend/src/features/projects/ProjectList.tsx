@@ -37,7 +37,7 @@ export function ProjectList({ actions, searchField }: ProjectListProps) {
   const { data, error, refetch, hasNextPage, isFetchingNextPage, fetchNextPage } = found;
   const projects = data?.pages.flatMap((page) => page.items) ?? [];
   const total = data?.pages[0]?.total ?? 0;
-  // That there were none when one looked before says nothing.
+  // A cached empty list may be out of date.
   const isKnown = found.isFetchedAfterMount || found.isPlaceholderData;
   const isEmpty = isKnown && data !== undefined && projects.length === 0;
 

@@ -20,7 +20,7 @@ interface ProjectMenuProps {
   readonly onRename: () => void;
 }
 
-/** What can be done with a project without opening it. */
+/** The commands for a project that do not open it. */
 export function ProjectMenu({ project, shelf, actions, onRename }: ProjectMenuProps) {
   const { t } = useTranslation('projects');
   const isArchived = shelf === 'archived';

@@ -11,7 +11,7 @@ interface StartCommands {
   readonly search: () => void;
 }
 
-/** What the start page's buttons do, in the table of commands: for the command palette and for keys. */
+/** The commands of the start page's buttons, for the command palette and for keys. */
 export function useStartCommands(actions: StartCommands): void {
   const { t } = useTranslation('projects');
   const templates = useSortedTemplates();

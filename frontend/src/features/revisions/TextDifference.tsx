@@ -11,7 +11,7 @@ import { dimMetadata } from '@/features/xml/ranges';
 import classes from './history.module.css';
 
 interface TextDifferenceProps {
-  /** Says how the text is coloured. */
+  /** Selects the syntax of the text. */
   readonly path: string;
   readonly before: string;
   readonly after: string;

@@ -26,7 +26,7 @@ export function useRevisions(path: string, isVisible: boolean) {
   return { ...found, items };
 }
 
-/** Gives a revision a name, or takes it away. */
+/** Sets or removes the name of a revision. */
 export function useLabel(): (number: number, label: string) => Promise<void> {
   const client = useQueryClient();
   const projectId = useProjectStore((state) => state.projectId);

@@ -18,7 +18,7 @@ interface PartFieldsProps {
   readonly part: Part;
 }
 
-/** Everything that can be said of one part. */
+/** All properties of one part. */
 export function PartFields({ editor, robot, part }: PartFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const { key, kind, sensor, link, name } = part;

@@ -33,7 +33,7 @@ const ICONS: Readonly<Record<Addable, typeof IconCube>> = {
   cylinder: IconCylinder,
 };
 
-/** What can be added to a robot. */
+/** The parts that can be added to a robot. */
 export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   return (

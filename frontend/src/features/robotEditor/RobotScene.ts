@@ -8,7 +8,7 @@ import type { Pose } from '@/model/document/values';
 import { below, type Solid } from '@/model/robot/urdf';
 import type { Part, Robot } from '@/model/robot/types';
 
-/** What cannot be seen of itself is shown as a small cube. */
+/** An invisible part is shown as a small cube. */
 const HANDLE_M = 0.024;
 const HANDLE_COLOR = [0.44, 0.49, 1, 1];
 /** Sensors see further than that, but it would hide the robot. */
@@ -40,7 +40,7 @@ export class RobotScene extends ThingScene<Part> {
     this.show(robot.parts);
   }
 
-  /** What moves when parts move: they, and all that hangs on them. */
+  /** The parts that move with others: these, and all parts attached to them. */
   heldNodesOf(keys: readonly string[]): THREE.Object3D[] {
     const { robot } = this;
     if (!robot) return [];

@@ -14,7 +14,7 @@ function movable(editor: RobotEditor): Part[] {
   return robot ? robot.parts.filter((part) => selection.includes(part.key) && jointOf(robot, part)) : [];
 }
 
-/** What the gizmo does to the parts of a robot. */
+/** The effects of the gizmo on the parts of a robot. */
 export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   return {
     stand: () => {

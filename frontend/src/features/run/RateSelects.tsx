@@ -15,7 +15,7 @@ interface RateSelectProps {
   readonly options: readonly number[];
   readonly format: (value: number) => string;
   readonly testId: string;
-  /** Who reads along, or looks on, sees the rates and leaves them. */
+  /** Guests and viewers see the rates but cannot change them. */
   readonly isDisabled: boolean;
   readonly onChoose: (value: number) => void;
 }

@@ -13,7 +13,7 @@ import { RateSelects } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
-/** Run, and what can be done with what runs. */
+/** Run, and the commands for a running application. */
 export function RunControls() {
   const { t } = useTranslation('run');
   const stage = useRunStore((state) => state.stage);

@@ -4,7 +4,7 @@ import type { Connection } from '@/store/session/connectionStates';
 import type { LaunchFailure } from '@/store/run/store';
 import { findingText } from '@/ui/findingText';
 
-/** What the banner says: the most urgent of what is wrong. */
+/** The content of the banner: the most urgent problem. */
 export interface BannerContent {
   kind: 'connection' | 'silence' | 'fault' | 'failure';
   tone: 'error' | 'warning';
@@ -21,7 +21,7 @@ interface Situation {
   connectionMessage: string;
   /** For how many seconds the executor has not answered. */
   silentS: number;
-  /** Why the ladder stands where it stands, when nobody asked for it. */
+  /** The reason of the present rung, if no command led to it. */
   executorReason: string;
   faults: readonly Fault[];
   failure: LaunchFailure | null;

@@ -6,7 +6,7 @@ import { useSessionStore } from '@/store/session/store';
 import type { TreeNode } from '@/generated/messages';
 
 const KEY = 'bts.followRunning';
-/** Often enough to keep up, seldom enough to be looked at. */
+/** Often enough to keep up, seldom enough to be readable. */
 const SHORTEST_MS = 700;
 
 export const useFollowing = create<{ isOn: boolean }>(() => ({ isOn: localStorage.getItem(KEY) === '1' }));

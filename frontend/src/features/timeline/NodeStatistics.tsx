@@ -21,7 +21,7 @@ interface Statistics {
   failures: number;
 }
 
-/** What a block did in this run, all its instances together, as far back as the timeline goes. */
+/** The statistics of a block in this run, over all its instances, within the range of the timeline. */
 export function NodeStatistics({ tree, node }: NodeStatisticsProps) {
   const { t } = useTranslation(['timeline', 'run']);
   const nodes = useSessionStore((state) => state.tree);

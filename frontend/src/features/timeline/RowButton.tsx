@@ -46,7 +46,7 @@ export const RowButton = memo(function RowButton(props: RowButtonProps) {
   );
 });
 
-/** What a node is doing and has done, once a second. */
+/** The present and past statuses of a node, updated once a second. */
 function useSummary(uid: number): { status: NodeStatus; seconds: number; times: number } {
   const [summary, setSummary] = useState(() => ({ status: trace.status(uid), ...trace.runningOf(uid) }));
   useEffect(() => {

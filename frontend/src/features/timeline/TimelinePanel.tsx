@@ -25,7 +25,7 @@ const ZOOM_STEP = 1.4;
 const PAN_STEP = 0.2;
 const CLICK_PX = 4;
 
-/** What each node did, one strip a node, over the last ten minutes of this run. */
+/** The statuses of each node over the last ten minutes of this run, one strip a node. */
 export function TimelinePanel() {
   const { t } = useTranslation('timeline');
   const nodes = useSessionStore((state) => state.tree);

@@ -5,7 +5,7 @@ import { spanOf, zoomed, type Span } from './span';
 const FIRST_LENGTH_S = 30;
 const REDRAW_MS = 100;
 
-/** What part of the run is shown, and the canvas that shows it; drawn ten times a second at most. */
+/** The shown part of the run, and its canvas; drawn ten times a second at most. */
 export class TimelineView {
   /** Called when the view begins or ceases to follow the run. */
   onFollowing: (isFollowing: boolean) => void = () => undefined;

@@ -15,7 +15,7 @@ export interface TipAt {
 const OFFSET_PX = 14;
 const WIDTH_PX = 260;
 
-/** What the node did at the time under the pointer. */
+/** The status of the node at the time under the pointer. */
 export function Tip({ x, y, row, time }: TipAt) {
   const { t } = useTranslation(['timeline', 'run']);
   const stretch = trace.stretches(row.uid, time, time).find((s) => s.start <= time && s.end >= time);

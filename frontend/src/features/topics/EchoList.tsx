@@ -84,7 +84,7 @@ function EchoView({ echo: live }: { readonly echo: Echo }) {
   );
 }
 
-/** Headers and covariances are seldom what one looks for, nor are long lists. */
+/** Headers, covariances and long lists are folded, since they are rarely needed. */
 function isFoldedAtFirst(path: string): boolean {
   return /(^|\.)(header|covariance|ranges|intensities|data)$/.test(path);
 }

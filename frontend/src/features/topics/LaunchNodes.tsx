@@ -12,7 +12,7 @@ import classes from './topics.module.css';
 
 const ICONS = { running: IconPlayerPlayFilled, ended: IconCircleCheck, failed: IconCircleX };
 
-/** The processes of the project's launch files: what they do, what they said last, and start again. */
+/** The processes of the project's launch files: state, last output, and restart. */
 export function LaunchNodes({ nodes }: { readonly nodes: readonly LaunchNode[] }) {
   const { t } = useTranslation('topics');
   if (nodes.length === 0) return <p className={classes['empty']}>{t('noNodes')}</p>;
@@ -25,7 +25,7 @@ export function LaunchNodes({ nodes }: { readonly nodes: readonly LaunchNode[] }
   );
 }
 
-/** All that a node said, in the console. */
+/** Shows all output of a node in the console. */
 function showLog({ id }: LaunchNode): void {
   useConsoleFilter.setState({ source: `launch:${id}`, level: 'debug', search: '' });
   showPanel('console');

@@ -7,7 +7,7 @@ import { closePublish, usePublishing } from './publishing';
 
 const DESCRIBE_AFTER_MS = 250;
 
-/** Says one message on a topic; the type's own defaults are filled in to start from. */
+/** Publishes one message on a topic; the fields begin with the type's defaults. */
 export function PublishDialog() {
   const { t } = useTranslation('topics');
   const opened = usePublishing((state) => state.opened);

@@ -13,7 +13,7 @@ import type { WallLine } from './WallLine';
 /** Wider things are floors and rooms: they are dragged only once they are selected. */
 const LARGEST_M = 3;
 
-/** What the pointer does to the things of a universe. */
+/** The effects of the pointer on the things of a universe. */
 export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());

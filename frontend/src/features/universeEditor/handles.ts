@@ -8,7 +8,7 @@ import { resize } from './commands';
 import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
 
-/** What the gizmo does to the things of a universe. */
+/** The effects of the gizmo on the things of a universe. */
 export function handlesOf(editor: UniverseEditor, scene: UniverseScene): Handles {
   const show = () => {
     const { universe } = readingOf(editor);

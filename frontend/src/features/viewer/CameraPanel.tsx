@@ -7,7 +7,7 @@ import classes from './viewer.module.css';
 
 const CAMERA_HZ = 15;
 
-/** What the robot's camera sees. */
+/** The picture of the robot's camera. */
 export function CameraPanel() {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);

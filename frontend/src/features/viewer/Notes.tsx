@@ -7,7 +7,7 @@ import { distances, setMeasuring, useMeasuring } from './measuring';
 import { moveBack, useMoves } from './lastMove';
 import classes from './viewer.module.css';
 
-/** What a tool of the 3D view has to say, over the picture. */
+/** The messages of a tool of the 3D view, above the picture. */
 export function Notes() {
   return (
     <div className={classes['notes']}>

@@ -64,7 +64,7 @@ export function VideoPanel() {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, []);
 
-  /** What lies over the picture has gestures of its own. */
+  /** Elements above the picture have their own gestures. */
   const isOnPicture = ({ target }: SyntheticEvent) => target === panel.current || target === canvas.current;
   const onPress = (event: PointerEvent) => {
     if (isOnPicture(event)) panel.current?.setPointerCapture(event.pointerId);

@@ -17,7 +17,7 @@ function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): vo
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** What the pointer is on: a body of the world, or the ground. */
+/** The target of the pointer: a body of the world, or the ground. */
 export function pointedAt(
   event: PointerEvent,
   canvas: HTMLElement,

@@ -121,7 +121,7 @@ describe('DraggedBody', () => {
 });
 
 describe('measuring', () => {
-  it('measures between two points, and begins anew with a third', () => {
+  it('measures between two points, and restarts with a third', () => {
     setMeasuring(true);
     addMeasured([0, 0, 0]);
     addMeasured([3, 4, 12]);

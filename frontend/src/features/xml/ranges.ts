@@ -9,7 +9,7 @@ import {
 } from '@codemirror/view';
 import type { NodeRange } from '@/api/trees';
 
-/** What an editor of a tree's text knows of its nodes. */
+/** The data of an editor about the nodes in its text. */
 interface Nodes {
   readonly ranges: readonly NodeRange[];
   readonly selected: ReadonlySet<string>;

@@ -25,7 +25,7 @@ export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string)
   return suits === 'loose' ? [atPort('read-in-part', id, name, { text, type, part }, 'warning')] : [];
 }
 
-/** What XML takes as the name of an attribute, without the colon of a namespace. */
+/** The names of attributes in XML, without the colon of a namespace. */
 const XML_NAME = /^[\p{L}_][\p{L}\p{N}\p{M}._·-]*$/u;
 
 /** Whether a port may be called so; what begins with _ belongs to other programs. */

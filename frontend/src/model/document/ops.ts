@@ -9,7 +9,7 @@ export type Op =
   | { readonly kind: 'insert'; readonly path: Path; readonly index: number; readonly values: readonly Json[] }
   | { readonly kind: 'remove'; readonly path: Path; readonly indexes: readonly number[] };
 
-/** What a document says after the changes, one after the other. */
+/** The value of a document after the changes, in their order. */
 export function applyOps(raw: JsonObject, ops: readonly Op[]): JsonObject {
   return ops.reduce<JsonObject>((value, op) => applied(value, op.path, op) as JsonObject, raw);
 }

@@ -1,4 +1,4 @@
-/** What documents are made of. SI units; poses are [x, y, z, roll, pitch, yaw]. */
+/** The values of documents. SI units; poses are [x, y, z, roll, pitch, yaw]. */
 
 export type Json = string | number | boolean | null | readonly Json[] | { readonly [key: string]: Json };
 export type JsonObject = { readonly [key: string]: Json };

@@ -64,7 +64,7 @@ const LONGEST = 2_000_000;
 
 const START = { text: 0, line: 1, column: 1, thing: null, path: [] } as const;
 
-/** What a text says as YAML, or why it says nothing. */
+/** The value of a YAML text, or the reason why it has none. */
 export function valueOfYaml(text: string): { raw: Json } | { problems: DocumentProblem[] } {
   if (text.length > LONGEST) return { problems: [{ ...START, kind: 'tooLong', params: { most: LONGEST } }] };
   const { document, lines } = parsed(text);

@@ -16,7 +16,7 @@ export type JointType = (typeof JOINT_TYPES)[number];
 export const MOVING: readonly string[] = ['revolute', 'continuous', 'prismatic'];
 const LIMITED: readonly string[] = ['revolute', 'prismatic'];
 
-/** What a link's friction is where `robot.yaml` says nothing of it. */
+/** The friction of a link that `robot.yaml` does not name. */
 export const FRICTION = 0.8;
 
 /** Between which a joint begins to move: rad, of a prismatic one m. */
@@ -115,7 +115,7 @@ export function setMotorValue(robot: Robot, name: string, field: string, value: 
 
 type Contact = 'friction' | 'skid';
 
-/** How a link holds on to what it touches: `friction`, and what of it is left sideways, `skid`. */
+/** The friction of a link: `friction`, and its share sideways, `skid`. */
 export function contactOf({ raw }: Robot, field: Contact, link: string): number {
   const map = raw[field];
   const value = isObject(map) ? map[link] : undefined;

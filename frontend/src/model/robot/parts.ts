@@ -10,7 +10,7 @@ import { partOf, type Part, type Robot } from './types';
 import type { UrdfShape } from './urdf';
 import { geometryText, inertialText, list } from './writing';
 
-/** What can be added to a robot. */
+/** The parts that can be added to a robot. */
 export const ADDABLE = [
   'lidar',
   'camera',

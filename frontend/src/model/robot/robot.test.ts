@@ -131,7 +131,7 @@ describe('edits', () => {
     ).toBe(-0.2);
   });
 
-  it('makes wheels larger and wider, and they go on standing on the floor', () => {
+  it('makes wheels larger and wider, and they stay on the floor', () => {
     const robot = robotOf(after(START, (now) => setWheels(now, { radius: 0.075, width: 0.045 })));
     expect(robot.wheelRadius).toBe(0.075);
     expect(wheelWidth(robot)).toBeCloseTo(0.048, 2);

@@ -6,7 +6,7 @@ import type { Urdf } from './urdf';
 export type SensorKind = 'lidar' | 'camera' | 'imu' | 'bumper' | 'battery';
 export const SENSOR_KINDS: readonly SensorKind[] = ['lidar', 'camera', 'imu', 'bumper', 'battery'];
 
-/** What a robot takes on `/cmd_vel`. */
+/** The message types that a robot accepts on `/cmd_vel`. */
 export const COMMAND_TYPES = ['both', 'twist', 'twist_stamped'] as const;
 export type CommandType = (typeof COMMAND_TYPES)[number];
 

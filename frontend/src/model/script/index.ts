@@ -90,7 +90,7 @@ class Parser {
     return left;
   }
 
-  /** Goes on with the next operator; undefined when that binds less tightly than `level`. */
+  /** Parses the next operator; undefined when that binds less tightly than `level`. */
   private extend(left: Operand, level: number): Operand | undefined {
     const operator = this.token.kind === 'operator' ? this.token.text : '';
     const binding = BINARY.get(operator);
@@ -167,7 +167,7 @@ class Parser {
   }
 }
 
-/** What a script reads and writes, or why it cannot be read. */
+/** The names that a script reads and writes, or its syntax error. */
 export function readScript(text: string): ScriptFacts | ScriptProblem {
   const tokens = tokenize(text);
   if (!Array.isArray(tokens)) return tokens as ScriptProblem;

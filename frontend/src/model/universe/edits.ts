@@ -138,7 +138,7 @@ export function freeId(universe: Universe, wish: string): string {
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
-/** Why a thing cannot be called so; null where it can. */
+/** Why a name is invalid for a thing; null where it is valid. */
 export function idProblem(universe: Universe, key: string, id: string): 'name' | 'sameId' | 'tooLong' | null {
   if (!ID.test(id)) return 'name';
   if (id.length > 80) return 'tooLong';

@@ -69,7 +69,7 @@ export interface RobotThing extends Placed {
   readonly section: 'robots';
   readonly model: string;
   readonly pose: Pose;
-  /** Topics that are called otherwise here, by the sensor or joint that they belong to. */
+  /** Topics that have another name here, by the sensor or joint that they belong to. */
   readonly topics: Readonly<Record<string, string>>;
 }
 

@@ -176,7 +176,7 @@ describe('rewriting', () => {
     expect(moved).toBe(`${ROOM}robots:\n  - {id: robot, model: turtle2, pose: [1, 2, 0, 0, 0, 0]}\n`);
   });
 
-  it('writes what it cannot splice anew, with comments', () => {
+  it('rewrites what it cannot splice, with comments', () => {
     const odd = 'format: bt-studio/universe\nversion: 1 # one\nname: x\nmodels:\nactors: # none\n';
     const box = { id: 'box', shape: 'sphere', size: [1] };
     const written = edited(odd, (universe) => add(universe, 'models', [box]));

@@ -3,7 +3,7 @@ import type { NodeId } from '@/model/diagram';
 import type { Kind, Placement } from '@/model/rules';
 import type { Slot } from '@/model/slots';
 
-/** What choosing a type in the quick-add box does. */
+/** The effect of choosing a type in the quick-add box. */
 export type QuickAddGoal =
   | { readonly does: 'add'; readonly place: Placement }
   | { readonly does: 'wrap'; readonly nodes: readonly NodeId[] }
@@ -34,7 +34,7 @@ interface EditorState {
   readonly minimap: boolean | null;
 }
 
-/** What the editor is busy with: nothing of it is saved or undone. */
+/** The transient state of the editor: nothing of it is saved or undone. */
 export const useEditorStore = create<EditorState>()(() => ({
   quickAdd: null,
   editing: null,

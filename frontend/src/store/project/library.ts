@@ -16,7 +16,7 @@ export interface Reusable {
   readonly files: Sources;
 }
 
-/** What a project remembers of a behaviour that it took over. */
+/** The record of a behaviour that a project has reused. */
 export interface Taken {
   readonly source: string;
   readonly version: string;
@@ -63,7 +63,7 @@ function write(path: string, text: string): void {
   else addFile(path, text);
 }
 
-/** The ports that a tree offers to who uses it as a subtree. */
+/** The ports of a tree when it is used as a subtree. */
 function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
@@ -95,7 +95,7 @@ export interface Difference {
   readonly theirs: string;
 }
 
-/** What an update would change; empty when the project has the newest version already. */
+/** The changes of an update; empty when the project has the newest version already. */
 export function differencesOf(behaviour: Reusable): readonly Difference[] {
   const taken = takenNow()[keyOf(behaviour)];
   if (!taken) return [];

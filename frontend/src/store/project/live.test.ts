@@ -21,7 +21,7 @@ beforeEach(() => {
 });
 
 describe('live status', () => {
-  it('is told by diagram node', () => {
+  it('is stored by diagram node', () => {
     live().setStatuses([[1, 'RUNNING']]);
     expect([status('a'), status('b')]).toEqual(['RUNNING', undefined]);
   });

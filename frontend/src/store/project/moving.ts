@@ -3,7 +3,7 @@ import { useProjectStore } from '.';
 const UNIVERSE = /^universes\/([^/]+)\.yaml$/;
 const ROBOT = /^robots\/([^/]+)\/robot\.yaml$/;
 
-/** What a file of the explorer stands for. */
+/** The kind of document of a file in the explorer. */
 export type DocumentKind = 'tree' | 'action' | 'universe' | 'robot' | 'file';
 
 export function kindOf(path: string): DocumentKind {
@@ -36,7 +36,7 @@ export function pathNamed(path: string, name: string): string {
 const FIRST_UNIVERSE = 'empty';
 
 /**
- * Has the project's settings follow a universe or a robot that goes, or that is called otherwise from now on.
+ * Updates the project's settings after a universe or a robot was removed or renamed.
  * Without another name, the project runs in the empty universe, with the robot that the universe has.
  *
  * @returns how to take it back, or null where the project does not run with it.

@@ -16,7 +16,7 @@ describe('a finding of the server', () => {
     node: 'n1',
   };
 
-  it('is told in the words of the editor, which are translated, where it has found the same', () => {
+  it('uses the translated text of the editor where it has the same finding', () => {
     expect(inOwnWords(item, diagram, vocabulary)).toMatchObject({
       source: 'editor',
       kind: 'unknown-type',
@@ -24,7 +24,7 @@ describe('a finding of the server', () => {
     });
   });
 
-  it('is told as it came where the editor knows nothing of it', () => {
+  it('keeps the text of the server where the editor has no such finding', () => {
     const alone = { source: 'server', message: item.message, hint: item.hint };
     expect(inOwnWords({ ...item, code: 'BT0601' }, diagram, vocabulary)).toMatchObject(alone);
     expect(inOwnWords(item, undefined, vocabulary)).toMatchObject(alone);

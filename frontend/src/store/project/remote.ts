@@ -4,7 +4,7 @@ import { currentText, openFiles } from './files';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
 
-/** What came from the server, by path. */
+/** The files that came from the server, by path. */
 export interface Merged {
   readonly data: Partial<ProjectData>;
   readonly taken: readonly string[];

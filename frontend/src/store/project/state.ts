@@ -80,7 +80,7 @@ export interface ProjectActions {
   deleteFile(path: string): void;
   setSettings(patch: Partial<ProjectSettings>): void;
   setChecked(checked: { diagnostics: readonly Diagnostic[]; actions: readonly ActionModel[] }): void;
-  /** What has to be sent to the server, each file with the revision it is based on. */
+  /** The changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;
   /** After a conflict: the file is now based on this revision; the text here stays. */

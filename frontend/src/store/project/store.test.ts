@@ -133,7 +133,7 @@ describe('saving', () => {
       expect.objectContaining({ path: 'trees/MainTree.json', content: '{ oops' }),
     ]);
   });
-  it('goes on from another revision after a conflict', () => {
+  it('continues from another revision after a conflict', () => {
     state().setFileText('actions/Turn.py', 'mine');
     state().rebase('actions/Turn.py', 9, 'theirs');
     expect(state().pendingChanges()).toEqual([

@@ -60,7 +60,7 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 
 const NOT_CHECKED = 'BT0009';
 
-/** What is known after an answer: one that could not check the project adds that to what was known before. */
+/** The state after an answer; if the project could not be checked, the earlier findings stay. */
 export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
   const { checked, diagnostics, actions } = answer;
   if (checked !== false) return { diagnostics, actions };

@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { asSave, saveNow } from '@/store/saving/autosave';
 
-/** What a restoring did: how to take it back, and whether anything was to be done. */
+/** The result of a restore: how to revert it, and whether anything changed. */
 export interface Restored {
   readonly previous: number;
   readonly isChanged: boolean;

@@ -33,7 +33,7 @@ export const resetWorld = () => reported(send('reset_world', {}));
 export const takeOver = () => reported(send('take_over', {}));
 export const end = () => reported(endSession());
 
-/** One tick; a run that is going on is paused first. */
+/** One tick; a running application is paused first. */
 export async function step(): Promise<void> {
   await reported(isRunning() ? send('pause', {}).then(() => send('step', {})) : send('step', {}));
 }

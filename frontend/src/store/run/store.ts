@@ -1,7 +1,7 @@
 import { create } from 'zustand';
 import type { Diagnostic } from '@/api/types';
 
-/** What Run is doing before the executor takes over. */
+/** The steps of Run before those of the executor. */
 export type LaunchStage = 'saving' | 'checking' | 'starting' | 'launching';
 
 export interface LaunchFailure {
@@ -13,7 +13,7 @@ export interface LaunchFailure {
   diagnostics: Diagnostic[];
 }
 
-/** Why someone may not run a project: they came by a read-only link, or look on at another's session. */
+/** Why someone may not run a project: they came by a read-only link, or view another user's session. */
 export type RunBlocker = 'guest' | 'viewer';
 
 interface RunData {

@@ -5,7 +5,7 @@ interface UniverseChoice {
   /** Null: the project's universe. */
   universe: string | null;
   robot: string | null;
-  /** What random places and the noise of sensors are drawn from. */
+  /** The seed of random poses and of sensor noise. */
   seed: number;
 }
 

@@ -5,10 +5,10 @@ import { mergeRemote } from '@/store/project/remote';
 import { saveNow } from './autosave';
 import { useSavingStore } from './store';
 
-/** Told what came from elsewhere: the paths, and what the other side called its change. */
+/** Called with a remote change: the paths, and its message. */
 type OnTaken = (paths: readonly string[], notice: Notice) => void;
 
-/** Told what concerns all users of the server; an empty text says that it is over. */
+/** Called with a notice for all users of the server; an empty text ends it. */
 type OnServer = (text: string) => void;
 
 interface ServerNotice {

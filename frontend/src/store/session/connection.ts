@@ -14,7 +14,7 @@ import { forgetRun, rememberRun } from './trace/overReload';
 import type { SessionData } from './types';
 
 const RETRY_MS = [300, 600, 1200, 2500, 5000];
-/** How often a topic that is listened to is heard. */
+/** The rate at which a subscribed topic is echoed. */
 export const ECHO_HZ = 10;
 /** With this code the server closes the socket of a session that it ended because nothing answered. */
 const EXECUTOR_SILENT = 4504;

@@ -2,7 +2,7 @@
 export const CONNECTIONS = ['off', 'starting', 'open', 'reconnecting', 'lost'] as const;
 export type Connection = (typeof CONNECTIONS)[number];
 
-/** `introduced`: the manager has sent its first message; `ended`: the session is gone on the server. */
+/** `introduced`: the manager has sent its first message; `ended`: the session no longer exists on the server. */
 export const CONNECTION_EVENTS = ['start', 'introduced', 'closed', 'ended', 'leave'] as const;
 export type ConnectionEvent = (typeof CONNECTION_EVENTS)[number];
 

@@ -1,6 +1,6 @@
 /** How often the session is asked whether it answers, so that what lasts 3 s is shown within 4. */
 export const HEARTBEAT_MS = 500;
-/** A silence that is shorter is nobody's concern. */
+/** A shorter silence is not shown. */
 const SHOWN_AFTER_MS = 3000;
 /** A page that comes back after so long was asleep, and has not listened. */
 const ASLEEP_MS = 10_000;

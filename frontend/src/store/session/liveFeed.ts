@@ -27,7 +27,7 @@ export function feedLive({ command, data }: ServerMessage): void {
       for (const [uid, status] of flashed) flashes.set(uid, status);
       return;
     }
-    // What a stopped tree shows is its end, not what was on its way.
+    // A stopped tree shows its last statuses, not the delayed ones.
     case 'state-changed':
       return showStatuses();
     case 'fault':

@@ -44,7 +44,7 @@ describe('speedOf', () => {
     expect(speedOf(samples)).toBeCloseTo(0.3);
   });
 
-  it('is nothing where time stands still', () => {
+  it('is nothing while time does not pass', () => {
     expect(speedOf([{ t: 1, x: 0, y: 0 }])).toBe(0);
     expect(speedOf([])).toBe(0);
   });

@@ -93,7 +93,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   }),
 };
 
-/** What a message changes; messages that concern no state change nothing. Pure. */
+/** Returns the state after a message; messages without state leave it unchanged. Pure. */
 export function reduce(state: SessionData, message: ServerMessage): SessionData {
   const handler = handlers[message.command as keyof Events] as Handler<keyof Events> | undefined;
   if (!handler) return state;

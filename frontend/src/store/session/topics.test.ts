@@ -54,7 +54,7 @@ describe('topics', () => {
     expect(useTopicsStore.getState().echoes['/odom']).toMatchObject({ count: 3, last: { t: 1.2 } });
   });
 
-  it('bounds the samples, and begins anew when time goes back', () => {
+  it('bounds the samples, and restarts when time goes back', () => {
     addEcho('/odom');
     feedTopics(said(0, 0));
     togglePlot('/odom', 'pose.x');

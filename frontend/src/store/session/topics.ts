@@ -20,7 +20,7 @@ export interface Series {
 
 interface TopicsData {
   topics: readonly TopicInfo[];
-  /** Whether the list was ever answered, so that an empty one can be told from none. */
+  /** Whether a list has arrived, to distinguish an empty list from none. */
   isKnown: boolean;
   echoes: Readonly<Record<string, Echo>>;
   /** Fields that are drawn, in the order in which they were chosen. */

@@ -26,7 +26,7 @@ export interface BlackboardRow extends BlackboardEntry {
 export interface SessionData {
   connection: Connection;
   connectionMessage: string;
-  /** For how many seconds the executor has not answered; 0 while that is nothing to speak of. */
+  /** The seconds without an answer of the executor; 0 while they are too few to show. */
   silentS: number;
   projectId: string | null;
   sessionId: string | null;

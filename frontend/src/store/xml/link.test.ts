@@ -119,7 +119,7 @@ describe('the text of a tree', () => {
     expect(type()).toBe('C');
   });
 
-  it('can be made anew of the tree', async () => {
+  it('can be generated again from the tree', async () => {
     const link = await open();
     link.edited('<B');
     onCanvas('C');

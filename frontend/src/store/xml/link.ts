@@ -7,7 +7,7 @@ import { parseDiagram, serializeDiagram } from '@/model/serialize';
 import { useProjectStore } from '@/store/project';
 import { forgetXml, keepXml, cachedXml } from './cache';
 
-/** How the text and the tree stand to each other. */
+/** The relation of the text to the tree. */
 export type XmlState =
   | { readonly kind: 'loading' }
   | { readonly kind: 'inStep'; readonly findings: readonly Diagnostic[] }
@@ -24,7 +24,7 @@ export interface XmlSnapshot {
   /** Of the newest text that was in step. */
   readonly ranges: readonly NodeRange[];
   readonly state: XmlState;
-  /** What was typed in an earlier visit, and not read, is back. */
+  /** Invalid text of an earlier visit was restored. */
   readonly isRestored: boolean;
 }
 
@@ -161,7 +161,7 @@ export class XmlLink {
     else this.soon(WRITE_AFTER_MS, () => void this.write());
   }
 
-  /** Both sides have gone on: nothing moves until the user has chosen. */
+  /** Both sides have changed: nothing is synchronized until the user has chosen. */
   private part(): void {
     clearTimeout(this.timer);
     this.request += 1;

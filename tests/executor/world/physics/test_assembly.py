@@ -1,4 +1,4 @@
-"""URDF and SDF models of a project as things of a universe."""
+"""URDF and SDF models of a project as models of a universe."""
 
 import math
 from pathlib import Path
@@ -28,7 +28,7 @@ DOOR = """\
     <limit lower="-1.5" upper="1.5" effort="10" velocity="5"/></joint>
 </robot>
 """
-# A table with its leg beside it in the model's frame, a drawer on a slide, and a lamp that nothing holds.
+# A table with its leg beside it in the model's frame, a drawer on a slide, and a lamp without a joint.
 TABLE = """\
 <sdf version="1.9"><model name="table">
   <link name="top"><pose>0 0 0.7 0 0 0</pose>
@@ -88,7 +88,7 @@ def test_a_door_swings_on_its_hinge_and_is_moved_back(project: Path) -> None:
     world.step(480)
     leaf = where(world)["door/leaf"]
     assert abs(yaw_of(leaf[3:].tolist()) - math.pi / 2) > 0.2
-    assert leaf[:3] == pytest.approx([2, 0, 0], abs=0.02)  # it hangs where its frame stands
+    assert leaf[:3] == pytest.approx([2, 0, 0], abs=0.02)  # it is attached at its frame
     saved = world.save()
     world.step(60)
     world.restore(saved)
@@ -103,7 +103,7 @@ def test_an_sdf_model_has_its_poses(project: Path, caplog: pytest.LogCaptureFixt
         "  - {id: table, shape: sdf, file: assets/things/table.sdf, pose: [1, 0, 0, 0, 0, 0]}\n", project
     )
     places = where(world)
-    assert list(places) == ["table/top", "table/drawer"]  # what is fixed to the top is one with it
+    assert list(places) == ["table/top", "table/drawer"]  # links that are fixed to the top are merged with it
     assert places["table/top"][:3] == pytest.approx([1, 0, 0])
     assert places["table/drawer"][:3] == pytest.approx([1, 0.3, 0.6])
     top = next(o for o in world.scene.objects if o.link == "top")

@@ -32,7 +32,7 @@ def drive(world: "BulletWorld", linear: float, angular: float, seconds: float) -
 def test_true_motion_is_what_was_commanded(make_world: "MakeWorld", linear: float, angular: float) -> None:
     world = make_world("empty")
     world.step(SETTLE)
-    drive(world, linear, angular, 1.0)  # gather speed
+    drive(world, linear, angular, 1.0)  # time to accelerate
     before, odometry_before = world.robots[0].pose, world.robots[0].odometry
     drive(world, linear, angular, 1.0)
     after, odometry = world.robots[0].pose, world.robots[0].odometry
@@ -66,7 +66,7 @@ def test_a_robot_without_commands_stays(make_world: "MakeWorld") -> None:
 def test_distance_is_that_of_the_true_path(make_world: "MakeWorld") -> None:
     world = make_world("empty")
     drive(world, 0.4, 0.8, 10.0)
-    odometer = 0.4 * 10 - 0.4 * 0.4 / 2 / 1.2  # less what is lost while gathering speed
+    odometer = 0.4 * 10 - 0.4 * 0.4 / 2 / 1.2  # minus the loss during acceleration
     assert world.robots[0].distance_m == pytest.approx(odometer, rel=0.02)
 
 
@@ -168,7 +168,7 @@ def test_the_scene_lists_everything_in_the_order_of_its_poses(make_world: "MakeW
 
 
 def test_the_scene_shows_where_things_are_now(make_world: "MakeWorld") -> None:
-    """Who joins late must not see the robot jump from its start."""
+    """A client that joins late must not see the robot jump from its initial pose."""
     world = make_world("empty")
     begun = {o.id: o.pose for o in world.scene.objects}
     drive(world, 0.4, 0.0, 1.0)
@@ -211,7 +211,7 @@ def test_things_stand_where_they_were_dragged(make_world: "MakeWorld") -> None:
     earlier = world.poses()
     world.move_body("wall", (3, 3, 0.5, 0, 0, 0))
     wall = next(o.id for o in world.scene.objects if o.body == "wall")
-    assert earlier[wall][0] == 1.0  # who holds the old poses keeps them
+    assert earlier[wall][0] == 1.0  # callers may keep the old poses unchanged
     world.step(10)
     assert world.poses()[wall][:3] == pytest.approx((3, 3, 0.5))
     assert world.robots[0].scan(world.robots[0].config.lidars[0]).ranges[0] == np.inf

@@ -1,4 +1,4 @@
-"""Indoors a robot's camera sees a ceiling; from above one sees the rooms, and rays meet what they met."""
+"""Indoors a robot's camera sees a ceiling; views from above see the rooms, and rays are unchanged."""
 
 import math
 from collections.abc import Iterator
@@ -49,7 +49,7 @@ def test_the_camera_sees_it_and_the_view_does_not(renderer: Renderer) -> None:
     metres = renderer.depth(world.poses(), camera, *SIZE)[:, SIZE[0] // 2]
     focal = SIZE[0] / 2 / math.tan(camera.fov / 2)
     up = (SIZE[1] / 2 - np.arange(SIZE[1]) - 0.5) / focal
-    # The wall reaches up to where the ceiling begins, 2 m above the eye and 3 m ahead.
+    # The wall ends where the ceiling begins, 2 m above the eye and 3 m ahead.
     assert (column[up > 2.06 / 3] == ceiling).all()
     assert (column[(up < 1.97 / 3) & (up > -0.1)] == east).all()
     assert metres[0] == pytest.approx(2.0 / up[0], abs=0.02)
@@ -69,7 +69,7 @@ def test_views_of_the_world_are_the_same_with_and_without(renderer: Renderer) ->
         renderer.load(world.scene)
         pictures.append(renderer.draw(world.poses(), look_at((-6, -5, 4), (0, 0, 0)), *SIZE).astype(int))
         world.close()
-    # The shadow maps may lie a little apart.
+    # The shadow maps may differ slightly.
     assert np.mean(np.abs(pictures[0] - pictures[1]).max(axis=2) > 30) < 0.002
 
 

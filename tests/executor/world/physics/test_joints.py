@@ -1,4 +1,4 @@
-"""Truth of a joint with a motor: the camera of the lookout pans to its target, and looks there."""
+"""Truth of a joint with a motor: the camera of the lookout pans to its target, and sees what is there."""
 
 import math
 from pathlib import Path
@@ -46,7 +46,7 @@ def test_a_known_point_is_where_the_panned_camera_must_see_it(make_world: MakeWo
     pose = robot.camera_pose(camera)
     view = Viewpoint.of_pose(pose, camera.fov, camera.near, camera.far)
     yaw = robot.pose[2] - 1.0
-    # Three metres ahead of the lens and half a metre to its left, by the robot's own true pose.
+    # Three metres ahead of the lens and half a metre to its left, by the robot's true pose.
     mast = (-0.02 * math.cos(robot.pose[2]), -0.02 * math.sin(robot.pose[2]))
     ahead = 0.05 + 3.0
     point = [

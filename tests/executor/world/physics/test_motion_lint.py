@@ -1,4 +1,4 @@
-"""Robots move by wheels and contact alone: every caller that can set the pose of a body is listed here."""
+"""Robots move by wheels and contact alone: all callers that can set the pose of a body are listed here."""
 
 import ast
 from pathlib import Path
@@ -17,7 +17,7 @@ FORBIDDEN = {
     "applyExternalForce",
     "applyExternalTorque",
 }
-# The renderer's physics server simulates nothing; `placement` is the one door for all others.
+# The renderer's physics server simulates nothing; `placement` serves all others.
 PLACERS = {
     ("world/physics/placement.py", "put"),
     ("world/physics/placement.py", "put_at_rest"),
@@ -33,7 +33,7 @@ CALLERS = {
 
 
 def uses(source: str, names: set[str]) -> set[str]:
-    """Returns the functions of a source that name one of `names`, as an attribute, a word or a text."""
+    """Returns the functions of a source that contain one of `names`, as an attribute, a name or a text."""
     found: set[str] = set()
 
     def visit(node: ast.AST, function: str) -> None:

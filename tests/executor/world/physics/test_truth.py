@@ -1,4 +1,4 @@
-"""Physics truth: sensors and odometry against what is so; `docs/explanation/simulation.md` has the table."""
+"""Physics truth: sensors and odometry against true values; `docs/explanation/simulation.md` has the table."""
 
 import math
 from collections.abc import Iterator
@@ -62,7 +62,7 @@ def test_each_robot_moves_as_commanded(model: str, part: float, turn: float) -> 
     after, odometry = world.robots[0].pose, world.robots[0].odometry
     world.close()
     chord = abs(linear) if not angular else 2 * abs(linear / angular) * abs(math.sin(angular / 2))
-    skids = len(config.left) > 1  # wheels that slide sideways cannot turn so exactly
+    skids = len(config.left) > 1  # wheels that slide sideways turn less exactly
     assert math.dist(before[:2], after[:2]) == pytest.approx(chord, rel=0.12 if skids else 0.005, abs=0.015)
     turned = math.remainder(after[2] - before[2], 2 * math.pi)
     assert turned == pytest.approx(angular, rel=0.12 if skids else 0.005, abs=0.003)
@@ -122,7 +122,7 @@ def test_lidar_without_noise_is_exact_to_a_millimetre(model: str) -> None:
     lidar = robot.config.lidars[0].model_copy(update={"noise_m": 0.0})
     pose = robot.scan(lidar).pose
     ranges = LidarCaster(world._rays, lidar, robot.uid, ALL_GROUPS, (0,)).scan(world.time_s, pose).ranges
-    # Where the sensor is by the drawing of the robot, not by where physics has it.
+    # The pose of the sensor by the robot's drawing, not by the physics engine.
     base = from_xyz_rpy((0.0, 0.0, 0.0, 0.0, 0.0, 0.3))
     carrier, offset = robot.config.urdf.rigid_parent(lidar.link)
     assert carrier == robot.config.urdf.root
@@ -136,7 +136,7 @@ def test_lidar_without_noise_is_exact_to_a_millimetre(model: str) -> None:
 
 
 def test_known_points_are_seen_at_their_designed_places(model: str) -> None:
-    """Through the camera as it stands on its robot, against the robot's drawing on level ground."""
+    """By the camera at its pose on the robot, compared with the robot's drawing on level ground."""
     world = quiet(model, ROOM)
     robot = world.robots[0]
     for camera in robot.config.cameras:
@@ -154,7 +154,7 @@ def pixel(camera: Pose, point: tuple[float, float, float], focal: float) -> tupl
     return -focal * left / ahead, -focal * up / ahead
 
 
-def test_scans_of_a_seed_are_the_same_whoever_listened(model: str) -> None:
+def test_scans_of_a_seed_do_not_depend_on_subscribers(model: str) -> None:
     ranges = []
     for listens in (False, True):
         world = place(model, ROOM, seed=4)
@@ -192,7 +192,7 @@ def test_imu_feels_turning_and_speeding_up() -> None:
     imu = robot.config.imus[0]
     world.step(240)
     felt = []
-    for _ in range(20):  # 0.4 s of gathering speed
+    for _ in range(20):  # 0.4 s of acceleration
         robot.command(0.7, 0.0)
         world.step(4)
         felt.append(robot.imu(imu).acceleration[0])
@@ -268,7 +268,7 @@ def test_depth_is_the_distance_along_the_axis(turtle: BulletWorld) -> None:
     metres = sensors.depth(robot, camera)
     x, _, z, *_ = pose = robot.camera_pose(camera)
     sensors.close()
-    up = 2 * math.asin(-pose[4])  # the camera looks up a little
+    up = 2 * math.asin(-pose[4])  # the camera looks slightly upwards
     focal = camera.width / 2 / math.tan(camera.fov / 2)
     for row in (40, 160, 240, 320):
         above = math.atan((camera.height / 2 - row - 0.5) / focal) + up

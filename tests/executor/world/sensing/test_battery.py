@@ -15,6 +15,6 @@ def test_it_empties_by_idling_and_more_by_driving() -> None:
     assert half.charge == pytest.approx(0.5)
     assert half.current == pytest.approx(-2.0)
     assert half.voltage < full.voltage
-    battery.drain(5.0, 3600)  # more than all is all
+    battery.drain(5.0, 3600)  # more than the capacity
     assert battery.is_empty
     assert battery.reading().percentage == 0.0

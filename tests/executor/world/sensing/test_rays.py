@@ -1,4 +1,4 @@
-"""Rays: what is worked out here is what the physics server says, and where it differs, what geometry says."""
+"""Rays: our results equal those of the physics server, and where these differ, those of geometry."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_rays_end_where_the_physics_server_s_do(bullet, seed):
     angles = np.arange(720) * math.tau / 720
     tilt = (0, 0, 0, *rng.normal(0, 0.05, 2), 0)
     ours = rays.cast(start, fan(angles, tilt), -1, ALL)
-    # Bullet goes past an edge by a little, so a ray that grazes one is as good as its neighbours.
+    # Bullet passes an edge by a little, so a ray that grazes one may have its neighbour's result.
     near = np.array([by_bullet(bullet, start, fan(angles + turn, tilt)) for turn in (-0.01, 0.0, 0.01)])
     assert (ours < 1).sum() > 100
     assert np.all(ours * LENGTH_M > near.min(axis=0) * LENGTH_M - 0.01)

@@ -1,4 +1,4 @@
-"""A client too slow for its pictures gets smaller ones, and better ones again as soon as it can."""
+"""A client too slow for its pictures gets smaller ones, and better ones again as soon as possible."""
 
 from executor.world.simulation.adaptation import (
     CAMERA_SHARES,
@@ -85,7 +85,7 @@ def test_slow_motion_is_judged_by_its_own_speed() -> None:
 def shown(
     size: ViewSize, hz: float, seconds: float, *, begin_s: float = 0.0, wanted_hz: float = 30.0
 ) -> float:
-    """Sends pictures at a rate, of a world of 60 Hz; returns the share of the width after that."""
+    """Sends pictures at a rate, of a world of 60 Hz; returns the share of the width afterwards."""
     for i in range(round(seconds * hz)):
         now_s = begin_s + i / hz
         size.sent(now_s, 1 / wanted_hz, round(now_s * 60))
@@ -101,7 +101,7 @@ def test_a_view_gets_smaller_while_it_is_late_and_larger_after() -> None:
 
 def test_a_view_of_a_world_that_pauses_or_is_slow_is_not_late() -> None:
     size = ViewSize()
-    for i in range(20):  # a paused world that a hand changes each second
+    for i in range(20):  # a paused world that a user changes each second
         size.sent(float(i), 1 / 30, i)
     assert size.share == 1.0
     for i in range(100):  # a tenth of real time

@@ -1,4 +1,4 @@
-"""Streams over a real world with pictures of one colour: what is sent, when, and how little."""
+"""Streams over a real world with pictures of one colour: the frames, their times and their size."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,7 @@ decode = msgspec.msgpack.Decoder(Scene | Poses | Scan | Camera | View).decode
 
 
 class PlainRenderer:
-    """Counts what it is asked for, and draws grey."""
+    """Counts the requests, and draws grey."""
 
     name = "plain"
 
@@ -57,12 +57,12 @@ class Watched:
         self.renderer = PlainRenderer()
         self.sensors = Sensors(self.world, lambda: self.renderer)
         self.sent: list[Frame] = []
-        # Drawing takes no time by this clock: on a busy machine a slow picture would put off others.
+        # By this clock drawing takes no time: on a busy machine a slow picture would delay others.
         self.streams = Streams(self.world, self.sensors, self.sent.append, clock=lambda: 0.0)
         self.now_s = 0.0
 
     def run(self, seconds: float, hz: float = 60) -> list[Any]:
-        """Lets simulated and real time pass alike; returns the frames that were sent."""
+        """Passes simulated and real time alike; returns the frames that were sent."""
         first = len(self.sent)
         for _ in range(round(seconds * hz)):
             self.now_s += 1 / hz
@@ -72,7 +72,7 @@ class Watched:
         return self.frames(first)
 
     def stand(self, seconds: float) -> list[Any]:
-        """Lets only real time pass."""
+        """Passes only real time."""
         first = len(self.sent)
         for _ in range(round(seconds * 60)):
             self.now_s += 1 / 60
@@ -246,6 +246,6 @@ def test_slow_pictures_leave_time_for_the_world(watched: Watched) -> None:
     watched.streams.subscribe("a", "view")
     watched.streams.subscribe("a", "poses")
     frames = watched.run(2.0)
-    # A fifth of a second for the picture, a quarter of that for all else.
+    # A fifth of a second for the picture, a quarter of that for everything else.
     assert 7 <= sum(isinstance(frame, View) for frame in frames) <= 9
     assert sum(isinstance(frame, Poses) for frame in frames) > 50

@@ -78,7 +78,7 @@ function canUnwrapSelected(): boolean {
   return diagram !== null && id !== undefined && canUnwrap(diagram, id, state().vocabulary);
 }
 
-/** What is done with the selected blocks, in the order of the command palette. */
+/** The commands on the selected blocks, in the order of the command palette. */
 export const blockCommands: readonly BlockCommand[] = [
   {
     id: 'edit.copy',

@@ -20,7 +20,7 @@ function copyTo(clipboard: DataTransfer): boolean {
   return text !== null;
 }
 
-/** What is done at each event; false: there was nothing to do it with. */
+/** The handler of each event; false: there was nothing to copy or paste. */
 const HANDLERS = {
   copy: copyTo,
   cut: (clipboard: DataTransfer): boolean => {

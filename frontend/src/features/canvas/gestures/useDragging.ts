@@ -11,10 +11,10 @@ import { BlockDrag } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 
-/** Below this a press is a click: hands tremble. */
+/** A smaller move is a click, since hands tremble. */
 const DEAD_ZONE = 6;
 
-/** What is worked out once when blocks are taken, for all steps of the hand. */
+/** Computed once at the start of a drag, for all moves of the pointer. */
 interface Grip {
   readonly hand: BlockDrag;
   /** The blocks in the hand that are below none of the others, in execution order. */
@@ -92,7 +92,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
       if (!origin) return;
       const [dx, dy] = [node.position.x - origin.x, node.position.y - origin.y];
       if (Math.hypot(dx, dy) <= DEAD_ZONE) return;
-      // The key may have been let go, or pressed, since the last step of the hand.
+      // The key may have been released, or pressed, since the last move of the pointer.
       const slot = found && allows(found, tops, event.altKey) ? found : null;
       const place = slot && ({ at: 'child', parent: slot.parent, index: slot.index } as const);
       if (event.altKey) {

@@ -21,14 +21,14 @@ function purposeOf({ goal }: QuickAddState): Purpose {
   }
 }
 
-/** A name that asks something is a condition more likely than not: that choice comes first. */
+/** A name that is a question is probably a condition: that choice comes first. */
 function kindsFor(name: string): readonly ActionKind[] {
   return /^(is|has|can|check)([A-Z_]|$)/i.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
 }
 
 interface QuickAddProps {
   readonly request: QuickAddState;
-  /** Gives the keyboard back to the canvas. */
+  /** Returns the focus to the canvas. */
   readonly onClose: () => void;
 }
 
@@ -61,7 +61,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;
-  // Who types a name that no block has means a new action, even if the word stands in a description.
+  // A name that no block has means a new action, even if a description contains the word.
   const least = /^[A-Z]/.test(search) ? 3 : 1;
   const isNamed = found.some(({ label }) => matchScore(label, search) >= least);
   const likely = made.length > 0 && !isNamed ? found.length : 0;

@@ -1,4 +1,4 @@
-/** LSP's RequestCancelled and ContentModified: the text has changed since one asked. */
+/** LSP's RequestCancelled and ContentModified: the text has changed since the request. */
 const OUTDATED: readonly unknown[] = [-32_800, -32_801];
 
 interface Answer {
@@ -6,7 +6,7 @@ interface Answer {
   readonly error?: { readonly code?: unknown };
 }
 
-/** A question that its own typist has outrun has no answer; it is no error for anybody to see. */
+/** A request that later typing made obsolete has no answer; no error is shown. */
 export function withoutOutdated(message: string): string {
   if (!message.includes('"error"')) return message;
   const answer = JSON.parse(message) as Answer;

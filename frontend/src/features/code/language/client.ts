@@ -165,7 +165,7 @@ class Connection {
 
 let connection: Connection | null = null;
 
-/** What an editor of a Python file needs to have help; the connection is shared by all of them. */
+/** The extensions that give a Python editor language support; all editors share the connection. */
 export function languageSupport(path: string): Extension {
   const { projectId } = useProjectStore.getState();
   if (!projectId || !path.endsWith('.py')) return [];

@@ -1,4 +1,4 @@
-/** What the server calls the project's files; where they lie on its machine stays its own business. */
+/** The server's URIs for the project's files; their folder on its machine stays hidden. */
 const PROJECT = 'file:///project/';
 const LIBRARY = 'file:///library/';
 

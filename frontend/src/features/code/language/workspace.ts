@@ -51,7 +51,7 @@ export class ProjectWorkspace extends Workspace {
 
   constructor(
     client: LSPClient,
-    /** Told what is defined outside the project, and cannot be opened. */
+    /** Called with a definition outside of the project, which cannot be opened. */
     private readonly onOutside: (where: string) => void,
   ) {
     super(client);
@@ -80,7 +80,7 @@ export class ProjectWorkspace extends Workspace {
   override connected(): void {
     this.reconcile();
     for (const file of this.files) {
-      // What was typed while there was no server is in the editors.
+      // Text that was typed while there was no server is in the editors.
       file.doc = file.getView()?.state.doc ?? textOf(file.path) ?? file.doc;
       const view = file.getView();
       if (view) LSPPlugin.get(view)?.clear();

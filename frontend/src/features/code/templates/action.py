@@ -5,7 +5,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class NewAction(py_trees.behaviour.Behaviour):
-    """Says in one line what it does."""
+    """Describes the action in one line."""
 
     INPUT_PORTS = {"speed": Port(float, default=0.2, description="Speed ahead in m/s.")}
 

@@ -10,8 +10,8 @@ class NewAction(py_trees.behaviour.Behaviour):
     """Sends a goal to a ROS action server and waits until it is reached."""
 
     INPUT_PORTS = {
-        "x": Port(float, default=0.0, description="Where to go on the map, in m."),
-        "y": Port(float, default=0.0, description="Where to go on the map, in m."),
+        "x": Port(float, default=0.0, description="Target on the map, in m."),
+        "y": Port(float, default=0.0, description="Target on the map, in m."),
     }
 
     def setup(self, **kwargs):

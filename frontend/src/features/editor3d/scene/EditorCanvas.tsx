@@ -13,7 +13,7 @@ import { DRAGGED } from '../PlaceButton';
 
 interface EditorCanvasProps {
   readonly label: string;
-  /** What stands in place of the view where there is no 3D. */
+  /** The replacement of the view without WebGL. */
   readonly noWebGl: string;
   readonly testId: string;
   readonly count: number;
@@ -22,7 +22,7 @@ interface EditorCanvasProps {
   /** Something of the palette was let go over the view. */
   readonly onDropped: (what: unknown, at: Point | undefined) => void;
   readonly stage: (isDark: boolean) => ReactNode;
-  /** What lies over the view. */
+  /** Elements above the view. */
   readonly children: ReactNode;
 }
 

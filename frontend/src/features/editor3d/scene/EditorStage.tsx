@@ -15,7 +15,7 @@ import type { ThingScene } from './ThingScene';
 /** Closer lines would be a haze. */
 const FINEST_LINES_M = 0.05;
 
-/** What an editor gives its stage: what is shown, and what gestures do to it. */
+/** The interface of an editor for its stage: the shown things, and the effects of gestures. */
 export interface Staged {
   readonly scene: ThingScene<{ readonly key: string }>;
   readonly handles: Handles;
@@ -32,7 +32,7 @@ interface EditorStageProps {
   readonly lights: Scene['lights'];
   readonly ground: { readonly color: readonly number[]; readonly picture?: string | undefined };
   readonly textures?: Pictures | undefined;
-  /** How near and how far one may look from, and how large what is seen may be, in m. */
+  /** The nearest and farthest distance of the camera, and the largest visible size, in m. */
   readonly reach: readonly [number, number];
   readonly extent: readonly [number, number];
   readonly children?: ReactNode;

@@ -30,13 +30,13 @@ export interface Stand {
   readonly grid: number;
 }
 
-/** What the gizmo does to the things of an editor. */
+/** The effects of the gizmo on the things of an editor. */
 export interface Handles {
   /** Null: nothing that can be moved is selected. */
   stand(): Stand | null;
-  /** What follows the gizmo while it is dragged. */
+  /** The objects that follow the gizmo while it is dragged. */
   held(): readonly THREE.Object3D[];
-  /** Takes over what the gesture did; `start` is where the gizmo stood. */
+  /** Applies the gesture; `start` is the pose of the gizmo before it. */
   commit(mode: Mode, pivot: THREE.Object3D, start: THREE.Matrix4): void;
   /** Draws everything as it is written. */
   show(): void;
@@ -75,7 +75,7 @@ export class Gizmo {
     });
   }
 
-  /** Stands at what is selected, in the way that is chosen. */
+  /** Places the gizmo at the selection, in the chosen mode. */
   update(): void {
     const stand = this.handles.stand();
     if (!stand) {
@@ -93,11 +93,11 @@ export class Gizmo {
     this.controls.setTranslationSnap(grid || null);
     this.controls.setRotationSnap(grid ? TURN_STEP : null);
     this.controls.attach(this.pivot);
-    // What can be grasped is where it will be drawn, also before it is.
+    // Handles can be grabbed at their new place even before they are drawn there.
     this.controls.getHelper().updateMatrixWorld(true);
   }
 
-  /** Puts everything back while it is held; tells whether it was. */
+  /** Cancels a drag under way; returns whether there was one. */
   cancel(): boolean {
     if (!this.controls.dragging) return false;
     this.controls.reset();
@@ -137,7 +137,7 @@ export class Gizmo {
     this.held = [];
     if (held === 0) return;
     this.handles.commit(OF[this.controls.getMode()], this.pivot, this.start);
-    // What could not be done, or did nothing, is shown as it is.
+    // A gesture that was refused, or had no effect, is drawn without its change.
     this.handles.show();
     this.update();
   }

@@ -15,7 +15,7 @@ interface Load {
   readonly nodes: readonly THREE.Object3D[];
 }
 
-/** What the pointer does to the things of an editor. */
+/** The effects of the pointer on the things of an editor. */
 export interface DragHandler {
   /** Null: what is under the pointer stays where it is. */
   take(hit: Aimed): Load | null;
@@ -28,7 +28,7 @@ export interface Drawing {
   isOn(): boolean;
   move(point: Point): void;
   click(point: Point | null): void;
-  /** Tells whether there was something to end. */
+  /** Returns whether there was a gesture to end. */
   end(): boolean;
 }
 
@@ -67,7 +67,7 @@ export class PointerTool {
     canvas.addEventListener('pointercancel', () => this.cancel(), { signal });
   }
 
-  /** Ends what is under way without doing it; tells whether there was something. */
+  /** Cancels the gesture under way; returns whether there was one. */
   cancel(): boolean {
     const wasBusy = this.dragging !== null;
     for (const { node, at } of this.dragging?.starts ?? []) node.position.copy(at);

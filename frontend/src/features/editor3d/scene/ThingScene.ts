@@ -40,14 +40,14 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     });
   }
 
-  /** What a thing looks like beyond what it says: whether its files have arrived. */
+  /** The state of a thing's drawing beyond its value: whether its files have arrived. */
   protected abstract stateOf(thing: T): unknown;
   /** Draws a thing into its node. */
   protected abstract fill(node: THREE.Group, thing: T): void;
   /** Puts a node where its thing is. */
   protected abstract put(node: THREE.Group, thing: T): void;
 
-  /** Draws what changed since the last time; what did not stays the same object. */
+  /** Draws the changed things; the objects of the others stay. */
   show(things: readonly T[]): void {
     this.things = things;
     const keys = new Set(things.map(({ key }) => key));
@@ -101,7 +101,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return bounds;
   }
 
-  /** Frames what is selected. */
+  /** Draws frames around the selection. */
   mark(selection: readonly string[]): void {
     this.selected = selection;
     for (const [key, { node }] of this.drawn) {
@@ -120,7 +120,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     this.assets.dispose();
   }
 
-  /** What decides how a thing is drawn; by default all that is known of it. */
+  /** The values on which a thing's drawing depends; by default all. */
   protected lookOf(thing: T): unknown {
     return thing;
   }

@@ -52,7 +52,7 @@ const FORWARD: readonly Point[] = [
   [0, -1],
 ];
 
-/** The axis of the world that points most away from the one who looks. */
+/** The axis of the world that points most away from the camera. */
 export function forwardOf(camera: THREE.Camera): Point {
   const ahead = camera.getWorldDirection(new THREE.Vector3());
   // From straight above, what is up on the screen is ahead.

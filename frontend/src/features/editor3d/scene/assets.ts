@@ -6,7 +6,7 @@ import { fileUrl } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
 
-/** Something that is fetched to be drawn: null while it is on its way, or where it cannot be had. */
+/** A fetched object to draw: null while it is loading, or if it is not available. */
 export type Fetched<T> = { value: T | null; failed: boolean };
 
 /** Meshes and robots that a universe names, fetched once; `onArrival` tells that there is more to draw. */

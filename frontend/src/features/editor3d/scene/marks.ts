@@ -4,7 +4,7 @@ import type { ActorThing } from '@/model/universe/types';
 const ACCENT = 0x6f7dff;
 const CHOSEN = 0xff9f1a;
 
-/** Marks are no part of the thing: the pointer goes through them. */
+/** Marks are not a part of the thing: the pointer ignores them. */
 const untouchable = <T extends THREE.Object3D>(object: T): T => {
   object.raycast = () => undefined;
   object.userData['isOwn'] = true;

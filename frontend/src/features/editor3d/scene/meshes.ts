@@ -5,7 +5,7 @@ import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js
 /**
  * Reads a mesh file into one geometry in the file's own units and axes, as the simulator does.
  *
- * @throws Error in the user's words where it is none that can be used.
+ * @throws Error with a text for users if the mesh cannot be used.
  */
 export async function readMesh(path: string, data: ArrayBuffer): Promise<THREE.BufferGeometry> {
   const mesh = await parsed(path, data);

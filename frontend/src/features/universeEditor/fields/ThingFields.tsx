@@ -14,7 +14,7 @@ interface ThingFieldsProps {
   readonly thing: Thing;
 }
 
-/** Everything that can be said of one thing. */
+/** All properties of one thing. */
 export function ThingFields({ editor, universe, thing }: ThingFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const kind = thing.section === 'models' ? t(`shape.${thing.shape}`) : t(`section.${thing.section}`);

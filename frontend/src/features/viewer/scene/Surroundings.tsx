@@ -25,7 +25,7 @@ interface SurroundingsProps {
   readonly hasGrid: boolean;
   /** Finer lines round the origin, in m; 1 and 0 are none. */
   readonly fineGrid?: number;
-  /** How near and how far one may look from, in m. */
+  /** The nearest and farthest distance of the camera, in m. */
   readonly reach: readonly [number, number];
   readonly children: ReactNode;
 }
@@ -101,7 +101,7 @@ interface Sight {
   readonly kind: 'default' | 'top' | 'selection';
 }
 
-/** Puts the camera where all of what is meant is seen: from above, from the side, or from where one looks already. */
+/** Moves the camera to show all of a box: from above, from the side, or from the present direction. */
 export function look(
   camera: THREE.Camera,
   controls: Orbit | null,

@@ -66,7 +66,7 @@ export class World {
     }
   }
 
-  /** Moves objects on; tells whether some have not arrived. */
+  /** Moves objects towards their poses; returns whether some have not arrived. */
   advance(now: number): boolean {
     let isMoving = false;
     for (const item of this.moving.values()) {
@@ -147,7 +147,7 @@ export class World {
     const node = new THREE.Group();
     node.name = object.link ? `${object.body}/${object.link}` : object.body;
     for (const shape of object.shapes) {
-      // Only robots' cameras see ceilings: from outside one wants to look in.
+      // Only robots' cameras see ceilings, since they would hide the rooms from outside.
       if (shape.ceiling) continue;
       const mesh = meshOf(shape, this.geometries, this.materials);
       if (object.kind === 'static') mesh.receiveShadow = true;

@@ -49,7 +49,7 @@ export function forgetRun(): void {
   trace.start([], 0);
 }
 
-/** What the trace was before a reload or a lost connection; after a reload it is handed out once. */
+/** The trace before a reload or a lost connection; after a reload it is returned once. */
 export function takeCachedTrace(): string | null {
   const text = kept?.history ?? null;
   kept = null;

@@ -98,7 +98,7 @@ describe('Trace', () => {
     other.restore('{damaged', 5);
   });
 
-  it('begins anew when the world is put back to its start', () => {
+  it('restarts when the world is reset', () => {
     const trace = new Trace();
     trace.start([node(1)], 0);
     trace.tick([[1, 'RUNNING']], [], 60);

@@ -22,7 +22,7 @@ interface Kept {
   nodeTraces: [uid: number, stretches: number[]][];
 }
 
-/** What each node of the running tree did over the last ten minutes. Outside React: panels read it as they draw. */
+/** The statuses of each node over the last ten minutes. Outside React: panels read it when they draw. */
 export class Trace {
   nodes: readonly TreeNode[] = [];
   /** Simulated time of the first and of the newest thing known. */

@@ -14,7 +14,7 @@ describe('Trail', () => {
     expect(trail.count).toBe(10);
   });
 
-  it('begins anew where the robot was put somewhere else, or time went back', () => {
+  it('restarts when the robot was moved by hand, or time went back', () => {
     const trail = straight(10);
     trail.add(-4, 0, 9.1);
     expect(trail.count).toBe(1);

@@ -5,7 +5,7 @@ export const MAX_POINTS = 6000;
 const STEP_M = 0.03;
 const FASTEST_M_S = 5;
 
-/** Where the first robot has been: x and y in m, world frame. It grows whichever view is open. */
+/** The path of the first robot: x and y in m, world frame. It grows whichever view is open. */
 export class Trail {
   readonly points = new Float32Array(MAX_POINTS * 2);
   count = 0;

@@ -13,7 +13,7 @@ from django.db.models import Q
 from backend.accounts.audit import note
 from backend.accounts.models import User
 from backend.accounts.signals_out import account_leaves
-from backend.config.problems import InvalidInputError, StudioError
+from backend.core.problems import InvalidInputError, StudioError
 
 LOCAL_USER_NAME: Final = "local"
 

@@ -19,7 +19,7 @@ from django.utils.crypto import constant_time_compare
 from backend.accounts.actions import local_user
 from backend.accounts.models import User
 from backend.config.environment import environment
-from backend.config.instances import columns, instance
+from backend.core.instances import columns, instance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

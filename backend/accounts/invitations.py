@@ -13,7 +13,7 @@ from backend.accounts import links
 from backend.accounts.audit import note
 from backend.accounts.models import Group, GroupMember, Invitation
 from backend.accounts.permissions import TeacherRequiredError
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 
 if TYPE_CHECKING:
     from uuid import UUID

@@ -16,7 +16,7 @@ from backend.accounts.attempts import network_of
 from backend.accounts.audit import client_address
 from backend.accounts.models import User
 from backend.config.environment import environment
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 if TYPE_CHECKING:
     from rest_framework.request import Request

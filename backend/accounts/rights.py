@@ -15,7 +15,7 @@ from django.db import transaction
 from django.dispatch import Signal
 
 from backend.config.environment import environment
-from backend.config.telling import tell
+from backend.core.notify import tell
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable

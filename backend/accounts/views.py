@@ -12,7 +12,7 @@ from rest_framework.views import APIView
 from backend import __version__
 from backend.accounts import groups, invitations
 from backend.accounts import serializers as s
-from backend.config.api import parsed, user_of
+from backend.accounts.requests import parsed, user_of
 from backend.config.environment import environment
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from rest_framework.views import APIView
 
 from backend.catalog import library, queries
 from backend.catalog import serializers as s
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 from backend.projects.templates import templates
 
 if TYPE_CHECKING:

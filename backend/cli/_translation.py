@@ -42,7 +42,7 @@ def _stored_files(name: str) -> Mapping[str, bytes] | None:
     from django.db import DatabaseError
 
     from backend.accounts.actions import local_user
-    from backend.config.problems import NotFoundError
+    from backend.core.problems import NotFoundError
     from backend.projects.queries import contents, project_named
 
     try:

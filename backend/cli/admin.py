@@ -169,7 +169,7 @@ def delete_user(
     """Deletes an account with all its projects, for good; what it wrote elsewhere stays, without a name."""
     with _accounts():
         from backend.accounts.actions import delete_account
-        from backend.config.problems import StudioError
+        from backend.core.problems import StudioError
         from backend.projects.usage import usage
 
         user = _user(name)

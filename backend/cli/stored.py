@@ -30,7 +30,7 @@ def stored_projects() -> Iterator[None]:
         raise CliError(str(error), status=BAD_ARGUMENTS) from error
     except ServeError as error:
         raise CliError(str(error)) from error
-    from backend.config.problems import StudioError
+    from backend.core.problems import StudioError
 
     try:
         yield

@@ -10,8 +10,8 @@ from typing import Literal
 from pydantic import Field, SecretStr, ValidationError, field_validator
 from pydantic_settings import SettingsConfigDict, SettingsError
 
-from backend.config.limits import LIMITS
 from backend.config.team import MissingSettingError, TeamSettings
+from backend.core.limits import LIMITS
 
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]

@@ -19,12 +19,12 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from backend.config.clients import proxies
 from backend.config.environment import REPOSITORY, environment
-from backend.config.logs import set_up
-from backend.config.numbers import BEAT, STARTED, STUCK, make_page
 from backend.config.server import ServeError
-from backend.config.siblings import PAGE, PLACES, POOL
+from backend.core.clients import proxies
+from backend.core.logs import set_up
+from backend.core.processes.numbers import BEAT, STARTED, STUCK, make_page
+from backend.core.processes.siblings import PAGE, PLACES, POOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

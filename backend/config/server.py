@@ -16,10 +16,10 @@ import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
 
-from backend.config.clients import proxies
 from backend.config.environment import environment
-from backend.config.logs import set_up
-from backend.config.siblings import siblings
+from backend.core.clients import proxies
+from backend.core.logs import set_up
+from backend.core.processes.siblings import siblings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -224,8 +224,8 @@ def run(
 def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.Server:
     import uvicorn  # noqa: PLC0415 - slow to load
 
-    from backend.config.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
-    from backend.config.websocket import LARGEST_MESSAGE, PatientSocket  # noqa: PLC0415 - as above
+    from backend.core.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
+    from backend.core.websocket import LARGEST_MESSAGE, PatientSocket  # noqa: PLC0415 - as above
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:

@@ -25,7 +25,7 @@ def _secret_key() -> str:
 
 SECRET_KEY = _secret_key()
 DEBUG = False
-# The guard judges hosts, for pages and sockets alike (`backend/config/guard.py`).
+# The guard judges hosts, for pages and sockets alike (`backend/core/guard.py`).
 ALLOWED_HOSTS = ["*"]
 ASGI_APPLICATION = "backend.config.asgi.application"
 # The same apps, and so the same tables, in both modes; what differs is who answers which address.
@@ -51,8 +51,8 @@ INSTALLED_APPS = [
 ]
 LOCAL_URLS, TEAM_URLS = "backend.config.urls", "backend.config.urls_team"
 LOCAL_MIDDLEWARE = [
-    "backend.config.middleware.SecurityHeaders",
-    "backend.config.middleware.Guard",
+    "backend.ingress.middleware.SecurityHeaders",
+    "backend.ingress.middleware.Guard",
     "backend.config.static.FrontEndFiles",
     "django.middleware.http.ConditionalGetMiddleware",
     "backend.workers.deferred.Waiting",
@@ -103,7 +103,7 @@ DATA_UPLOAD_MAX_MEMORY_SIZE = ENVIRONMENT.max_request_bytes
 FILE_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
 FILE_UPLOAD_HANDLERS = [
     "django.core.files.uploadhandler.MemoryFileUploadHandler",
-    "backend.config.scratch.ScratchUploads",
+    "backend.core.scratch.ScratchUploads",
 ]
 SECURE_CONTENT_TYPE_NOSNIFF = True
 # Small notices only, such as that a project has a new revision; never frames, logs or files.
@@ -208,12 +208,12 @@ REST_FRAMEWORK: dict[str, Any] = {
         "backend.accounts.permissions.ExpensiveCalls",
         "backend.accounts.permissions.ExpensiveCallsOfGuests",
     ],
-    "DEFAULT_PARSER_CLASSES": ["backend.config.parsers.StrictJSONParser"],
+    "DEFAULT_PARSER_CLASSES": ["backend.core.rest.parsers.StrictJSONParser"],
     "DEFAULT_RENDERER_CLASSES": ["rest_framework.renderers.JSONRenderer"],
-    "DEFAULT_SCHEMA_CLASS": "backend.config.openapi.ProblemSchema",
-    "EXCEPTION_HANDLER": "backend.config.problems.exception_handler",
+    "DEFAULT_SCHEMA_CLASS": "backend.core.rest.openapi.ProblemSchema",
+    "EXCEPTION_HANDLER": "backend.core.problems.exception_handler",
     "UNAUTHENTICATED_USER": None,
-    "DEFAULT_CONTENT_NEGOTIATION_CLASS": "backend.config.negotiation.IgnoreClientNegotiation",
+    "DEFAULT_CONTENT_NEGOTIATION_CLASS": "backend.core.rest.negotiation.IgnoreClientNegotiation",
 }
 SPECTACULAR_SETTINGS: dict[str, Any] = {
     "TITLE": "BT Studio",

@@ -23,5 +23,5 @@ urlpatterns = [
     path("", static.page),
     re_path(r"^projects/[0-9a-f-]+/?$", static.page),
 ]
-handler404 = "backend.config.problems.not_found"
-handler500 = "backend.config.problems.server_error"
+handler404 = "backend.core.problems.not_found"
+handler500 = "backend.core.problems.server_error"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.config.server import GRACE_S, run, warm_up
-from backend.config.siblings import Family, answering, siblings
+from backend.core.processes.siblings import Family, answering, siblings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

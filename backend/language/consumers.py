@@ -23,9 +23,9 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 
 from backend.config.environment import environment
-from backend.config.problems import NotFoundError
-from backend.config.siblings import siblings
-from backend.config.sockets import ID, Call, Closed
+from backend.core.problems import NotFoundError
+from backend.core.processes.siblings import siblings
+from backend.ingress.sockets import ID, Call, Closed
 from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
 from backend.language.errors import UnavailableError
 from backend.language.framing import FramingError, Unframer, framed

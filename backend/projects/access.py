@@ -23,7 +23,7 @@ from django.db.models import Case, Exists, IntegerField, Max, OuterRef, Q, Subqu
 from django.db.models.functions import Coalesce, Greatest
 from django.utils import timezone
 
-from backend.config.problems import NotFoundError, StudioError
+from backend.core.problems import NotFoundError, StudioError
 from backend.projects.choices import Role
 from backend.projects.models import GroupShare, Membership, Project, ShareLink
 

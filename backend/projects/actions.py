@@ -10,8 +10,8 @@ from django.utils import timezone
 
 from backend.accounts.audit import forget_old, note
 from backend.config.environment import environment
-from backend.config.locks import transaction_lock
-from backend.config.problems import InvalidInputError, NotFoundError
+from backend.core.locks import transaction_lock
+from backend.core.problems import InvalidInputError, NotFoundError
 from backend.projects import kept, names, queries, rows
 from backend.projects.access import Need
 from backend.projects.bounds import require_bounded

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from backend.config.limits import LIMITS
+from backend.core.limits import LIMITS
 from backend.projects import kept, names
 from backend.projects.errors import QuotaExceededError
 

@@ -11,7 +11,7 @@ import hashlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from backend.config.problems import InvalidInputError
+from backend.core.problems import InvalidInputError
 from backend.projects import names
 
 if TYPE_CHECKING:

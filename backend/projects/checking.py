@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
 from backend.accounts.audit import client_address
-from backend.config.api import user_of
+from backend.accounts.requests import user_of
 from backend.config.environment import REPOSITORY
 from backend.projects.errors import CheckFailedError
 from backend.workers.deferred import Deferred

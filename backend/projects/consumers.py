@@ -10,8 +10,8 @@ from uuid import UUID
 
 from asgiref.sync import sync_to_async
 
-from backend.config.problems import NotFoundError
-from backend.config.sockets import ID, POLICY_VIOLATION, Call, Closed
+from backend.core.problems import NotFoundError
+from backend.ingress.sockets import ID, POLICY_VIOLATION, Call, Closed
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.notices import notices_of

@@ -10,9 +10,9 @@ from django.db import transaction
 from django.utils import timezone
 from rest_framework.response import Response
 
-from backend.config.bodies import body_of
-from backend.config.locks import transaction_lock
-from backend.config.problems import InvalidInputError
+from backend.core.locks import transaction_lock
+from backend.core.problems import InvalidInputError
+from backend.ingress.bodies import body_of
 from backend.projects.errors import IdempotencyError
 from backend.projects.models import IdempotencyKey
 

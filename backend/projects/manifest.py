@@ -6,8 +6,8 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
-from backend.config.limits import LIMITS
-from backend.config.problems import InvalidInputError
+from backend.core.limits import LIMITS
+from backend.core.problems import InvalidInputError
 from backend.projects import names
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import re
 import unicodedata
 from typing import Final
 
-from backend.config.problems import InvalidInputError
+from backend.core.problems import InvalidInputError
 
 MAX_NAME_LENGTH: Final = 100
 MAX_SEGMENT_BYTES: Final = 200

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from channels.layers import get_channel_layer
 from django.db import transaction
 
-from backend.config.telling import tell
+from backend.core.notify import tell
 from backend.projects.signals import revision_made
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from backend.accounts.groups import groups_of
 from backend.accounts.models import AuditEntry
-from backend.config.file_answers import FileAnswer
-from backend.config.scratch import scratch
+from backend.core.file_answers import FileAnswer
+from backend.core.scratch import scratch
 from backend.projects import queries
 from backend.projects.models import ChangeSet, Draft, Project
 from backend.workers import zips

@@ -11,7 +11,7 @@ from django.db.models import F, Max, Q, QuerySet
 from django.db.models.functions import Lower
 
 from backend import __version__
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 from backend.projects import access, kept, names, rows
 from backend.projects.access import Need
 from backend.projects.choices import Role

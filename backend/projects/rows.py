@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 from django.db import connection
 from django.db.models import IntegerField
 
-from backend.config.instances import columns, instance
-from backend.config.locks import lock_number
+from backend.core.instances import columns, instance
+from backend.core.locks import lock_number
 from backend.projects.changes import Existing
 from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, Project
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from rest_framework import serializers
 
-from backend.config.openapi import ProblemSerializer
+from backend.core.rest.openapi import ProblemSerializer
 from backend.projects.serializers import ConflictSerializer
 
 

@@ -9,7 +9,7 @@ from typing import Any, Final
 from drf_spectacular.utils import extend_schema_field
 from rest_framework import serializers
 
-from backend.config.limits import LIMITS
+from backend.core.limits import LIMITS
 from backend.projects.changes import Content, FileChange
 from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 

@@ -14,7 +14,7 @@ from backend.accounts import groups, links
 from backend.accounts.actions import user_named
 from backend.accounts.audit import note
 from backend.accounts.rights import lessen
-from backend.config.problems import InvalidInputError, NotFoundError
+from backend.core.problems import InvalidInputError, NotFoundError
 from backend.projects import queries
 from backend.projects.access import Need, open_links
 from backend.projects.choices import Role

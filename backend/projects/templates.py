@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
-from backend.config.problems import InvalidInputError
+from backend.core.problems import InvalidInputError
 from backend.projects.manifest import MANIFEST, write
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from django.utils import timezone
 
 from backend.accounts.actions import user_named
 from backend.accounts.audit import note
-from backend.config.locks import transaction_lock
-from backend.config.problems import InvalidInputError
+from backend.core.locks import transaction_lock
+from backend.core.problems import InvalidInputError
 from backend.projects import actions, names, queries, sharing, usage
 from backend.projects.access import with_role
 from backend.projects.changes import Content, FileChange

@@ -10,8 +10,8 @@ from drf_spectacular.utils import OpenApiParameter, extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import if_match, parsed, user_of
-from backend.config.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
+from backend.accounts.requests import if_match, parsed, user_of
+from backend.core.rest.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
 from backend.projects import actions, checking, names, presentation, queries, templates
 from backend.projects import serializers as s
 from backend.projects.access import Need

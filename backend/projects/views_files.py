@@ -14,10 +14,10 @@ from rest_framework.parsers import BaseParser, MultiPartParser
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import user_of
-from backend.config.bodies import body_of
-from backend.config.openapi import IDEMPOTENCY_KEY
-from backend.config.problems import InvalidInputError
+from backend.accounts.requests import user_of
+from backend.core.problems import InvalidInputError
+from backend.core.rest.openapi import IDEMPOTENCY_KEY
+from backend.ingress.bodies import body_of
 from backend.projects import actions, archive, checking, names, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need

@@ -19,9 +19,9 @@ from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.models import User
-from backend.config.api import user_of
-from backend.config.parsers import StrictJSONParser
-from backend.config.problems import InvalidInputError
+from backend.accounts.requests import user_of
+from backend.core.problems import InvalidInputError
+from backend.core.rest.parsers import StrictJSONParser
 from backend.projects import actions, checking, names, queries, templates
 from backend.projects.changes import Content, FileChange
 from backend.projects.views_files import packaged, zipped

@@ -12,10 +12,10 @@ from rest_framework.views import APIView
 
 from backend.accounts.actions import delete_account
 from backend.accounts.audit import note
+from backend.accounts.requests import parsed, user_of
 from backend.accounts.serializers import DeleteMeSerializer
-from backend.config.api import parsed, user_of
 from backend.config.environment import environment
-from backend.config.problems import InvalidInputError, NotFoundError
+from backend.core.problems import InvalidInputError, NotFoundError
 from backend.projects import personal_data, usage
 from backend.projects.views_files import saved_as
 

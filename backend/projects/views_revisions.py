@@ -10,8 +10,8 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import if_match, parsed, user_of
-from backend.config.openapi import IF_MATCH
+from backend.accounts.requests import if_match, parsed, user_of
+from backend.core.rest.openapi import IF_MATCH
 from backend.projects import actions, checking, draft_actions, names, presentation, queries
 from backend.projects import serializers as s
 from backend.projects.access import Need

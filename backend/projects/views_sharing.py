@@ -10,9 +10,9 @@ from rest_framework import serializers
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
+from backend.accounts.requests import if_match, parsed, user_of
 from backend.accounts.serializers import PersonSerializer
-from backend.config.api import if_match, parsed, user_of
-from backend.config.openapi import IF_MATCH
+from backend.core.rest.openapi import IF_MATCH
 from backend.projects import queries, sharing, transfer
 from backend.projects.access import Need
 from backend.projects.choices import SHARED_ROLES, Role

@@ -9,8 +9,8 @@ from rest_framework import serializers
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import parsed
-from backend.config.limits import LIMITS
+from backend.accounts.requests import parsed
+from backend.core.limits import LIMITS
 from backend.projects import checking
 from backend.projects import serializers as s
 

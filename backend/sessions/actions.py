@@ -18,8 +18,8 @@ from django.db import IntegrityError, OperationalError, connection, transaction
 from django.utils import timezone
 
 from backend.config.environment import environment
-from backend.config.locks import lock_number, transaction_lock
-from backend.config.problems import NotFoundError, StudioError
+from backend.core.locks import lock_number, transaction_lock
+from backend.core.problems import NotFoundError, StudioError
 from backend.projects import queries as projects
 from backend.projects.access import Need
 from backend.sessions import drain, queries

@@ -17,9 +17,9 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
-from backend.config.problems import NotFoundError
-from backend.config.sockets import ID, Call, Closed
-from backend.config.websocket import read_little
+from backend.core.problems import NotFoundError
+from backend.core.websocket import read_little
+from backend.ingress.sockets import ID, Call, Closed
 from backend.sessions import actions, queries
 from backend.sessions.care import attendance, say
 from backend.sessions.choices import SessionState

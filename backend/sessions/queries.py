@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from django.db.models import Count
 
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 from backend.sessions.choices import SessionState
 from backend.sessions.models import LIVE_STATES, Session
 

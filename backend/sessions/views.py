@@ -8,7 +8,7 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import user_of
+from backend.accounts.requests import user_of
 from backend.sessions import actions, queries
 from backend.sessions.serializers import SessionSerializer, presented
 

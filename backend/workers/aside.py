@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.db import connection
 
+from backend.core.processes.fair import FairQueue, QueueFullError
 from backend.workers.errors import BusyError
-from backend.workers.fair import FairQueue, QueueFullError
 
 if TYPE_CHECKING:
     from collections.abc import Callable

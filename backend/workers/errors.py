@@ -8,7 +8,7 @@ StudioError
 
 from __future__ import annotations
 
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 
 class BusyError(StudioError):

@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
-from backend.config.siblings import POOL, siblings
+from backend.core.processes.siblings import POOL, siblings
 from backend.workers.pool import Limits, Pool, packed_job
 from backend.workers.remote import RemotePool
 

@@ -20,9 +20,9 @@ from typing import Any, Final
 import msgspec
 
 from backend.config.environment import REPOSITORY
+from backend.core.processes.fair import FairQueue, QueueFullError
 from backend.workers import frames
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
-from backend.workers.fair import FairQueue, QueueFullError
 
 log = logging.getLogger(__name__)
 

@@ -19,7 +19,7 @@ from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from backend.config.problems import StudioError
+    from backend.core.problems import StudioError
 
 log = logging.getLogger(__name__)
 

@@ -13,8 +13,8 @@ from hypothesis import HealthCheck
 from hypothesis import strategies as st
 
 from backend.accounts.actions import create_account
-from backend.config import guard
 from backend.config.schema_view import document
+from backend.core import guard
 from backend.projects import queries
 from backend.projects.access import Need
 from backend.projects.actions import create_project

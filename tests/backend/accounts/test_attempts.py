@@ -16,11 +16,11 @@ from backend.accounts import attempts
 from backend.accounts.actions import create_account
 from backend.accounts.attempts import Attempt, Browser, bounds, network_of
 from backend.accounts.models import AuditEntry, User
-from backend.config import clients
-from backend.config.clients import address_of, is_on_this_machine
-from backend.config.handler import ThreadedHandler
+from backend.core import clients
+from backend.core.clients import address_of, is_on_this_machine
+from backend.ingress.handler import ThreadedHandler
 from tests.backend.accounts.conftest import PASSWORD, PUBLIC, Person
-from tests.backend.config.test_handler import body
+from tests.backend.ingress.test_handler import body
 
 ELSEWHERE = "203.0.113.7"
 
@@ -212,7 +212,7 @@ def test_guests_cannot_escape_their_count_with_a_header(person, settings_of):
 
 def test_a_proxy_that_the_settings_do_not_know_is_told_once(team, settings_of, monkeypatch, caplog):
     monkeypatch.setattr(clients.proxies, "_is_said", False)
-    with caplog.at_level(logging.WARNING, "backend.config.clients"):
+    with caplog.at_level(logging.WARNING, "backend.core.clients"):
         browser = Person()
         browser.page("/accounts/login/")
         assert caplog.text == ""

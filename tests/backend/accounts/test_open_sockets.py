@@ -12,7 +12,7 @@ from django.db import connections
 from django.utils import timezone
 
 from backend.accounts.models import User
-from backend.config.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
+from backend.ingress.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
 from backend.projects.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
 from backend.sessions import actions as session_actions
 from backend.sessions.choices import SessionState

@@ -98,7 +98,7 @@ def test_only_the_servers_own_name_is_answered(person):
 
 
 def test_the_token_of_localhost_opens_nothing_here(stranger):
-    from backend.config import guard
+    from backend.core import guard
 
     token = guard.keys().token
     answer = stranger.client.get("/api/v1/me", headers={"Authorization": f"Bearer {token}"})

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 import pytest
 from django.db import OperationalError
 
-from backend.config import telling
+from backend.core import notify
 from backend.projects import presentation, queries
 from backend.projects.signals import project_deleted
 from backend.workers.errors import BusyError, WorkFailedError
@@ -40,8 +40,8 @@ STEPS = {
     "the check": (Lanes, "ask", WorkFailedError("The worker was killed.")),
     "the pool": (Lanes, "ask", BusyError("Too much waits.")),
     "the contents": (queries, "contents", DOWN),
-    "the notices": (telling._teller, "tell", ConnectionError("Redis is down")),
-    "the channel layer": (telling, "get_channel_layer", ConnectionError("Redis is down")),
+    "the notices": (notify._teller, "tell", ConnectionError("Redis is down")),
+    "the channel layer": (notify, "get_channel_layer", ConnectionError("Redis is down")),
 }
 
 

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from backend.config.limits import LIMITS
+from backend.core.limits import LIMITS
 from backend.projects import actions, bounds, queries
 from backend.projects.models import Blob
 from translator import limits

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.config.problems import InvalidInputError
+from backend.core.problems import InvalidInputError
 from backend.projects.changes import Content, Existing, FileChange, plan
 
 ONE = Content.of(b"one")

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from backend.config.problems import InvalidInputError
+from backend.core.problems import InvalidInputError
 from backend.projects import names
 
 

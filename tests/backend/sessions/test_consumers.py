@@ -12,10 +12,10 @@ import uvicorn
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from backend.config import guard
 from backend.config.server import _make_server, bind
-from backend.config.sockets import Route, serve
-from backend.config.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
+from backend.core import guard
+from backend.core.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
+from backend.ingress.sockets import Route, serve
 from backend.sessions import actions
 from backend.sessions.consumers import (
     ADDRESS,

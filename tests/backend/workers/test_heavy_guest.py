@@ -7,7 +7,7 @@ import json
 
 import pytest
 
-from backend.config.handler import ThreadedHandler
+from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
 from backend.workers.lanes import MEMORY_BYTES
 from backend.workers.pool import Limits, Pool

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from rest_framework.exceptions import ValidationError
 
-from backend.config.api import parsed
+from backend.accounts.requests import parsed
 from backend.projects.serializers import ChangesSerializer
 
 FILE = {"path": "a.txt", "base_revision": 0, "content": "x"}

@@ -12,13 +12,14 @@ from collections import namedtuple
 import pytest
 from django.core.files.uploadhandler import MemoryFileUploadHandler
 
-from backend.config import bodies, handler, scratch
-from backend.config.handler import ThreadedHandler
-from backend.config.scratch import AlreadyThereError, NoRoomError, Scratch
+from backend.core import scratch
+from backend.core.scratch import AlreadyThereError, NoRoomError, Scratch
+from backend.ingress import bodies, handler
+from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
 from backend.workers.lanes import Lanes
 from tests.backend.accounts.test_bodies import IMPORT, MEBIBYTE, archive_of, head, parts, refused
-from tests.backend.config.test_handler import body
+from tests.backend.ingress.test_handler import body
 
 pytestmark = pytest.mark.django_db(transaction=True)
 Usage = namedtuple("Usage", "total used free")

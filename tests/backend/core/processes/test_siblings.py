@@ -6,9 +6,9 @@ import time
 
 import pytest
 
-from backend.config.metrics import Counter, Histogram
-from backend.config.numbers import BEAT, FULL, STARTED, Numbers, make_page, numbers
-from backend.config.siblings import Family, _Siblings, least_s, siblings
+from backend.core.processes.metrics import Counter, Histogram
+from backend.core.processes.numbers import BEAT, FULL, STARTED, Numbers, make_page, numbers
+from backend.core.processes.siblings import Family, _Siblings, least_s, siblings
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
-from backend.config.problems import MEDIA_TYPE, problem
+from backend.core.problems import MEDIA_TYPE, problem
 
 if TYPE_CHECKING:
     import asyncio

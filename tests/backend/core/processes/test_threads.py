@@ -7,8 +7,8 @@ import threading
 
 import pytest
 
-from backend.config import threads as module
-from backend.config.threads import Threads
+from backend.core.processes import threads as module
+from backend.core.processes.threads import Threads
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import pytest
 from asgiref.sync import async_to_sync
 from channels.layers import get_channel_layer
 
-from backend.config.telling import _Teller
+from backend.core.notify import _Teller
 
 
 @pytest.fixture

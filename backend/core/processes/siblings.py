@@ -16,13 +16,13 @@ from collections import Counter
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final, NamedTuple
 
-from backend.config.numbers import BEAT, FULL, STARTED, STUCK, numbers
+from backend.core.processes.numbers import BEAT, FULL, STARTED, STUCK, numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from backend.config.threads import Threads
+    from backend.core.processes.threads import Threads
 
 BEAT_EVERY_S: Final = 1.0
 PAGE: Final = "worker-{}.numbers"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from backend.config.guard import Facts, Keys, cookie_name, host_name, judge, schemes_of
+from backend.core.guard import Facts, Keys, cookie_name, host_name, judge, schemes_of
 
 KEYS = Keys("secret-token")
 HOST = "127.0.0.1:8000"

@@ -10,10 +10,10 @@ from django.shortcuts import render
 
 from backend.accounts.audit import client_address
 from backend.accounts.middleware import PAGES
-from backend.config import guard
-from backend.config.clients import FORWARDED, address_of, proxies
 from backend.config.environment import environment
-from backend.config.problems import problem, problem_response
+from backend.core import guard
+from backend.core.clients import FORWARDED, address_of, proxies
+from backend.core.problems import problem, problem_response
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -17,7 +17,7 @@ from contextlib import suppress
 from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
-from backend.workers.fair import FairQueue
+from backend.core.processes.fair import FairQueue
 
 if TYPE_CHECKING:
     import asyncio

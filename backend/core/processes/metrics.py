@@ -10,7 +10,7 @@ from bisect import bisect_left
 from threading import Lock
 from typing import Final
 
-from backend.config.numbers import numbers
+from backend.core.processes.numbers import numbers
 
 BUCKETS_S: Final = (0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1.0, 2.5, 5.0, 10.0)
 

@@ -11,9 +11,9 @@ SOURCES = re.compile(
     r"|get_client_ip|getpeername|peername"
 )
 ALLOWED = {
-    "config/clients.py": "the one place",
-    "config/middleware.py": "hands both to clients.address_of, and keeps what it says",
-    "config/owners.py": "hands both to clients.address_of",
+    "core/clients.py": "the one place",
+    "ingress/middleware.py": "hands both to clients.address_of, and keeps what it says",
+    "ingress/owners.py": "hands both to clients.address_of",
     "config/probes.py": "hands both to clients.is_on_this_machine",
     "config/team.py": "words of a setting",
     "accounts/adapters.py": "allauth's question, answered with what the guard kept",
@@ -30,7 +30,7 @@ def test_only_one_place_says_the_clients_address():
 
 
 def test_those_who_hand_it_on_ask_that_place():
-    assert "address_of(request.META.get(" in (BACKEND / "config/middleware.py").read_text(encoding="utf-8")
+    assert "address_of(request.META.get(" in (BACKEND / "ingress/middleware.py").read_text(encoding="utf-8")
     assert "is_on_this_machine(client[0]" in (BACKEND / "config/probes.py").read_text(encoding="utf-8")
     assert "client_address.get()" in (BACKEND / "accounts/adapters.py").read_text(encoding="utf-8")
     throttle = (BACKEND / "accounts/permissions.py").read_text(encoding="utf-8")

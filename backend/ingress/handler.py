@@ -19,15 +19,15 @@ from django.core.handlers.base import BaseHandler
 from django.middleware.http import ConditionalGetMiddleware
 from django.urls import set_script_prefix
 
-from backend.config.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefusedError, ClientLeftError
 from backend.config.environment import environment
-from backend.config.file_answers import PART, FileAnswer
-from backend.config.middleware import secured
-from backend.config.owners import owner_of
-from backend.config.problems import problem, problem_response
-from backend.config.scratch import scratch
-from backend.config.siblings import siblings
-from backend.config.threads import Threads
+from backend.core.file_answers import PART, FileAnswer
+from backend.core.problems import problem, problem_response
+from backend.core.processes.siblings import siblings
+from backend.core.processes.threads import Threads
+from backend.core.scratch import scratch
+from backend.ingress.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefusedError, ClientLeftError
+from backend.ingress.middleware import secured
+from backend.ingress.owners import owner_of
 from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, HTTPScope
     from django.http import HttpRequest
 
-    from backend.config.bodies import Refused, Upload
+    from backend.ingress.bodies import Refused, Upload
 
 THREADS: Final = {"local": 8, "team": 8}
 """By mode; each has a connection to the database."""

@@ -7,8 +7,9 @@ import asyncio
 from django.http import HttpResponse
 from django.utils import translation
 
-from backend.config import guard, handler
-from backend.config.handler import ThreadedHandler
+from backend.core import guard
+from backend.ingress import handler
+from backend.ingress.handler import ThreadedHandler
 from tests.backend.conftest import HOST
 
 HEAD = [(b"host", HOST.encode()), (b"authorization", f"Bearer {guard.keys().token}".encode())]

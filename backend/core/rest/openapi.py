@@ -8,7 +8,7 @@ from drf_spectacular.openapi import AutoSchema
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse
 from rest_framework import serializers
 
-from backend.config.problems import MEDIA_TYPE
+from backend.core.problems import MEDIA_TYPE
 
 
 class ProblemSerializer(serializers.Serializer[Any]):

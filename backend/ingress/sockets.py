@@ -20,12 +20,12 @@ from asgiref.sync import sync_to_async
 
 from backend.accounts import rights
 from backend.accounts.identity import identify
-from backend.config import guard
 from backend.config.environment import environment
-from backend.config.owners import owner_of
-from backend.config.problems import StudioError
-from backend.config.scopes import cookies_of, facts_of, headers_of
-from backend.config.websocket import MOST_BYTES, SMALL_BYTES
+from backend.core import guard
+from backend.core.problems import StudioError
+from backend.core.scopes import cookies_of, facts_of, headers_of
+from backend.core.websocket import MOST_BYTES, SMALL_BYTES
+from backend.ingress.owners import owner_of
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope

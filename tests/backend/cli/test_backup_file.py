@@ -8,7 +8,7 @@ import zipfile
 
 import pytest
 
-from backend.config.backups import LEFT_OUT, MANIFEST, BackupError, read_backup, write_backup
+from backend.cli.backup_file import LEFT_OUT, MANIFEST, BackupError, read_backup, write_backup
 from backend.projects.models import Blob, Project
 
 pytestmark = pytest.mark.django_db(transaction=True)

@@ -17,12 +17,12 @@ from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
 from django.db import OperationalError, close_old_connections
 
 from backend.accounts.identity import identify
-from backend.config import guard
 from backend.config.environment import environment
-from backend.config.problems import StudioError, database_problem, disk_full, problem
-from backend.config.scopes import cookies_of, facts_of, headers_of
-from backend.config.siblings import siblings
-from backend.config.threads import Threads
+from backend.core import guard
+from backend.core.problems import StudioError, database_problem, disk_full, problem
+from backend.core.processes.siblings import siblings
+from backend.core.processes.threads import Threads
+from backend.core.scopes import cookies_of, facts_of, headers_of
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Callable
@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, HTTPScope
 
     from backend.accounts.models import User
-    from backend.config.scratch import Scratch
-    from backend.config.siblings import Place
+    from backend.core.processes.siblings import Place
+    from backend.core.scratch import Scratch
 
 UNKNOWN_BYTES: Final = 1024 * 1024
 """What a client may send that is not signed in."""

@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 import pytest
 import requests
 
-from backend.config.websocket import IDLE_FRAMES, SMALL_BYTES
+from backend.core.websocket import IDLE_FRAMES, SMALL_BYTES
 from tests.backend.serving import serving
 from tests.hostile.wire import Site, frame, websocket
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from django.test import Client
 
-from backend.config import guard
+from backend.core import guard
 
 HOST = "127.0.0.1:8000"
 ORIGIN = f"http://{HOST}"

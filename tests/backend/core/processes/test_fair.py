@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from backend.workers.fair import FairQueue, QueueFullError
+from backend.core.processes.fair import FairQueue, QueueFullError
 
 
 def test_owners_take_turns():

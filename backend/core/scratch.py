@@ -19,15 +19,15 @@ from django.core.files.uploadedfile import UploadedFile
 from django.core.files.uploadhandler import FileUploadHandler
 
 from backend.config.environment import environment
-from backend.config.problems import StudioError
-from backend.config.siblings import siblings
+from backend.core.problems import StudioError
+from backend.core.processes.siblings import siblings
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from _typeshed import ReadableBuffer
 
-    from backend.config.siblings import Place
+    from backend.core.processes.siblings import Place
 
 
 class NoRoomError(StudioError):

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from backend.accounts.attempts import network_of
 from backend.accounts.identity import last_seen
-from backend.config.clients import address_of
-from backend.config.scopes import cookies_of, headers_of
+from backend.core.clients import address_of
+from backend.core.scopes import cookies_of, headers_of
 
 if TYPE_CHECKING:
     from asgiref.typing import HTTPScope, WebSocketScope

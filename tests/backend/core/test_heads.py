@@ -9,8 +9,8 @@ import time
 
 import uvicorn
 
-from backend.config import heads
-from backend.config.heads import PatientProtocol
+from backend.core import heads
+from backend.core.heads import PatientProtocol
 
 
 async def application(scope, receive, send):

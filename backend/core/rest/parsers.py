@@ -9,7 +9,7 @@ from rest_framework.exceptions import ParseError
 from rest_framework.parsers import JSONParser
 
 from backend.config.environment import environment
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,8 +5,8 @@ from __future__ import annotations
 from http.cookies import CookieError, SimpleCookie
 from typing import TYPE_CHECKING
 
-from backend.config import guard
 from backend.config.environment import environment
+from backend.core import guard
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -15,10 +15,10 @@ from django.template.defaultfilters import filesizeformat
 from django.template.response import TemplateResponse
 from django.urls import path
 
-from backend.accounts import passwords
-from backend.accounts.actions import LastAdministratorError, delete_account
 from backend.accounts.audit import note
 from backend.accounts.models import AuditEntry, Group, GroupMember, Invitation, User
+from backend.accounts.sign_in import passwords
+from backend.accounts.writes import LastAdministratorError, delete_account
 from backend.config.environment import environment
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from django.http import HttpRequest
 from django.utils import timezone
 from django.utils.crypto import constant_time_compare
 
-from backend.accounts.actions import local_user
 from backend.accounts.models import User
+from backend.accounts.writes import local_user
 from backend.config.environment import environment
 from backend.core.instances import columns, instance
 

@@ -1,6 +1,6 @@
 """What is asked of everybody before a view begins: an account, patience with expensive calls.
 
-What someone may do with a project is decided where projects are found (`backend.projects.access`).
+What someone may do with a project is decided where projects are found (`backend.projects.storage.access`).
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from django.conf import settings
 from rest_framework.permissions import SAFE_METHODS, BasePermission
 from rest_framework.throttling import SimpleRateThrottle
 
-from backend.accounts.attempts import network_of
 from backend.accounts.audit import client_address
 from backend.accounts.models import User
+from backend.accounts.sign_in.attempts import network_of
 from backend.config.environment import environment
 from backend.core.problems import StudioError
 

@@ -14,7 +14,7 @@ from rest_framework.views import APIView
 from backend.catalog import library, queries
 from backend.catalog import serializers as s
 from backend.core.problems import NotFoundError
-from backend.projects.templates import templates
+from backend.projects.documents.templates import templates
 
 if TYPE_CHECKING:
     from pathlib import Path

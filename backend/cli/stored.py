@@ -46,9 +46,9 @@ def find_project(name_or_id: str) -> Project:
     """The stored project of this name or id."""
     from uuid import UUID
 
-    from backend.accounts.actions import local_user
-    from backend.projects import queries
-    from backend.projects.access import Need
+    from backend.accounts.writes import local_user
+    from backend.projects.storage import queries
+    from backend.projects.storage.access import Need
 
     try:
         project_id = UUID(name_or_id)

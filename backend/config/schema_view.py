@@ -27,7 +27,7 @@ def document() -> dict[str, Any]:
     # Only whoever asks pays for importing the generator.
     from drf_spectacular.generators import SchemaGenerator  # noqa: PLC0415
 
-    from backend.accounts import schema  # noqa: F401, PLC0415 - importing it registers it
+    from backend.accounts.api import schema  # noqa: F401, PLC0415 - importing it registers it
 
     generated: dict[str, Any] = SchemaGenerator().get_schema(  # type: ignore[no-untyped-call]
         request=None, public=True

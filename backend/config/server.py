@@ -258,7 +258,7 @@ def warm_up() -> None:
 
     import backend.config.urls  # noqa: F401, PLC0415
     import translator  # noqa: F401, PLC0415
-    from backend.projects.actions import collect_garbage  # noqa: PLC0415
+    from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
     from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
     # All that was imported stays: Python need not look through it again and again for what is in no use.

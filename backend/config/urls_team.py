@@ -6,12 +6,12 @@ from django.urls import URLPattern, URLResolver, include, path, re_path
 
 import backend.projects.administration
 import backend.sessions.administration  # noqa: F401
-from backend.accounts import pages
 from backend.accounts.administration import site
+from backend.accounts.sign_in import pages
 from backend.config import static
 from backend.config.urls import api
-from backend.projects import pages as project_pages
-from backend.projects.views_legacy import urlpatterns as legacy
+from backend.projects.api import pages as project_pages
+from backend.projects.api.views_legacy import urlpatterns as legacy
 
 urlpatterns: list[URLPattern | URLResolver] = [
     path("api/v1/", include(api)),

@@ -9,7 +9,7 @@ from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
 from django.shortcuts import render
 
 from backend.accounts.audit import client_address
-from backend.accounts.middleware import PAGES
+from backend.accounts.sign_in.middleware import PAGES
 from backend.config.environment import environment
 from backend.core import guard
 from backend.core.clients import FORWARDED, address_of, proxies

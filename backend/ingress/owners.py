@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from backend.accounts.attempts import network_of
 from backend.accounts.identity import last_seen
+from backend.accounts.sign_in.attempts import network_of
 from backend.core.clients import address_of
 from backend.core.scopes import cookies_of, headers_of
 

@@ -31,9 +31,9 @@ from backend.language.errors import UnavailableError
 from backend.language.framing import FramingError, Unframer, framed
 from backend.language.messages import for_page, for_server
 from backend.language.places import launcher
-from backend.projects import queries
-from backend.projects.access import Need
-from backend.projects.notices import notices_of
+from backend.projects.api.notices import notices_of
+from backend.projects.storage import queries
+from backend.projects.storage.access import Need
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable

@@ -21,8 +21,8 @@ from websockets.sync.client import unix_connect as sync_unix_connect
 
 from backend.config.environment import environment
 from backend.language.errors import CheckerUnavailableError, UnavailableError
-from backend.sessions.actions import launcher
 from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
     from backend.accounts.models import User

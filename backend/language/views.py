@@ -9,7 +9,7 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.accounts.requests import parsed, user_of
+from backend.accounts.api.requests import parsed, user_of
 from backend.language import ruff
 from backend.language import serializers as s
 from backend.language.places import checker

@@ -11,6 +11,6 @@ class ProjectsConfig(AppConfig):
 
     def ready(self) -> None:
         """Who loses a role must not go on listening."""
-        from backend.projects.lost_roles import watch_roles  # noqa: PLC0415 - models must be loaded
+        from backend.projects.sharing.demotions import watch_roles  # noqa: PLC0415 - models must be loaded
 
         watch_roles()

@@ -1,4 +1,4 @@
-"""Projects as immutable revisions. Nothing outside this app touches these tables, and only `actions` writes.
+"""Projects as immutable revisions. Nothing outside this app touches the tables; only `storage.writes` writes.
 
 A change set is one user action. It is number n of its project, and a file's revision is the number of
 the change set that last touched it; so numbers only grow, and a client that knows revision b of a
@@ -17,12 +17,12 @@ from django.db.models import Q
 
 from backend.accounts.models import Group
 from backend.projects.choices import SHARED_ROLES, Role
-from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
+from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from backend.projects.changes import Existing
+    from backend.projects.storage.changes import Existing
 
 
 class Blob(models.Model):

@@ -20,9 +20,9 @@ from websockets.exceptions import ConnectionClosed, InvalidHandshake
 from backend.core.problems import NotFoundError
 from backend.core.websocket import read_little
 from backend.ingress.sockets import ID, Call, Closed
-from backend.sessions import actions, queries
-from backend.sessions.care import attendance, say
+from backend.sessions import queries, writes
 from backend.sessions.choices import SessionState
+from backend.sessions.maintenance import attendance, say
 from backend.sessions.manager_socket import manager_socket
 from backend.sessions.watch import watchmen, why
 
@@ -53,7 +53,7 @@ EXECUTOR_SILENT: Final = 4504
 
 def may_use(session_id: UUID, user: User) -> None:
     """Raises a StudioError when the user may no longer run the session's project."""
-    actions.require_right(queries.session(session_id, user=user))
+    writes.require_right(queries.session(session_id, user=user))
 
 
 async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
@@ -117,7 +117,7 @@ def _is_ping(text: str) -> bool:
 async def _explained(session: Session, closed: Closed) -> Closed:
     """Adds why a lost executor was lost; its process ends a moment after its sockets do."""
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
-        session = await sync_to_async(actions.refresh)(session)
+        session = await sync_to_async(writes.refresh)(session)
         if session.state != SessionState.READY:
             return _ended(session)
         await asyncio.sleep(LOST_POLL_S)

@@ -11,8 +11,8 @@ from django.conf import settings
 from django.db import connections
 from django.test import Client
 
-from backend.accounts.actions import local_user
 from backend.accounts.identity import the_local_user
+from backend.accounts.writes import local_user
 from backend.config.environment import environment
 from backend.core import guard
 from backend.core.scratch import scratch

@@ -18,7 +18,7 @@ from backend.ingress import bodies, handler
 from backend.ingress.bodies import UNKNOWN_BYTES, Upload
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
-from backend.projects.usage import room_for_archive
+from backend.projects.storage.usage import room_for_archive
 from tests.backend.accounts.conftest import PUBLIC, Person
 from tests.backend.conftest import HOST
 from tests.backend.ingress.test_handler import ask, body

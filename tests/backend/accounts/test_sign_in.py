@@ -9,9 +9,10 @@ from django.conf import settings
 from django.core import mail
 from django.test import override_settings
 
-from backend.accounts import invitations, links, passwords
-from backend.accounts.actions import create_account
+from backend.accounts import invitations, links
 from backend.accounts.models import AuditEntry, User
+from backend.accounts.sign_in import passwords
+from backend.accounts.writes import create_account
 from tests.backend.accounts.conftest import PASSWORD, PUBLIC, Person
 
 NEW = "Another-horse-7"

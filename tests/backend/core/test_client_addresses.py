@@ -16,7 +16,7 @@ ALLOWED = {
     "ingress/owners.py": "hands both to clients.address_of",
     "config/probes.py": "hands both to clients.is_on_this_machine",
     "config/team.py": "words of a setting",
-    "accounts/adapters.py": "allauth's question, answered with what the guard kept",
+    "accounts/sign_in/adapters.py": "allauth's question, answered with what the guard kept",
 }
 
 
@@ -32,7 +32,7 @@ def test_only_one_place_says_the_clients_address():
 def test_those_who_hand_it_on_ask_that_place():
     assert "address_of(request.META.get(" in (BACKEND / "ingress/middleware.py").read_text(encoding="utf-8")
     assert "is_on_this_machine(client[0]" in (BACKEND / "config/probes.py").read_text(encoding="utf-8")
-    assert "client_address.get()" in (BACKEND / "accounts/adapters.py").read_text(encoding="utf-8")
+    assert "client_address.get()" in (BACKEND / "accounts/sign_in/adapters.py").read_text(encoding="utf-8")
     throttle = (BACKEND / "accounts/permissions.py").read_text(encoding="utf-8")
     assert "client_address" in throttle
     assert "get_ident" not in throttle

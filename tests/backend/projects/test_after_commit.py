@@ -9,8 +9,9 @@ import pytest
 from django.db import OperationalError
 
 from backend.core import notify
-from backend.projects import presentation, queries
+from backend.projects.api import presentation
 from backend.projects.signals import project_deleted
+from backend.projects.storage import queries
 from backend.workers.errors import BusyError, WorkFailedError
 from backend.workers.lanes import Lanes
 
@@ -52,7 +53,7 @@ def broken(request, monkeypatch):
         failing = fails_later(error) if isinstance(error, WorkFailedError) else fails(error)
         monkeypatch.setattr(where, what, failing)
         if what == "tell":
-            monkeypatch.setattr("backend.projects.notices.tell", fails(error))
+            monkeypatch.setattr("backend.projects.api.notices.tell", fails(error))
 
     return breaks
 

@@ -49,7 +49,7 @@ def dead_after_commit(monkeypatch):
         patched.setattr(BaseDatabaseWrapper, "_commit", committing)
         patched.setattr(Lanes, "ask", failing)
         patched.setattr(notify._teller, "tell", failing)
-        patched.setattr("backend.projects.notices.tell", failing)
+        patched.setattr("backend.projects.api.notices.tell", failing)
         patched.setattr("backend.accounts.rights.tell", failing)
         yield dead
 

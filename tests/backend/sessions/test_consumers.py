@@ -16,7 +16,7 @@ from backend.config.server import _make_server, bind
 from backend.core import guard
 from backend.core.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
 from backend.ingress.sockets import Route, serve
-from backend.sessions import actions
+from backend.sessions import writes
 from backend.sessions.consumers import (
     ADDRESS,
     EXECUTOR_FAILED,
@@ -59,7 +59,7 @@ def session(api, project, fake_manager):
         return api.post(f"projects/{project['id']}/session")
 
     yield start
-    actions.end_all_sessions()
+    writes.end_all_sessions()
 
 
 @contextlib.contextmanager

@@ -1,4 +1,4 @@
-"""Who asks, by the session that a browser shows; for the API and for sockets alike."""
+"""Finds the user of a request by the browser's session; for the API and for sockets alike."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LINKS: Final = "links"
 
 
 def identify(cookies: Mapping[str, str]) -> User | None:
-    """The local user, whoever is signed in, a guest with a link, or nobody."""
+    """Returns the local user, the user who is signed in, a guest with a link, or nobody."""
     if not environment().is_team:
         return the_local_user()
     key = cookies.get(settings.SESSION_COOKIE_NAME)
@@ -57,7 +57,7 @@ def _asked_user(key: str) -> User | None:
 
 
 class _Known(NamedTuple):
-    """What a session said when it was last read."""
+    """The contents of a session when it was last read."""
 
     data: str
     user_id: int

@@ -1,4 +1,4 @@
-"""What is asked of everybody before a view begins: an account, patience with expensive calls.
+"""Permissions that are checked before every view: an account, and limits on expensive calls.
 
 What someone may do with a project is decided where projects are found (`backend.projects.storage.access`).
 """
@@ -55,7 +55,7 @@ class MayAsk(BasePermission):
     """
 
     def has_permission(self, request: Request, view: APIView) -> bool:
-        """Raises what the user is told."""
+        """Raises the error that the user sees."""
         user = request.user
         if not isinstance(user, User):
             raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")

@@ -1,4 +1,4 @@
-"""What orchestrators and monitors ask, before any guard: is it alive, ready, how busy; and the access log.
+"""Answers orchestrators and monitors before any guard: alive, ready, metrics; and writes the access log.
 
 * `/health/live`: this process answers, and its request threads made progress within a minute. It is slow to
   give up, since an orchestrator's restart would complete the work of an attacker.

@@ -1,4 +1,4 @@
-"""Runs the web server: prepares the data folder, takes the port, serves until it is told to stop."""
+"""Runs the web server: prepares the data folder, takes the port, serves until a signal to stop."""
 
 from __future__ import annotations
 
@@ -47,10 +47,10 @@ class ServeError(Exception):
 
 @contextmanager
 def ended_by_interrupt() -> Iterator[None]:
-    """Lets Ctrl+C end the process itself, as SIGTERM does, while it starts.
+    """Makes Ctrl+C end the process itself, as SIGTERM does, while it starts.
 
     Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference, and imports have
-    many of those: the server would go on to serve.
+    many of those: the server would continue to serve.
     """
     before = signal.getsignal(signal.SIGINT)
     if before is signal.default_int_handler:
@@ -276,7 +276,7 @@ def warm_up() -> None:
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:
-    """Tells a program that waits where the server is; the file appears whole, for its owner alone."""
+    """Reports the server's address to a program that waits; the file appears whole, for its owner alone."""
     partial = path.with_name(path.name + ".partial")
     descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(descriptor, "w", encoding="utf-8") as file:

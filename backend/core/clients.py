@@ -52,19 +52,19 @@ def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bo
 
 
 class _Proxies:
-    """Says once that a proxy is there of which the settings know nothing."""
+    """Logs once that there is a proxy that the settings do not name."""
 
     def __init__(self) -> None:
         self._is_said = False
 
     def at_start(self) -> None:
-        """What the settings alone tell."""
+        """Warns at the start where https is set and no proxy is."""
         settings = environment()
         if settings.is_team and settings.is_https and not settings.proxy_hops:
             log.warning(_EXPECTED)
 
     def see(self, headers: Mapping[str, str]) -> None:
-        """What a request tells."""
+        """Warns at the first request with a header of a proxy."""
         if self._is_said or environment().proxy_hops or not environment().is_team:
             return
         name = next((name for name in FORWARDED if name in headers), None)

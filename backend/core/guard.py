@@ -1,4 +1,4 @@
-"""Who may talk to the server, decided without any I/O.
+"""Decides without any I/O which requests and sockets the server accepts.
 
 Three rules on localhost, the first two on a server with accounts, the same for pages, the API and sockets:
 
@@ -8,7 +8,7 @@ Three rules on localhost, the first two on a server with accounts, the same for 
   needs none;
 * the request carries the cookie that the link with the token was exchanged for, or the token (403).
 
-The token is made anew at each start. The cookie's value is derived from it, so that reading one does
+The token is new at each start. The cookie's value is derived from it, so that reading one does
 not give the other, and its name carries the port, since browsers share cookies among ports.
 """
 
@@ -35,7 +35,7 @@ LINK_HINT: Final = (
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """What the guard needs to know of a request or of the opening of a socket."""
+    """The facts that the guard needs of a request or of the opening of a socket."""
 
     method: str
     host: str
@@ -100,7 +100,7 @@ def judge(
 ) -> Refusal | None:
     """Returns why the request is refused, or None when it may pass.
 
-    With `accounts` there is no link to know; who asks is told by their own session, later.
+    With `accounts` there is no link to know; the session identifies the user later.
     """
     if refusal := judge_host(facts.host, extra_hosts):
         return refusal
@@ -120,7 +120,7 @@ def judge(
 
 
 def judge_host(host: str, extra_hosts: tuple[str, ...]) -> Refusal | None:
-    """Returns why a host is none of ours."""
+    """Returns why a host is refused, or None for a name of this server."""
     if host_name(host) in LOOPBACK_HOSTS or host_name(host) in extra_hosts:
         return None
     return Refusal(
@@ -151,14 +151,14 @@ def _judge_origin(facts: Facts) -> Refusal | None:
 
 
 def known_hosts() -> tuple[str, ...]:
-    """The names besides loopback's that this server answers for."""
+    """The host names of this server in addition to those of loopback."""
     settings = environment()
     public = (host_name(settings.public_host),) if settings.public_url else ()
     return public + tuple(host.lower() for host in settings.allowed_hosts)
 
 
 def schemes_of(host: str, connection: str) -> tuple[str, ...]:
-    """How pages of this host are opened; `connection` is how this request came.
+    """Returns the schemes by which pages of this host may be opened; `connection` is that of this request.
 
     A page that came by plain http, which anybody on its way may have written, is not of a server that
     its users open by https.

@@ -1,6 +1,6 @@
 """Bounds what a connection may cost before its request is known: the time and the size of a request's head.
 
-uvicorn waits for ever for a head that comes byte by byte, and keeps all of it in memory.
+uvicorn waits without end for a head that comes byte by byte, and keeps all of it in memory.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""How log lines are written: as text for a terminal, or one JSON object a line for what collects them."""
+"""Formats log lines: as text for a terminal, or as one JSON object a line for log collectors."""
 
 from __future__ import annotations
 

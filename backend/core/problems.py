@@ -33,7 +33,7 @@ TYPE_PREFIX = "urn:bt-studio:problem:"
 
 
 class StudioError(Exception):
-    """An error that the user is told about.
+    """An error that is shown to the user.
 
     Args:
         detail: one sentence that says what happened.
@@ -149,7 +149,7 @@ def disk_full() -> dict[str, Any]:
 
 
 def database_problem(error: OperationalError) -> dict[str, Any]:
-    """No transaction was committed: whoever asks may ask again as soon as the database can write."""
+    """No transaction was committed: the client may try again as soon as the database can write."""
     cause = error.__cause__
     code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
     if code in DISK_FULL:

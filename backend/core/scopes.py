@@ -1,4 +1,4 @@
-"""What an ASGI scope says about a request or a socket, before Django sees it."""
+"""Reads of an ASGI scope of a request or a socket, before Django sees it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def scheme_of(scope: HTTPScope | WebSocketScope, headers: Mapping[str, str]) -> 
 
 
 def facts_of(scope: HTTPScope | WebSocketScope) -> guard.Facts:
-    """What the guard needs to know."""
+    """Returns the facts that the guard needs."""
     headers = headers_of(scope)
     kind, _, bearer = headers.get("authorization", "").partition(" ")
     host = headers.get("host", "")

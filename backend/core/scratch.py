@@ -58,7 +58,7 @@ class Scratch:
 
     @property
     def used(self) -> int:
-        """How many bytes are taken."""
+        """Returns the number of bytes that are taken."""
         with self._lock:
             return self._used
 

@@ -26,7 +26,7 @@ POLICY_VIOLATION: Final = 1008
 
 
 def read_little(transport: Any) -> None:
-    """Has asyncio hand on less at a time than the 256 KiB that it is used to."""
+    """Makes asyncio read less at a time than its usual 256 KiB."""
     transport.max_size = READ_BYTES
 
 

@@ -144,11 +144,11 @@ class Bodies:
             reading.done()
 
     async def ask(self, work: Callable[[], Any], owner: str | None) -> Any:
-        """Has a thread with a connection to the database do it."""
+        """Calls the function in a thread that has a connection to the database."""
         return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work), owner)
 
     async def write(self, work: Callable[[], Any]) -> Any:
-        """Has a thread write to the disk, or read from there."""
+        """Writes to the disk, or reads from it, in a thread."""
         return await self._writing.run(asyncio.get_running_loop(), work)
 
 
@@ -183,7 +183,7 @@ class _Reading:
         return Body(await self._stored())
 
     def done(self) -> None:
-        """Lets the user send another large one."""
+        """Allows the user to send another large body."""
         if self._place is not None:
             self._place.give_back()
 
@@ -222,7 +222,7 @@ class _Reading:
             raise _too_large(self._most, hint=hint)
 
     async def _sender(self) -> User | None:
-        """Who sends this."""
+        """Returns the sender of this body."""
         cookies = cookies_of(self._headers.get("cookie", ""))
         user: User | None = await self._ask(partial(identify, cookies))
         return user

@@ -103,7 +103,7 @@ def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
 
 
 class Guard(Middleware):
-    """Lets requests pass that `guard.judge` allows; exchanges the token for the cookie."""
+    """Passes on requests that `guard.judge` allows; exchanges the token for the cookie."""
 
     def before(self, request: HttpRequest) -> HttpResponseBase | None:
         """Answers refused requests and the link with the token."""
@@ -125,7 +125,7 @@ class Guard(Middleware):
 
 
 def facts_of(request: HttpRequest) -> guard.Facts:
-    """What the guard needs to know of a request."""
+    """Returns the facts of a request that the guard needs."""
     host = request.META.get("HTTP_HOST", "")
     scheme, _, bearer = request.META.get("HTTP_AUTHORIZATION", "").partition(" ")
     return guard.Facts(
@@ -140,7 +140,7 @@ def facts_of(request: HttpRequest) -> guard.Facts:
 
 
 def exchange(request: HttpRequest, host: str) -> HttpResponse:
-    """Sets the cookie and goes on to the same page without the token."""
+    """Sets the cookie and redirects to the same page without the token."""
     rest = {key: value for key, value in request.GET.items() if key != "token"}
     response = HttpResponseRedirect("/" + (f"?{urlencode(rest)}" if rest else ""))
     response.set_cookie(
@@ -151,7 +151,7 @@ def exchange(request: HttpRequest, host: str) -> HttpResponse:
 
 
 def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
-    """Tells a person in HTML, a program as a problem document."""
+    """Answers a person in HTML, a program with a problem document."""
     document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
     if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
         return problem_response(document)

@@ -1,4 +1,4 @@
-"""What every websocket passes before an app serves it, and which app serves it.
+"""Checks every websocket before an app serves it, and finds that app.
 
 Apps register their sockets in `routes` of `backend.config.asgi`: a pattern of the path, a coroutine that is
 called once the guard has let the socket pass and it is accepted, and what a user must still be allowed to do
@@ -49,7 +49,7 @@ AT_THE_DOOR: Final = 2
 
 @dataclass(frozen=True, slots=True)
 class Closed:
-    """How one side ended its socket."""
+    """The code and reason with which one side closed its socket."""
 
     code: int
     reason: str = ""
@@ -57,7 +57,7 @@ class Closed:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """What a socket asks for: its address as its route matched it, who asks, and the query string."""
+    """The request of a socket: its address as its route matched it, the user, and the query string."""
 
     address: re.Match[str]
     user: User
@@ -68,7 +68,7 @@ Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable[
 
 
 class Route(NamedTuple):
-    """Who serves a socket, and what its user must be allowed to do.
+    """The app that serves a socket, and what its user must be allowed to do.
 
     `may` is given the id in the address and the user, and raises a StudioError when they may no longer.
     Guests say nothing, and users at most `most_bytes` at a time.
@@ -201,6 +201,6 @@ async def _user(scope: WebSocketScope) -> User | None:
 
 
 def short(reason: str) -> str:
-    """What of a reason fits into a close frame."""
+    """Shortens a reason so that it fits into a close frame."""
     first = reason.splitlines()[0] if reason else ""
     return first.encode()[:_REASON_BYTES].decode(errors="ignore")

@@ -116,7 +116,7 @@ class ChangeSet(models.Model):
 
 
 class FileRevision(models.Model):
-    """What a change set made of one file; no blob means that it removed it."""
+    """The result of a change set for one file; no blob means that it removed the file."""
 
     change = models.ForeignKey(ChangeSet, on_delete=models.CASCADE, related_name="files")
     path = models.CharField(max_length=MAX_PATH_LENGTH)
@@ -142,7 +142,7 @@ class CurrentFile(models.Model):
 
 
 class Draft(models.Model):
-    """What one user typed into one file and has not saved; never part of a revision."""
+    """Text that one user typed into one file and did not save; never part of a revision."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="drafts")
     author = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)

@@ -1,4 +1,4 @@
-"""Says to DRF who asks."""
+"""DRF authentication class."""
 
 from __future__ import annotations
 

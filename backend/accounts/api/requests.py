@@ -1,4 +1,4 @@
-"""What every view of the API shares."""
+"""Reads of a request that every view of the API shares."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def _reader(serializer: type[serializers.Serializer[Any]]) -> serializers.Serial
 
 
 def user_of(request: Request) -> User:
-    """Who asks; permissions have seen to it that there is someone."""
+    """Returns the user of the request; the permission classes guarantee that there is one."""
     assert isinstance(request.user, User)  # noqa: S101 - for the type checker
     return request.user
 

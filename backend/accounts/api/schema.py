@@ -1,4 +1,4 @@
-"""How the OpenAPI document describes who may ask."""
+"""Describes authentication in the OpenAPI document."""
 
 from __future__ import annotations
 

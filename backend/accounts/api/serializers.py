@@ -33,7 +33,7 @@ class DeleteMeSerializer(serializers.Serializer[Any]):
 
 
 class InviteSerializer(serializers.Serializer[Any]):
-    """How long an invitation works, and for how many."""
+    """The lifetime of an invitation, and the number of accounts that it may make."""
 
     days = serializers.IntegerField(min_value=1, max_value=365, default=14)
     max_uses = serializers.IntegerField(min_value=1, max_value=10_000, default=30)
@@ -57,7 +57,7 @@ class InvitationSerializer(serializers.Serializer[Any]):
 
 
 class GroupSerializer(serializers.Serializer[Any]):
-    """A group; members and invitations are shown to who looks after it."""
+    """A group; its members and invitations are shown to its managers only."""
 
     id = serializers.UUIDField()
     name = serializers.CharField()

@@ -1,4 +1,4 @@
-"""Who one is, and one's groups."""
+"""The user's own account and groups over HTTP."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Me(APIView):
-    """Who one is."""
+    """The user's own account."""
 
     open_to_guests = True
 
@@ -81,7 +81,7 @@ class OneGroup(APIView):
 
     @extend_schema(operation_id="get_group", responses=s.GroupSerializer, tags=["accounts"])
     def get(self, request: Request, group_id: UUID) -> Response:
-        """The group, with members and invitations for who looks after it."""
+        """The group; its managers also get the members and invitations."""
         user = user_of(request)
         return Response(groups.presented(groups.group(group_id, user=user), user=user))
 
@@ -142,6 +142,6 @@ class OneInvitation(APIView):
 
     @extend_schema(operation_id="revoke_invitation", responses={204: None}, tags=["accounts"])
     def delete(self, request: Request, invitation_id: UUID) -> Response:
-        """Takes the link back; whoever used it stays."""
+        """Revokes the link; users who joined by it stay."""
         invitations.revoke(invitation_id, acting_user=user_of(request))
         return Response(status=204)

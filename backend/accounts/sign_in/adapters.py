@@ -1,4 +1,4 @@
-"""What allauth asks this server: who may sign up, from where somebody comes, where links lead."""
+"""Answers allauth's questions: who may sign up, from which address a request comes, where links lead."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         return bounds(account, client_address.get(), browser_of(request))
 
     def post_login(self, request: HttpRequest, user: Any, **options: Any) -> HttpResponse:
-        """Whoever is in, their browser is known from now on."""
+        """Marks the browser as known to the account after a sign-in."""
         response: HttpResponse = super().post_login(request, user, **options)
         remember(request, response, user.pk)
         return response
@@ -82,7 +82,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         super().authentication_failed(request, **credentials)
 
     def send_mail(self, template_prefix: str, email: str, context: dict[str, Any]) -> None:
-        """Says in the page why no mail comes where there is no mail server."""
+        """Shows in the page that no mail comes where there is no mail server."""
         if not environment().smtp_url.get_secret_value():
             return
         super().send_mail(template_prefix, email, context)

@@ -1,4 +1,4 @@
-"""How often a password may be wrong: counted so that a guesser is slowed down, and nobody else is shut out.
+"""Counts wrong passwords, so that a guesser is slowed down and nobody else is shut out.
 
 A browser in which someone signed in before is *known* to that account, by a signed cookie, and has a count
 of its own: whatever others guess, its user gets in. Of other browsers, failures are counted by account and
@@ -58,7 +58,7 @@ class Browser:
 
 
 def bounds(account: int | str, address: str | None, browser: Browser | None) -> tuple[Bound, ...]:
-    """What bounds the next attempt to sign in to an account; the account is its key, or what was typed."""
+    """The limit of the next attempt to sign in to an account; its key is the account, or the typed name."""
     if browser is not None and account in browser.accounts:
         return (Bound(f"browser {browser.identity} {account}", 10, 5 * MINUTE_S),)
     place = network_of(address)
@@ -70,7 +70,7 @@ def bounds(account: int | str, address: str | None, browser: Browser | None) -> 
 
 
 def network_of(address: str | None) -> str:
-    """What counts as one address: of IPv6 a /64, of which every machine has as many as it likes."""
+    """Returns what counts as one address: for IPv6 the /64, since a machine can use all addresses in it."""
     if not address:
         return "?"
     found = ip_address(address)

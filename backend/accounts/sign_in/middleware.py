@@ -37,7 +37,7 @@ class PageLocale(OnPages, LocaleMiddleware):
 
 
 class PageCsrf(OnPages, CsrfViewMiddleware):
-    """A token in every form, besides the Origin that the guard checks for all."""
+    """Checks a token in every form, in addition to the Origin that the guard checks for all requests."""
 
     def process_view(self, request: HttpRequest, *args: Any, **kwargs: Any) -> Any:
         """Django calls this for each view."""
@@ -47,7 +47,7 @@ class PageCsrf(OnPages, CsrfViewMiddleware):
 
 
 class PageUser(OnPages, AuthenticationMiddleware):
-    """Who is signed in."""
+    """Sets the user who is signed in."""
 
 
 class PageMessages(OnPages, MessageMiddleware):

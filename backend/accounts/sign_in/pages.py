@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def context(request: HttpRequest) -> dict[str, Any]:
-    """What every page may show."""
+    """Returns the values that every page may show."""
     settings = environment()
     return {
         "registration_open": settings.registration == "open",
@@ -33,7 +33,7 @@ def context(request: HttpRequest) -> dict[str, Any]:
 @never_cache
 @require_http_methods(["GET", "POST"])
 def join(request: HttpRequest, token: str) -> HttpResponse:
-    """Follows an invitation: whoever is signed in joins with a button, the others sign up or in first."""
+    """Follows an invitation: a user who is signed in joins with a button, others sign up or sign in first."""
     found = invitations.of_token(token)
     if found is None:
         return dead_link(request)

@@ -1,4 +1,4 @@
-"""What happens when people sign in, sign up, or change how they sign in: the audit log, invitations."""
+"""Receivers for sign-in, sign-up and changes of credentials: the audit log, invitations."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def on_user_saved(instance: User, *, created: bool, **_: object) -> None:
 
 
 def on_left_group(instance: GroupMember, **_: object) -> None:
-    """What was shared with the group is shared with them no longer."""
+    """Announces that projects shared with the group are no longer shared with the former member."""
     lessen(user_id=instance.user_id)
 
 

@@ -1,4 +1,4 @@
-"""What waits for a worker: owners take turns, and none has more than its share at work."""
+"""The queue of items that wait for a worker: owners take turns, and none has more than its share at work."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ class FairQueue(Generic[Item]):
     """A queue for each owner, served in turn. The caller sees to it that one thread at a time uses it.
 
     Args:
-        room: how many items may wait, of all owners together; of one owner half as many, so that an owner who
-            asks for much cannot fill it.
+        room: how many items may wait, of all owners together; of one owner half as many, so that one owner's
+            many requests cannot fill it.
         per_owner: how many items of one owner may be at work at a time.
     """
 
@@ -27,11 +27,11 @@ class FairQueue(Generic[Item]):
         self._at_work: Counter[str] = Counter()
 
     def __len__(self) -> int:
-        """How many items wait."""
+        """Returns the number of items that wait."""
         return sum(map(len, self._waiting.values()))
 
     def put(self, owner: str, item: Item) -> None:
-        """Lets an item wait.
+        """Adds an item to the queue.
 
         Raises:
             QueueFullError: there is no room, or none for this owner.

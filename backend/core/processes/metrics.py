@@ -44,7 +44,7 @@ class Counter:
 
 
 class Histogram:
-    """How long things took."""
+    """A histogram of durations."""
 
     def __init__(self, name: str, help_text: str) -> None:
         self._head = f"# HELP {name} {help_text}\n# TYPE {name} histogram\n"

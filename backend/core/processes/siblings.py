@@ -49,7 +49,7 @@ class Family(NamedTuple):
 
 
 class _Siblings:
-    """What this process knows of its parent."""
+    """This process's view of its parent and siblings."""
 
     def __init__(self) -> None:
         self.family: Family | None = None
@@ -77,7 +77,7 @@ class Place:
         self._name, self._taken, self._descriptor = name, taken, descriptor
 
     def give_back(self) -> None:
-        """Lets another have it; once."""
+        """Frees the place for another; once."""
         if self._taken is None:
             os.close(self._descriptor)
             return
@@ -101,14 +101,14 @@ siblings: Final = _Siblings()
 
 
 def answering() -> None:
-    """Says to the parent that this worker answers."""
+    """Reports to the parent that this worker answers."""
     if siblings.family is not None:
         numbers.put(BEAT, time.monotonic())
         numbers.put(STARTED, 1)
 
 
 async def beat_for_ever(threads: Threads) -> None:
-    """Says to parent and siblings that the event loop is awake, and how busy the threads are."""
+    """Reports to parent and siblings that the event loop is awake, and how busy the threads are."""
     while True:
         numbers.put(FULL, threads.full_for_s())
         numbers.put(STUCK, threads.stuck_for_s())

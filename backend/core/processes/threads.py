@@ -74,7 +74,7 @@ class Threads:
         def job() -> Callable[[], None]:
             try:
                 result, error = work(), None
-            except BaseException as raised:  # whoever waits gets it
+            except BaseException as raised:  # the waiting caller gets it
                 result, error = None, raised
             return lambda: _tell(loop, future, result, error)
 
@@ -94,7 +94,7 @@ class Threads:
             return time.monotonic() - max(self._full_since_s, self._progress_s)
 
     def end(self) -> None:
-        """Lets what is begun come to its end, and waits for it a while."""
+        """Waits a while until the calls that have begun are finished."""
         with self._lock:
             threads, self._threads = self._threads, {}
             self._waiting = self._empty()
@@ -131,11 +131,11 @@ class Threads:
             following: _Task | None = task
             while following is not None:
                 done, tell = following.owner, following.job()
-                following = self._next(inbox, done)  # first, so that whoever is told finds this thread idle
+                following = self._next(inbox, done)  # first: the notified caller finds it idle
                 tell()
 
     def _next(self, inbox: Inbox, done: str) -> _Task | None:
-        """What waits for a thread and may begin; without it, this one is idle."""
+        """Returns the next call that may begin; without one, this thread is idle."""
         with self._lock:
             self._progress_s = time.monotonic()
             self._waiting.done(done)

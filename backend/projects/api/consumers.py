@@ -39,7 +39,7 @@ def may_write(project_id: UUID, user: User) -> None:
 async def serve_notices(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
     """Sends `{"type": "revision", "revision", "author", "message"}`: the newest at once, then each.
 
-    Between them may come `{"type": "server", "text"}`: something that all users are told; empty, it is over.
+    Between them may come `{"type": "server", "text"}`: a notice to all users; an empty one ends it.
     """
     project_id = UUID(call.address[1])
     async with notices_of(project_id) as following:

@@ -1,4 +1,4 @@
-"""Tells whoever has a project open that it has a new revision; what changed is fetched, not sent.
+"""Notifies everyone who has a project open of a new revision; the changes are fetched, not sent.
 
 A notice is small and may be lost (a full channel drops it): the number in the next one says the same.
 """

@@ -1,4 +1,4 @@
-"""Who has a project open through this server, to be told what concerns all users."""
+"""The pages that have a project open through this server; they receive notices to all users."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ log = logging.getLogger(__name__)
 
 
 class Pages:
-    """The sockets of open projects, and what each was told last."""
+    """The sockets of open projects, and the last notice that each received."""
 
     def __init__(self) -> None:
         self._told: dict[ASGISendCallable, str] = {}

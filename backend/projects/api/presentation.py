@@ -102,7 +102,7 @@ def revision(change: ChangeSet) -> dict[str, Any]:
 
 
 def draft(row: Draft) -> dict[str, Any]:
-    """What a user typed and did not save."""
+    """Returns a draft: text that a user typed and did not save."""
     return {
         "path": row.path,
         "base_revision": row.base_revision,

@@ -100,7 +100,7 @@ class PortSerializer(serializers.Serializer[Any]):
 
 
 class ActionSerializer(serializers.Serializer[Any]):
-    """What the source of an action says about it."""
+    """The declarations in the source of an action."""
 
     name = serializers.CharField()
     path = serializers.CharField()
@@ -117,7 +117,7 @@ CHECKED: Final = "false: the project could not be checked, so that its actions a
 
 
 class ReportSerializer(serializers.Serializer[Any]):
-    """What the translator says of a project."""
+    """The findings of the translator in a project."""
 
     diagnostics = DiagnosticSerializer(many=True)
     actions = ActionSerializer(many=True)
@@ -184,7 +184,7 @@ class ProjectDetailSerializer(ProjectSummarySerializer):
 
 
 class ProjectListQuerySerializer(serializers.Serializer[Any]):
-    """What a list may be asked for."""
+    """The query of a list."""
 
     search = serializers.CharField(required=False, default="", allow_blank=True, max_length=200)
     sort = serializers.ChoiceField(
@@ -321,7 +321,7 @@ class InspectActionSerializer(StrictSerializer):
 
 
 class RevisionFileSerializer(serializers.Serializer[Any]):
-    """What a revision did to a file."""
+    """The change of a file in a revision."""
 
     path = serializers.CharField()
     change = serializers.ChoiceField(choices=["written", "deleted", "renamed"])
@@ -347,7 +347,7 @@ class RevisionListSerializer(serializers.Serializer[Any]):
 
 
 class RevisionListQuerySerializer(serializers.Serializer[Any]):
-    """What a history may be asked for."""
+    """The query of a history."""
 
     path = serializers.CharField(required=False, default="", max_length=MAX_PATH_LENGTH)
     before = serializers.IntegerField(required=False, min_value=1, max_value=MAX_REVISION)
@@ -388,13 +388,13 @@ class DiffSerializer(serializers.Serializer[Any]):
 
 
 class DiffQuerySerializer(serializers.Serializer[Any]):
-    """What a revision is compared with; by default the one before."""
+    """The revision to compare with; by default the one before."""
 
     against = serializers.IntegerField(required=False, min_value=0, max_value=MAX_REVISION)
 
 
 class DraftSerializer(serializers.Serializer[Any]):
-    """What this user typed and did not save."""
+    """A draft: text that this user typed and did not save."""
 
     path = serializers.CharField()
     base_revision = serializers.IntegerField()
@@ -416,7 +416,7 @@ class SaveDraftSerializer(StrictSerializer):
 
 
 class AppSerializer(serializers.Serializer[Any]):
-    """What the executor needs to run the project."""
+    """The project in the form that the executor runs."""
 
     app_zip_base64 = serializers.CharField()
     tick_hz = serializers.FloatField()

@@ -280,7 +280,7 @@ class Check(APIView):
 
 
 class App(APIView):
-    """What runs."""
+    """The form of a project that runs."""
 
     @extend_schema(
         operation_id="get_app",
@@ -289,7 +289,7 @@ class App(APIView):
         tags=["projects"],
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """What the executor needs to run the project; 422 with `diagnostics` when it has errors."""
+        """The project in the form that the executor runs; 422 with `diagnostics` when it has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
         files = queries.contents(project)
@@ -309,7 +309,7 @@ class InspectAction(APIView):
         tags=["projects"],
     )
     def post(self, request: Request) -> HttpResponseBase:
-        """What the source of an action declares."""
+        """The declarations in the source of an action."""
         asked = parsed(s.InspectActionSerializer, request.data)
         filename = names.file_path(asked["filename"], field="filename")
         return checking.answered(

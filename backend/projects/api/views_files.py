@@ -130,7 +130,7 @@ class Export(APIView):
 
 
 class Package(APIView):
-    """What users take away."""
+    """The exported package."""
 
     expensive = ("GET",)
 
@@ -161,7 +161,7 @@ class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
-    """What a package will hold."""
+    """The list of files of a package."""
 
     name = serializers.CharField()
     files = PackageFileSerializer(many=True)
@@ -170,7 +170,7 @@ class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class PackagePreview(APIView):
-    """What users will take away."""
+    """The list of files of an export."""
 
     @extend_schema(
         operation_id="preview_package",
@@ -179,7 +179,7 @@ class PackagePreview(APIView):
         tags=["files"],
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """What the ROS 2 package will hold, before it is downloaded."""
+        """The files of the ROS 2 package, before it is downloaded."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         name = request.query_params.get("name") or None
         files = queries.contents(project)

@@ -1,4 +1,4 @@
-"""What a server keeps of a user: how much, all of it as a download, and its end."""
+"""A user's data on this server: its size, all of it as a download, and its deletion."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class UsageSerializer(serializers.Serializer[Any]):
 
 
 class Usage(APIView):
-    """How much room the user takes."""
+    """The space that the user's projects take."""
 
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
     def get(self, request: Request) -> Response:

@@ -83,7 +83,7 @@ class RevisionFile(APIView):
 
 
 class RevisionDiff(APIView):
-    """What a revision changed."""
+    """The changes of a revision."""
 
     @extend_schema(
         operation_id="diff_revision",
@@ -110,7 +110,7 @@ class RevisionDiff(APIView):
 
 
 class RestoreRevision(APIView):
-    """Goes back by going on."""
+    """Restores an old revision as a new one."""
 
     @extend_schema(
         operation_id="restore_revision",
@@ -132,7 +132,7 @@ class RestoreRevision(APIView):
 
 
 class Drafts(APIView):
-    """What was typed and not saved."""
+    """Drafts: text that was typed and not saved."""
 
     @extend_schema(operation_id="list_drafts", responses=s.DraftListSerializer, tags=["drafts"])
     def get(self, request: Request, project_id: UUID) -> Response:

@@ -29,7 +29,7 @@ ROLES = [role.label for role in SHARED_ROLES]
 
 
 class SharedRoleSerializer(serializers.Serializer[Any]):
-    """What someone may do."""
+    """The role of a person or group."""
 
     role = serializers.ChoiceField(choices=ROLES)
 
@@ -47,7 +47,7 @@ class TransferSerializer(serializers.Serializer[Any]):
 
 
 class MakeLinkSerializer(serializers.Serializer[Any]):
-    """How long a link works."""
+    """The lifetime of a link."""
 
     days = serializers.IntegerField(min_value=1, max_value=3650, allow_null=True, default=None)
 

@@ -102,7 +102,7 @@ def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
 
 
 class Upload(NamedTuple):
-    """What a user brings.
+    """An imported project.
 
     Attributes:
         files: what is in it, by path.

@@ -1,4 +1,4 @@
-"""What is asked of the pool of processes about projects, and what becomes of its answers."""
+"""Jobs about projects for the pool of processes, and the use of its answers."""
 
 from __future__ import annotations
 

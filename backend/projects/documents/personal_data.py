@@ -60,7 +60,7 @@ def answer_with_archive(
 
 
 class _Answering:
-    """Has one project packed after the other."""
+    """Packs one project after the other in the pool."""
 
     def __init__(
         self, view: APIView, request: Request, user: User, file: IO[bytes], headers: dict[str, str]

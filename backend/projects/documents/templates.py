@@ -19,7 +19,7 @@ _IGNORED: Final = frozenset({"__pycache__", ".git", ".ruff_cache", ".mypy_cache"
 
 @dataclass(frozen=True, slots=True)
 class Template:
-    """What the start page shows of a template."""
+    """A template as the start page shows it."""
 
     id: str
     name: str

@@ -114,7 +114,7 @@ def unshare_with_person(project_id: UUID, name: str, *, acting_user: User, if_ma
 def share_with_group(
     project_id: UUID, group_id: UUID, role: Role, *, acting_user: User, if_match: str = ""
 ) -> Project:
-    """Gives everybody in a group of one's own, or that one is in, a role."""
+    """Gives a role to everybody in a group that the user manages or is in."""
     project = owned(project_id, acting_user, if_match)
     found = groups.group(group_id, user=acting_user)
     GroupShare.objects.update_or_create(
@@ -139,7 +139,7 @@ def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, i
 
 @transaction.atomic
 def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match: str = "") -> Project:
-    """Makes a link by which anybody may read the project; for ever, or for some days."""
+    """Makes a link by which anybody may read the project; without end, or for some days."""
     project = owned(project_id, acting_user, if_match)
     now = timezone.now()
     made = ShareLink.objects.create(

@@ -1,13 +1,13 @@
-"""Who may do what with a project: the one place that decides it, for every endpoint and socket.
+"""Access to projects: the one place that decides it, for every endpoint and socket.
 
-Nobody gets hold of a `Project` but through `gate`, and whoever asks says what for. What a user may is the
+A `Project` is only returned through `gate`, and the caller names the purpose. What a user may is the
 highest of: owner; the role that the project was shared with, with them or with a group of theirs;
 viewer, if a read-only link brought them here.
 
 | need | role | for example |
 | --- | --- | --- |
 | `READ` | viewer | open, history, diff, check, XML, package, export |
-| `COPY`, `RUN` | viewer with an account | duplicate into one's own projects, run in a session of one's own |
+| `COPY`, `RUN` | viewer with an account | duplicate as an own project, run in an own session |
 | `WRITE` | editor | save, rename, settings, drafts, restore a revision, label |
 | `MANAGE` | owner | archive, delete, restore, share |
 
@@ -39,7 +39,7 @@ NOT_FOUND: Final = "There is no such project."
 
 
 class Need(Enum):
-    """What someone wants with a project: the least role, and whether it takes an account."""
+    """The purpose of an access: the least role, and whether it requires an account."""
 
     READ = (Role.VIEWER, False)
     COPY = (Role.VIEWER, True)
@@ -67,7 +67,7 @@ class RoleTooLowError(StudioError):
 
 
 def gate(project: Project | None, *, user: User, need: Need) -> Project:
-    """Lets a project pass that `with_role` found, or raises.
+    """Returns the project that `with_role` found, or raises.
 
     Raises:
         NotFoundError: there is none, or none that this user may know of.

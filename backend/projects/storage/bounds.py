@@ -1,4 +1,4 @@
-"""How much of a project may be trees: what is larger already may be made smaller, and does not grow.
+"""Bounds of the trees of a project: one that is larger already may become smaller, and must not grow.
 
 A save must not wait until diagrams are read. So nodes are counted only where so many bytes could hold
 too many, and where a mark that each node has is found too often.
@@ -80,7 +80,7 @@ class _Contents:
         return sum(self._data(tree).count(MARK) for tree in trees) > most
 
     def nodes(self, trees: Sequence[_Tree]) -> int:
-        """How many nodes they have."""
+        """Returns the number of nodes of the trees."""
         return sum(self._count(tree) for tree in trees)
 
     def _count(self, tree: _Tree) -> int:
@@ -94,7 +94,7 @@ class _Contents:
 
 
 def _nodes(data: bytes) -> int:
-    """What the translator does not read has none."""
+    """Counts the nodes of a diagram; a file that the translator does not read has none."""
     try:
         document: Any = json.loads(data)
     except (ValueError, RecursionError):

@@ -1,7 +1,7 @@
-"""What was used lately of projects, so that each save need not fetch the whole project again.
+"""Keeps contents and lists of files that were used lately, so that a save does not fetch them again.
 
 A content is named by its hash, so what is kept is never out of date. A list of files is that of one revision
-of a project, made at one time: whoever has read the project's row knows which one it is.
+of a project, made at one time: the project's row tells which one it is.
 """
 
 from __future__ import annotations

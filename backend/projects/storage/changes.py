@@ -1,4 +1,4 @@
-"""What a change set does to a project's files, computed without any I/O.
+"""Computes the effect of a change set on a project's files, without any I/O.
 
 A client names for each file the revision that its edit is based on. It is the file's own revision or
 that of the whole project when it was read: revisions only grow, so both tell whether the file has
@@ -75,7 +75,7 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to write: nothing at all when the files already are as wanted."""
+    """The writes of a change set: none when the files already are as wanted."""
 
     written: tuple[Written, ...] = ()
     removed: tuple[str, ...] = ()

@@ -18,7 +18,7 @@ MANIFEST: Final = "project.json"
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What a project's row repeats of its `project.json`."""
+    """The fields of `project.json` that a project's row repeats."""
 
     name: str
     description: str

@@ -100,7 +100,7 @@ def deleted_project(project_id: UUID, *, user: User) -> Project:
     rows = Project.objects.select_related("owner").select_for_update(of=("self",)).filter(id=project_id)
     found = access.with_role(rows, user).first()
     if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
-        found = None  # whoever may no longer see it is told as much as everybody else
+        found = None  # a user who may no longer see it gets the same answer as everybody else
     return access.gate(found, user=user, need=Need.MANAGE)
 
 
@@ -241,7 +241,7 @@ def file_at(project: Project, number: int, path: str) -> StoredFile:
 
 
 def drafts(project: Project, *, user: User) -> list[Draft]:
-    """What this user typed and did not save."""
+    """Returns the drafts of this user: text that was typed and not saved."""
     return list(Draft.objects.filter(project=project, author=user).order_by("path"))
 
 

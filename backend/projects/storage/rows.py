@@ -1,6 +1,6 @@
 """The statements of a save, written out.
 
-Django's ORM puts each statement together anew whenever it is used. For these that cost more processor time
+Django's ORM builds each statement again whenever it is used. For these that cost more processor time
 than everything else that a save does, so they are plain SQL, in the dialect that SQLite and PostgreSQL share.
 PostgreSQL gets all that a save writes in one statement: each further one costs more, on both sides, than it
 does.
@@ -36,7 +36,7 @@ Parameters = list[Any]
 
 
 class Writing(NamedTuple):
-    """What a change set writes."""
+    """The rows that a change set writes."""
 
     change: ChangeSet
     blobs: Sequence[tuple[str, int, bytes]]

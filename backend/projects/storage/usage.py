@@ -1,4 +1,4 @@
-"""How much room users take."""
+"""Measures the space that users take."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def usage_of_all() -> Iterable[Any]:
 
 
 def room_for_archive(user: User) -> int:
-    """How many bytes an archive may have that this user imports.
+    """Returns the largest size in bytes of an archive that this user may import.
 
     Raises:
         QuotaExceededError: they may not have another project, or no more bytes.
@@ -46,7 +46,7 @@ def room_for_archive(user: User) -> int:
 
 
 def usage(user: User) -> dict[str, int]:
-    """What one user takes, and may take."""
+    """The space that one user takes, and may take."""
     limits = environment()
     rows = Project.objects.filter(owner=user, deleted_at=None)
     found = rows.aggregate(kept=Count("id"), used=Sum("size"))

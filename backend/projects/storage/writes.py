@@ -134,7 +134,7 @@ def edit_settings(  # noqa: PLR0913 - the fields that a request may change
 def restore_revision(
     project_id: UUID, number: int, *, acting_user: User, paths: Sequence[str] = (), if_match: str = ""
 ) -> Project:
-    """Puts files (all, when none are named) back to what they were; history goes on, nothing is undone."""
+    """Puts files (all, when none are named) back to what they were; history continues, nothing is undone."""
     project = _locked(project_id, acting_user)
     require_match(project, if_match)
     then = queries.files_at(project, number)

@@ -1,4 +1,4 @@
-"""What the verbs of the translator share: opening what is named, and telling what was found."""
+"""Shared by the verbs of the translator: opens the named files and prints the findings."""
 
 from __future__ import annotations
 

@@ -120,11 +120,11 @@ def users() -> None:
 
 @admin.command()
 def drain(
-    message: Annotated[str, typer.Option(help="What users are told besides.")] = "",
+    message: Annotated[str, typer.Option(help="A message to the users, in addition.")] = "",
     wait: Annotated[int, typer.Option(min=0, max=1440, help="Minutes to wait for the last robot.")] = 0,
     off: Annotated[bool, typer.Option("--off", help="Let robots start again.")] = False,  # noqa: FBT002
 ) -> None:
-    """Lets no robot start any more, tells the users, and says how many still run.
+    """Stops new robots from starting, notifies the users, and reports how many still run.
 
     With --wait it ends when the last one has; its status is 1 when time is up before.
     """

@@ -18,7 +18,7 @@ from backend.cli.stored import stored_projects
 def backup(
     output: Annotated[Path, typer.Argument(help="The zip to write; - writes to the standard output.")],
 ) -> None:
-    """Writes all accounts, projects and revisions to one file; the server may go on meanwhile."""
+    """Writes all accounts, projects and revisions to one file; the server may continue to run."""
     with stored_projects():
         from backend.cli.backup_file import write_backup
 

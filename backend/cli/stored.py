@@ -1,4 +1,4 @@
-"""What the verbs share that work on stored projects."""
+"""Shared by the verbs that work on stored projects."""
 
 from __future__ import annotations
 

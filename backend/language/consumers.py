@@ -90,7 +90,7 @@ def _contents(page: Page) -> dict[str, bytes]:
 
 
 class Page(NamedTuple):
-    """Who is at the other end of the socket."""
+    """The page at the other end of the socket."""
 
     project_id: UUID
     user: User
@@ -109,7 +109,7 @@ class Relay:
         self._last_heard_s = time.monotonic()
 
     async def run(self, following: Following) -> Closed | None:
-        """Relays until a side ends; returns what the page is told, None when it has gone itself."""
+        """Relays until a side ends; returns the close message for the page, None when the page has gone."""
         tasks = [
             asyncio.create_task(each)
             for each in (self._from_page(), self._from_server(), self._watch(), self._follow(following))

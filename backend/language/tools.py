@@ -1,4 +1,4 @@
-"""How the web server reaches a user's tools: a container of their own that reads files for the editor.
+"""Connects the web server to a user's tools: a container per user that reads files for the editor.
 
 The container is `executor.tools`, started by the launcher of the sessions. Its id and token follow from the
 user, so that every web server finds the same one, and nothing is stored.

@@ -48,7 +48,7 @@ class Lint(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """What is likely wrong, with the edits that mend it."""
+        """Probable errors, with the edits that fix them."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.findings, **given, run=checker(user_of(request)))
         return _answered(self, request, "findings", work)

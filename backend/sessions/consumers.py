@@ -71,7 +71,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
 ) -> Closed | None:
-    """Relays until a side ends; returns what the browser is told, None when it has gone itself."""
+    """Relays until a side ends; returns the close message for the browser, None when the browser has gone."""
     is_control = channel == "control"
     try:
         session = await _when_ready(session_id, user, send if is_control else None)
@@ -131,7 +131,7 @@ def _ended(session: Session) -> Closed:
 
 
 async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:
-    """The session, as soon as it neither waits nor starts; a browser that waits is told its place."""
+    """Returns the session when it neither waits nor starts; a waiting browser receives its place."""
     find = sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
     # Another web server may be starting it, so the database tells, and no event of this process.
@@ -194,7 +194,7 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
 
 
 class _Turns:
-    """Lets other sockets have their turn after some messages: taking one that is there waits for nothing."""
+    """Yields to other sockets after some messages: to take a message that is there waits for nothing."""
 
     def __init__(self) -> None:
         self._messages = 0

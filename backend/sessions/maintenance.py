@@ -1,10 +1,10 @@
-"""What is done for sessions every few seconds: notes the dead, ends the idle, starts the waiting.
+"""Maintains sessions every few seconds: marks the dead, ends the idle, starts the waiting.
 
 Those that are alive and do not answer are the business of `backend.sessions.watch`.
 
 Of several web servers, and of several workers of one, the one that has the lease does so for all
-(`lease.py`). Each of the steps is right when another did it a moment before. What a server knows alone, who
-looks at which session through it, it notes itself, and it tells its own browsers what concerns them.
+(`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
+viewers of each session through it, it notes itself, and it notifies its own browsers.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ log = logging.getLogger(__name__)
 
 EVERY_S: Final = 5.0
 LEASE_S: Final = 3 * EVERY_S
-"""After so long without a word from who looks after the sessions, another one does."""
+"""After so long without a sign of life from the server with the lease, another one takes over."""
 ROUNDS_TO_ORPHANS: Final = 12
 WARNING: Final = timedelta(minutes=5)
 
 
 class Attendance:
-    """Who looks at which session through this server, and when they last told it something."""
+    """The viewers of each session through this server, and the time of their last message."""
 
     def __init__(self) -> None:
         self._used: dict[UUID, float] = {}
@@ -90,7 +90,7 @@ class Attendance:
         self._warned = {session_id for session_id in self._warned if session_id in soon}
 
     async def warn(self, session_id: UUID, text: str) -> None:
-        """Writes a line into the console of everyone who looks, once until it is used again."""
+        """Writes a line into the console of every viewer, once until the session is used again."""
         if session_id in self._warned:
             return
         self._warned.add(session_id)
@@ -103,7 +103,7 @@ attendance: Final = Attendance()
 
 
 async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) -> None:
-    """Tells a browser something in the words of its manager."""
+    """Sends a message to a browser in the manager's format."""
     message = {"id": "", "command": command, "data": data, "seq": 0, "t": 0}
     try:
         await send({"type": "websocket.send", "text": json.dumps(message), "bytes": None})
@@ -192,7 +192,7 @@ def end_idle() -> None:
 
 
 def ending_soon() -> dict[UUID, int]:
-    """What ends soon since nobody uses it, and in how many minutes."""
+    """Returns the sessions that end soon since nobody uses them, with the minutes left."""
     soon = {session.id: left for session, left in _unused() if left > timedelta(0)}
     return {session_id: max(1, round(left.total_seconds() / 60)) for session_id, left in soon.items()}
 

@@ -35,7 +35,7 @@ NOTED_S: Final = 3.0
 
 
 def longest_s() -> float:
-    """How long a manager may be silent."""
+    """The time that a manager may be silent."""
     return environment().session_silence_s
 
 

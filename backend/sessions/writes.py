@@ -109,7 +109,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
 
 
 def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
-    """How many more executors may run; those in `states` have a place, or wait for one."""
+    """Returns how many more executors may run; those in `states` have a place, or wait for one."""
     limit = environment().max_sessions
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
     return limit - taken if limit else len(ROS_DOMAINS)
@@ -132,7 +132,7 @@ def start_queued() -> int:
 
 
 def _takes_place(session: Session) -> bool:
-    """Lets a session that waits have a place; False when there is none, or another server was faster."""
+    """Gives a place to a session that waits; False when there is none, or another server was faster."""
     with suppress(IntegrityError, HostFullError), transaction.atomic():
         transaction_lock(PLACES)
         if places_left() > 0:
@@ -262,7 +262,7 @@ def end_sessions_without_right(
 def end_all_sessions() -> None:
     """Ends every session that is not to outlive the server; for its last moments.
 
-    In containers they could, and for a team they do. Of one user's IDE that was stopped nothing is to go on.
+    In containers they could, and for a team they do. Nothing of one user's IDE continues after its end.
     """
     if launcher().survives_server and environment().is_team:
         return
@@ -283,8 +283,8 @@ def end_orphans() -> None:
 
     Of several servers, the one that looks after sessions does so every minute.
 
-    Where executors outlive the server, those that run go on. Those are ended that the database does not know
-    as running, and sessions whose start this server, or the one before it, did not see to its end.
+    Where executors outlive the server, those that run continue. This ends executors that the database
+    does not know as running, and sessions whose start neither this server nor the one before it finished.
     """
     timeout_s = environment().session_stop_timeout_s
     survives = launcher().survives_server

@@ -41,7 +41,7 @@ class Aside:
         self._threads: list[threading.Thread] = []
 
     def ask(self, owner: str, work: Callable[[], Any]) -> Future[Any]:
-        """Has work done as soon as a thread is free.
+        """Does the work as soon as a thread is free.
 
         Raises:
             BusyError: too much waits already.

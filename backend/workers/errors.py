@@ -1,4 +1,4 @@
-"""What can become of work that was handed to the pool.
+"""Errors of work that was handed to the pool.
 
 StudioError
 ├─ BusyError         503, with Retry-After: too much waits already

@@ -860,7 +860,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description What is likely wrong, with the edits that mend it. */
+        /** @description Probable errors, with the edits that fix them. */
         post: operations["lint_python"];
         delete?: never;
         options?: never;
@@ -1142,7 +1142,7 @@ export interface components {
         Findings: {
             findings: components["schemas"]["Finding"][];
         };
-        /** @description What mends a finding. */
+        /** @description The fix of a finding. */
         Fix: {
             message: string;
             edits: components["schemas"]["Edit"][];

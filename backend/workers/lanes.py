@@ -1,4 +1,4 @@
-"""Two pools: small work does not wait behind large work, whoever asked for the large work.
+"""Two pools: small work does not wait behind large work of anyone.
 
 A save is answered with a check of its project, which takes milliseconds. Large work runs at a lower priority
 (*nice*), so that answers to requests come before it; work that a request of every editor waits for must not.

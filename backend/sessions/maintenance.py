@@ -136,7 +136,7 @@ async def _one_round(*, is_for_orphans: bool) -> None:
     watchmen.keep_to(await sync_to_async(ready_sessions)(), all_of_them=is_ours)
     await sync_to_async(note_used)(attendance.take_used())
     if is_ours:
-        await sync_to_async(care)(is_for_orphans=is_for_orphans and not is_alone())
+        await sync_to_async(maintain)(is_for_orphans=is_for_orphans and not is_alone())
     soon = await sync_to_async(ending_soon)()
     text = await sync_to_async(drain.text)()
     await pages.tell(text)
@@ -168,7 +168,7 @@ def note_used(used: Mapping[UUID, float]) -> None:
         Session.objects.filter(Q(used_at=None) | Q(used_at__lt=at), id=session_id).update(used_at=at)
 
 
-def care(*, is_for_orphans: bool = False) -> None:
+def maintain(*, is_for_orphans: bool = False) -> None:
     """One round for all servers."""
     if is_for_orphans:
         writes.end_orphans()

@@ -146,7 +146,7 @@ async def _look_after(session: Session) -> None:
     try:
         await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
-        # The next round of care begins again.
+        # The next round of maintenance begins again.
         log.exception("session %s: a silent executor was not ended", session.id)
 
 

@@ -96,7 +96,7 @@ class Pool:
         return self.ask_packed(owner, packed_job(job, arguments))
 
     def ask_packed(self, owner: str, packed: bytes) -> Future[Any]:
-        """Has a job done that `packed_job` made, as `ask`."""
+        """Hands a job that `packed_job` made to a worker, as `ask`."""
         key = hashlib.sha256(packed).digest()
         future: Future[Any] = Future()
         with self._changed:

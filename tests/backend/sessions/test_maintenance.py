@@ -110,14 +110,14 @@ def test_the_idle_are_told_and_then_ended(api, start, fake_manager, settings_of)
     now = timezone.now()
     assert maintenance.ending_soon() == {}
     Session.objects.update(used_at=now - timedelta(minutes=27))
-    maintenance.care()
+    maintenance.maintain()
     assert maintenance.ending_soon() == {session.id: 3}
     maintenance.note_used({session.id: 60.0})
     assert maintenance.ending_soon() == {}
     maintenance.note_used({session.id: 27 * 60.0})  # through another server, and longer ago
     assert maintenance.ending_soon() == {}
     Session.objects.update(used_at=now - timedelta(minutes=31))
-    maintenance.care()
+    maintenance.maintain()
     ended = api.get(f"sessions/{started['id']}")
     assert (ended["state"], ended["error"]) == ("ended", "It was ended since nobody used it.")
 
@@ -127,5 +127,5 @@ def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
     started = start("One")
     launched(started["id"])
     launcher.stop(Session.objects.get().launcher_state, timeout_s=5)
-    maintenance.care()
+    maintenance.maintain()
     assert Session.objects.get().state in {"failed", "ended"}

@@ -217,7 +217,7 @@ def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkey
     def stop_and_be_seen(state, *, timeout_s):
         stop(state, timeout_s=timeout_s)
         monkeypatch.setattr(launcher, "stop", stop)
-        maintenance.care()
+        maintenance.maintain()
 
     monkeypatch.setattr(launcher, "stop", stop_and_be_seen)
     writes.fail_session(Session.objects.get().id, watch.why())

@@ -15,10 +15,10 @@ from django.template.defaultfilters import filesizeformat
 from django.template.response import TemplateResponse
 from django.urls import path
 
-from backend.accounts import passwords
-from backend.accounts.actions import LastAdministratorError, delete_account
 from backend.accounts.audit import note
 from backend.accounts.models import AuditEntry, Group, GroupMember, Invitation, User
+from backend.accounts.sign_in import passwords
+from backend.accounts.writes import LastAdministratorError, delete_account
 from backend.config.environment import environment
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class Site(admin.AdminSite):
         return [path("mail/", self.admin_view(self.mail), name="mail"), *super().get_urls()]
 
     def mail(self, request: HttpRequest) -> HttpResponse:
-        """Sends a mail to whoever presses the button."""
+        """Sends a mail to the administrator who presses the button."""
         if request.method == "POST":
             self._send(request)
             return HttpResponseRedirect(request.path)
@@ -72,7 +72,7 @@ site.login = secure_admin_login(site.login)  # type: ignore[method-assign]
 
 
 class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
-    """Tells the audit log what administrators change."""
+    """Writes to the audit log what administrators change."""
 
     def log_addition(self, request: HttpRequest, obj: Any, message: Any) -> Any:
         """After adding."""
@@ -148,7 +148,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     def get_deleted_objects(
         self, objs: Sequence[User] | QuerySet[User], request: HttpRequest
     ) -> tuple[list[str], dict[str, int], set[str], list[str]]:
-        """Says how many projects go with each, in place of a list of all their files.
+        """Shows how many projects are deleted with each user, in place of a list of all their files.
 
         What goes along is what nobody may delete by itself: sessions, invitations.
         """
@@ -157,7 +157,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
         return lines, {"accounts": len(rows)}, set(), []
 
     def delete_view(self, request: HttpRequest, object_id: str, extra_context: Any = None) -> HttpResponse:
-        """Says why the last administrator stays."""
+        """Reports why the last administrator stays."""
         try:
             return super().delete_view(request, object_id, extra_context)
         except LastAdministratorError as error:
@@ -179,7 +179,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
 
     @admin.display(description="projects", ordering="kept")
     def projects_kept(self, row: Any) -> int:
-        """How many."""
+        """The number of the user's projects."""
         return int(row.kept)
 
     @admin.display(description="room", ordering="used")
@@ -208,7 +208,7 @@ def _actor(request: HttpRequest) -> User | None:
 
 
 class Members(admin.TabularInline):  # type: ignore[type-arg]
-    """Who is in a group."""
+    """The members of a group."""
 
     model = GroupMember
     extra = 0
@@ -232,7 +232,7 @@ class Invitations(ReadOnly):
 
 
 class AuditLog(ReadOnly):
-    """Who did what."""
+    """The audit log."""
 
     list_display = ("at", "actor_name", "action", "subject", "address")
     list_filter = ("action",)

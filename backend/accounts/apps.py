@@ -14,6 +14,6 @@ class AccountsConfig(AppConfig):
         from backend.config.environment import environment  # noqa: PLC0415
 
         if environment().is_team:
-            from backend.accounts import signals  # noqa: PLC0415 - models must be loaded
+            from backend.accounts.sign_in import signals  # noqa: PLC0415 - models must be loaded
 
             signals.connect()

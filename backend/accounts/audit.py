@@ -1,4 +1,4 @@
-"""Who did what. Nothing is written on localhost, where there is one user."""
+"""The audit log. Nothing is written on localhost, where there is one user."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from backend.accounts import invitations, links
 from backend.accounts.audit import note
 from backend.accounts.models import Group, GroupMember, Invitation, User
 from backend.accounts.permissions import TeacherRequiredError
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 
 if TYPE_CHECKING:
     from uuid import UUID
@@ -89,7 +89,7 @@ def remove_member(group_id: UUID, name: str, *, acting_user: User) -> None:
 
 
 def presented(found: Group, *, user: User) -> dict[str, Any]:
-    """A group as the API shows it; members and invitations only to who looks after it."""
+    """Returns a group as the API shows it; members and invitations only to its managers."""
     mine = found.owner_id == user.pk or user.is_superuser
     members = GroupMember.objects.filter(group=found).select_related("user").order_by("user__username")
     open_ones = [row for row in Invitation.objects.filter(group=found) if mine and invitations.usable(row.id)]

@@ -1,4 +1,4 @@
-"""Who asks, by the session that a browser shows; for the API and for sockets alike."""
+"""Finds the user of a request by the browser's session; for the API and for sockets alike."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from django.http import HttpRequest
 from django.utils import timezone
 from django.utils.crypto import constant_time_compare
 
-from backend.accounts.actions import local_user
 from backend.accounts.models import User
+from backend.accounts.writes import local_user
 from backend.config.environment import environment
-from backend.config.instances import columns, instance
+from backend.core.instances import columns, instance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -29,7 +29,7 @@ LINKS: Final = "links"
 
 
 def identify(cookies: Mapping[str, str]) -> User | None:
-    """The local user, whoever is signed in, a guest with a link, or nobody."""
+    """Returns the local user, the user who is signed in, a guest with a link, or nobody."""
     if not environment().is_team:
         return the_local_user()
     key = cookies.get(settings.SESSION_COOKIE_NAME)
@@ -57,7 +57,7 @@ def _asked_user(key: str) -> User | None:
 
 
 class _Known(NamedTuple):
-    """What a session said when it was last read."""
+    """The contents of a session when it was last read."""
 
     data: str
     user_id: int

@@ -13,7 +13,7 @@ from backend.accounts import links
 from backend.accounts.audit import note
 from backend.accounts.models import Group, GroupMember, Invitation
 from backend.accounts.permissions import TeacherRequiredError
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 
 if TYPE_CHECKING:
     from uuid import UUID
@@ -57,7 +57,7 @@ def revoke(invitation_id: UUID, *, acting_user: User) -> None:
     """Takes an invitation back; accounts that were made with it stay.
 
     Raises:
-        NotFoundError: there is none that this user made.
+        NotFoundError: this user made no such invitation.
     """
     rows = Invitation.objects.select_for_update().filter(id=invitation_id, revoked_at=None)
     if not acting_user.is_superuser:

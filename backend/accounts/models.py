@@ -16,7 +16,7 @@ MAX_GROUP_NAME = 80
 class User(AbstractUser):
     """A person who owns projects.
 
-    `links` is no column: it names the read-only links that whoever asks has opened in this browser,
+    `links` is no column: it names the read-only links that the user has opened in this browser,
     whether they have an account or not. A guest is a user that is not stored.
     """
 

@@ -1,6 +1,6 @@
-"""What is asked of everybody before a view begins: an account, patience with expensive calls.
+"""Permissions that are checked before every view: an account, and limits on expensive calls.
 
-What someone may do with a project is decided where projects are found (`backend.projects.access`).
+What someone may do with a project is decided where projects are found (`backend.projects.storage.access`).
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from django.conf import settings
 from rest_framework.permissions import SAFE_METHODS, BasePermission
 from rest_framework.throttling import SimpleRateThrottle
 
-from backend.accounts.attempts import network_of
 from backend.accounts.audit import client_address
 from backend.accounts.models import User
+from backend.accounts.sign_in.attempts import network_of
 from backend.config.environment import environment
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 if TYPE_CHECKING:
     from rest_framework.request import Request
@@ -55,7 +55,7 @@ class MayAsk(BasePermission):
     """
 
     def has_permission(self, request: Request, view: APIView) -> bool:
-        """Raises what the user is told."""
+        """Raises the error that the user sees."""
         user = request.user
         if not isinstance(user, User):
             raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")

@@ -1,7 +1,7 @@
-"""Says that someone's rights may be less than a moment ago, so that what is open asks again.
+"""Announces that a user's rights may have become fewer, so that open sockets check them again.
 
 A websocket is judged when it is opened. Who is then taken out of a project, signs out or is deactivated must
-not go on listening: whoever holds something open follows the notices, and asks the usual place what is
+not continue to listen: every open socket follows the notices, and asks the usual place what is
 allowed now. Notices are hints and may be lost (the command line cannot send them), hence `RECHECK_S`.
 """
 
@@ -15,7 +15,7 @@ from django.db import transaction
 from django.dispatch import Signal
 
 from backend.config.environment import environment
-from backend.config.telling import tell
+from backend.core.notify import tell
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator, Awaitable, Callable
@@ -31,9 +31,9 @@ lessened = Signal()
 
 
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
-    """Tells it of one user, or of everybody in one project, once the transaction is committed."""
+    """Announces it for one user, or for everybody in one project, after the transaction is committed."""
     if environment().is_team:
-        # Robust: what was done is done, also when it cannot be told.
+        # Robust: the commit stands, also when the notice cannot be sent.
         transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)
 
 

@@ -1,4 +1,4 @@
-"""What other apps may want to know of accounts."""
+"""Signals of accounts for other apps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What projects are built from: nodes, universes, robots. Read from the files that the other parts own."""
+"""The parts of projects: nodes, universes, robots. Read from the files that the other packages own."""
 
 from __future__ import annotations
 

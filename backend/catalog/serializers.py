@@ -6,7 +6,7 @@ from typing import Any
 
 from rest_framework import serializers
 
-from backend.projects.serializers import ObjectField
+from backend.projects.api.serializers import ObjectField
 
 
 class NodesSerializer(serializers.Serializer[Any]):

@@ -13,8 +13,8 @@ from rest_framework.views import APIView
 
 from backend.catalog import library, queries
 from backend.catalog import serializers as s
-from backend.config.problems import NotFoundError
-from backend.projects.templates import templates
+from backend.core.problems import NotFoundError
+from backend.projects.documents.templates import templates
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -45,7 +45,7 @@ class Universes(APIView):
 
 
 class UniversePreview(APIView):
-    """What a built-in world looks like."""
+    """The picture of a built-in universe."""
 
     open_to_guests = True
 
@@ -60,7 +60,7 @@ class UniversePreview(APIView):
 
 
 class UniverseText(APIView):
-    """What a built-in world is written as."""
+    """The source of a built-in universe."""
 
     open_to_guests = True
 
@@ -87,7 +87,7 @@ class Robots(APIView):
 
 
 class RobotPreview(APIView):
-    """What a built-in robot looks like."""
+    """The picture of a built-in robot."""
 
     open_to_guests = True
 
@@ -102,7 +102,7 @@ class RobotPreview(APIView):
 
 
 class RobotConfig(APIView):
-    """How a built-in robot drives, and what it senses."""
+    """The drive and the sensors of a built-in robot."""
 
     open_to_guests = True
 
@@ -117,7 +117,7 @@ class RobotConfig(APIView):
 
 
 class RobotUrdf(APIView):
-    """What a built-in robot is made of."""
+    """The description of a built-in robot."""
 
     open_to_guests = True
 

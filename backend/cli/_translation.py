@@ -1,4 +1,4 @@
-"""What the verbs of the translator share: opening what is named, and telling what was found."""
+"""Shared by the verbs of the translator: opens the named files and prints the findings."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ def _stored_files(name: str) -> Mapping[str, bytes] | None:
     django.setup()
     from django.db import DatabaseError
 
-    from backend.accounts.actions import local_user
-    from backend.config.problems import NotFoundError
-    from backend.projects.queries import contents, project_named
+    from backend.accounts.writes import local_user
+    from backend.core.problems import NotFoundError
+    from backend.projects.storage.queries import contents, project_named
 
     try:
         return contents(project_named(name, user=local_user()))

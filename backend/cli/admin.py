@@ -64,17 +64,18 @@ def create(  # noqa: PLR0913, PLR0917 - one parameter an option
     """
     password = sys.stdin.readline().rstrip("\n") if password_stdin else os.environ.get(PASSWORD_VARIABLE, "")
     with _accounts():
-        from backend.accounts import actions, passwords
+        from backend.accounts import writes
+        from backend.accounts.sign_in import passwords
 
-        if first and (present := actions.an_administrator()) is not None:
+        if first and (present := writes.an_administrator()) is not None:
             print(f"{present.username} is an administrator.")
             if not present.has_usable_password():
                 print(f"Set the password here, within three days: {passwords.link(present)}")
             return
-        if if_missing and actions.user_named(name) is not None:
+        if if_missing and writes.user_named(name) is not None:
             print(f"{name} exists.")
             return
-        made = actions.create_account(
+        made = writes.create_account(
             name, email=email, password=password, is_admin=not (teacher or user), is_teacher=teacher
         )
         print(f"{made.username} is made.")
@@ -86,7 +87,7 @@ def create(  # noqa: PLR0913, PLR0917 - one parameter an option
 def password_link(name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")]) -> None:
     """Prints a link that sets a new password."""
     with _accounts():
-        from backend.accounts import passwords
+        from backend.accounts.sign_in import passwords
 
         print(passwords.link(_user(name)))
 
@@ -109,7 +110,7 @@ def invite(
 def users() -> None:
     """Lists the accounts with what they store."""
     with _accounts():
-        from backend.projects.usage import usage_of_all
+        from backend.projects.storage.usage import usage_of_all
 
         for row in usage_of_all():
             mark = "admin" if row.is_superuser else "teacher" if row.is_teacher else "user"
@@ -119,11 +120,11 @@ def users() -> None:
 
 @admin.command()
 def drain(
-    message: Annotated[str, typer.Option(help="What users are told besides.")] = "",
+    message: Annotated[str, typer.Option(help="A message to the users, in addition.")] = "",
     wait: Annotated[int, typer.Option(min=0, max=1440, help="Minutes to wait for the last robot.")] = 0,
     off: Annotated[bool, typer.Option("--off", help="Let robots start again.")] = False,  # noqa: FBT002
 ) -> None:
-    """Lets no robot start any more, tells the users, and says how many still run.
+    """Stops new robots from starting, notifies the users, and reports how many still run.
 
     With --wait it ends when the last one has; its status is 1 when time is up before.
     """
@@ -149,7 +150,7 @@ def export_user(
     """Writes all that is kept of a user to a zip: account, log, drafts and projects."""
     with _accounts():
         from backend.accounts.audit import note
-        from backend.projects.personal_data import write_archive
+        from backend.projects.documents.personal_data import write_archive
 
         user = _user(name)
         try:
@@ -168,9 +169,9 @@ def delete_user(
 ) -> None:
     """Deletes an account with all its projects, for good; what it wrote elsewhere stays, without a name."""
     with _accounts():
-        from backend.accounts.actions import delete_account
-        from backend.config.problems import StudioError
-        from backend.projects.usage import usage
+        from backend.accounts.writes import delete_account
+        from backend.core.problems import StudioError
+        from backend.projects.storage.usage import usage
 
         user = _user(name)
         count = usage(user)["projects"]
@@ -184,7 +185,7 @@ def delete_user(
 
 
 def _user(name: str) -> User:
-    from backend.accounts.actions import user_named
+    from backend.accounts.writes import user_named
 
     found = user_named(name)
     if found is None:

@@ -18,9 +18,9 @@ from backend.cli.stored import stored_projects
 def backup(
     output: Annotated[Path, typer.Argument(help="The zip to write; - writes to the standard output.")],
 ) -> None:
-    """Writes all accounts, projects and revisions to one file; the server may go on meanwhile."""
+    """Writes all accounts, projects and revisions to one file; the server may continue to run."""
     with stored_projects():
-        from backend.config.backups import write_backup
+        from backend.cli.backup_file import write_backup
 
         if str(output) == "-":
             counts = write_backup(sys.stdout.buffer)
@@ -43,7 +43,7 @@ def restore(
 ) -> None:
     """Takes a backup into an empty server; end the server before, or start it afterwards."""
     with stored_projects():
-        from backend.config.backups import BackupError, read_backup
+        from backend.cli.backup_file import BackupError, read_backup
 
         try:
             if str(source) == "-":

@@ -1,4 +1,4 @@
-"""How a verb of the command line ends badly: one sentence a problem, never a traceback."""
+"""The errors of the command line: one sentence a problem, never a traceback."""
 
 from __future__ import annotations
 

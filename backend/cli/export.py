@@ -16,7 +16,7 @@ def export(
 ) -> None:
     """Writes the current files of a stored project to a zip."""
     with stored_projects():
-        from backend.projects.queries import contents
+        from backend.projects.storage.queries import contents
         from backend.workers.zips import pack
 
         found = find_project(project)

@@ -21,12 +21,12 @@ def manager(  # noqa: PLR0913, PLR0917 - one an option
         bool, typer.Option("--no-token", help="Ask for no token, on loopback, of this machine's pages alone.")
     ] = False,
     ready_fd: Annotated[
-        int | None, typer.Option(help="File descriptor that is told the port, as a line of JSON.")
+        int | None, typer.Option(help="File descriptor that receives the port, as a line of JSON.")
     ] = None,
     domain_id: Annotated[int | None, typer.Option(min=0, max=101, help="ROS domain of the session.")] = None,
     grace: Annotated[
         float | None,
-        typer.Option(min=0, help="Seconds that it lives without clients; 0: for ever. 300, with --ram 0."),
+        typer.Option(min=0, help="Seconds that it lives without clients; 0: without end. 300, with --ram 0."),
     ] = None,
     ram: Annotated[  # noqa: FBT002 - typer's way
         bool, typer.Option("--ram", help="Speak the protocol of JdeRobot's RAM, on loopback alone.")

@@ -15,9 +15,9 @@ def new(
 ) -> None:
     """Creates a project in the data folder."""
     with stored_projects():
-        from backend.accounts.actions import local_user
-        from backend.projects.actions import create_project
-        from backend.projects.templates import files_of
+        from backend.accounts.writes import local_user
+        from backend.projects.documents.templates import files_of
+        from backend.projects.storage.writes import create_project
 
         project = create_project(files_of(template), acting_user=local_user(), name=name)
         print(f"{project.id}  {project.name}")

@@ -16,9 +16,9 @@ def projects(
 ) -> None:
     """Lists the stored projects, the newest first."""
     with stored_projects():
-        from backend.accounts.actions import local_user
-        from backend.projects.presentation import summary
-        from backend.projects.queries import projects as find
+        from backend.accounts.writes import local_user
+        from backend.projects.api.presentation import summary
+        from backend.projects.storage.queries import projects as find
 
         rows = list(find(user=local_user(), search=search))
         if as_json:

@@ -92,7 +92,7 @@ def _serve(*, open_browser: bool, ready_file: Path | None) -> None:
 
         def on_ready() -> None:
             robots = (
-                "; robots that run go on"
+                "; robots that run continue"
                 if settings.launcher == "docker" and settings.is_team
                 else " and every robot that runs"
             )

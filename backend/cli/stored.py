@@ -1,4 +1,4 @@
-"""What the verbs share that work on stored projects."""
+"""Shared by the verbs that work on stored projects."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def stored_projects() -> Iterator[None]:
         raise CliError(str(error), status=BAD_ARGUMENTS) from error
     except ServeError as error:
         raise CliError(str(error)) from error
-    from backend.config.problems import StudioError
+    from backend.core.problems import StudioError
 
     try:
         yield
@@ -46,9 +46,9 @@ def find_project(name_or_id: str) -> Project:
     """The stored project of this name or id."""
     from uuid import UUID
 
-    from backend.accounts.actions import local_user
-    from backend.projects import queries
-    from backend.projects.access import Need
+    from backend.accounts.writes import local_user
+    from backend.projects.storage import queries
+    from backend.projects.storage.access import Need
 
     try:
         project_id = UUID(name_or_id)

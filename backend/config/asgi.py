@@ -17,20 +17,20 @@ django.setup()
 from asgiref.sync import sync_to_async  # noqa: E402 - Django must be set up first
 from channels.routing import ProtocolTypeRouter  # noqa: E402
 
-from backend.config import telling  # noqa: E402
-from backend.config.bodies import Upload  # noqa: E402
-from backend.config.handler import ThreadedHandler  # noqa: E402
 from backend.config.probes import probed  # noqa: E402
-from backend.config.siblings import beat_for_ever, siblings  # noqa: E402
-from backend.config.sockets import Route, serve  # noqa: E402
-from backend.config.websocket import LARGEST_MESSAGE  # noqa: E402
+from backend.core import notify  # noqa: E402
+from backend.core.processes.siblings import beat_for_ever, siblings  # noqa: E402
+from backend.core.websocket import LARGEST_MESSAGE  # noqa: E402
+from backend.ingress.bodies import Upload  # noqa: E402
+from backend.ingress.handler import ThreadedHandler  # noqa: E402
+from backend.ingress.sockets import Route, serve  # noqa: E402
 from backend.language import consumers as language  # noqa: E402
-from backend.projects import consumers as projects  # noqa: E402
-from backend.projects.notices import watch_revisions  # noqa: E402
-from backend.projects.usage import room_for_archive  # noqa: E402
+from backend.projects.api import consumers as projects  # noqa: E402
+from backend.projects.api.notices import watch_revisions  # noqa: E402
+from backend.projects.storage.usage import room_for_archive  # noqa: E402
 from backend.sessions import consumers as sessions  # noqa: E402
-from backend.sessions.actions import end_all_sessions  # noqa: E402
-from backend.sessions.care import begin, care_for_ever  # noqa: E402
+from backend.sessions.maintenance import begin, care_for_ever  # noqa: E402
+from backend.sessions.writes import end_all_sessions  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
@@ -39,7 +39,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
     while True:
         message = await receive()
         if message["type"] == "lifespan.startup":
-            telling.serve(asyncio.get_running_loop())
+            notify.serve(asyncio.get_running_loop())
             await sync_to_async(begin)()
             tasks.append(asyncio.create_task(care_for_ever()))
             if siblings.family is not None:
@@ -50,7 +50,7 @@ async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCal
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
             await sync_to_async(end_all_sessions)()
-            telling.serve(None)
+            notify.serve(None)
             await send({"type": "lifespan.shutdown.complete"})
             return
 

@@ -1,4 +1,4 @@
-"""What the environment may set: one typed table, prefix `BT_STUDIO_`, wrong values refused by name."""
+"""The settings from the environment: one typed table, prefix `BT_STUDIO_`, wrong values refused by name."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from typing import Literal
 from pydantic import Field, SecretStr, ValidationError, field_validator
 from pydantic_settings import SettingsConfigDict, SettingsError
 
-from backend.config.limits import LIMITS
 from backend.config.team import MissingSettingError, TeamSettings
+from backend.core.limits import LIMITS
 
 PREFIX = "BT_STUDIO_"
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -53,11 +53,11 @@ class Environment(TeamSettings):
     )
     allowed_hosts: tuple[str, ...] = Field(
         default=(),
-        description="Further host names (a JSON list) that requests may name, besides those of loopback.",
+        description="Host names (a JSON list) that requests may name, in addition to those of loopback.",
     )
     token: SecretStr = Field(
         default=SecretStr(""),
-        description="Token of the link that `serve` prints; made anew at each start when it is empty.",
+        description="Token of the link that `serve` prints; when it is empty, each start makes a new one.",
     )
     launcher: Literal["process", "docker"] = Field(
         default="process",
@@ -160,7 +160,7 @@ class Environment(TeamSettings):
 
 
 def sentence(error: ValidationError) -> str:
-    """Says in one line which variables are wrong, and why."""
+    """Reports in one line which variables are wrong, and why."""
     parts = []
     for problem in error.errors():
         cause = problem.get("ctx", {}).get("error")

@@ -19,12 +19,12 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from backend.config.clients import proxies
 from backend.config.environment import REPOSITORY, environment
-from backend.config.logs import set_up
-from backend.config.numbers import BEAT, STARTED, STUCK, make_page
 from backend.config.server import ServeError
-from backend.config.siblings import PAGE, PLACES, POOL
+from backend.core.clients import proxies
+from backend.core.logs import set_up
+from backend.core.processes.numbers import BEAT, STARTED, STUCK, make_page
+from backend.core.processes.siblings import PAGE, PLACES, POOL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -33,7 +33,7 @@ log = logging.getLogger(__name__)
 
 TICK_S: Final = 1.0
 HUNG_S: Final = 60.0
-"""For how long a worker's event loop, or all of its request threads, may stand still."""
+"""For how long a worker's event loop, or all of its request threads, may make no progress."""
 SHORT_LIFE_S: Final = 10.0
 """Who dies sooner is started again after a pause."""
 FIRST_PAUSE_S: Final = 0.5
@@ -109,7 +109,7 @@ class Child:
         return status
 
     def hangs(self, passed_s: float) -> bool:
-        """Whether it has stood still for too long; said once.
+        """Whether it made no progress for too long; reported once.
 
         Args:
             passed_s: since the last look; of a longer time the parent itself was not awake.
@@ -129,7 +129,7 @@ class Child:
                 self._process.send_signal(number)
 
     def close_input(self) -> None:
-        """Tells it that the parent ends."""
+        """Notifies the worker that the parent ends."""
         if self._process is not None and self._process.stdin is not None:
             self._process.stdin.close()
 
@@ -157,7 +157,7 @@ def _pause_s(failures: int) -> float:
 
 
 class Parent:
-    """Keeps so many workers running until it is told to end."""
+    """Keeps so many workers running until it receives a signal to end."""
 
     def __init__(self, listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
         self._listener, self._count, self._on_ready = listener, count, on_ready
@@ -237,7 +237,7 @@ def _how_ended(status: int) -> str:
 
 
 class _Alarm:
-    """Wakes the parent when a child ends or it is told to end."""
+    """Wakes the parent when a child ends or when a signal to end arrives."""
 
     def __init__(self, on_end: Callable[[signal.Signals], None]) -> None:
         self._on_end = on_end

@@ -1,4 +1,4 @@
-"""What orchestrators and monitors ask, before any guard: is it alive, ready, how busy; and the access log.
+"""Answers orchestrators and monitors before any guard: alive, ready, metrics; and writes the access log.
 
 * `/health/live`: this process answers, and its request threads made progress within a minute. It is slow to
   give up, since an orchestrator's restart would complete the work of an attacker.
@@ -24,22 +24,23 @@ from typing import TYPE_CHECKING, Any, Final
 
 from asgiref.sync import sync_to_async
 
-from backend.config import guard, metrics
-from backend.config.clients import is_on_this_machine
 from backend.config.environment import environment
 from backend.config.healthcheck import READY
-from backend.config.middleware import headers_of_all
-from backend.config.numbers import FULL, STUCK
-from backend.config.problems import MEDIA_TYPE, problem
-from backend.config.scopes import headers_of
-from backend.config.siblings import least_s
+from backend.core import guard
+from backend.core.clients import is_on_this_machine
+from backend.core.problems import MEDIA_TYPE, problem
+from backend.core.processes import metrics
+from backend.core.processes.numbers import FULL, STUCK
+from backend.core.processes.siblings import least_s
+from backend.core.scopes import headers_of
+from backend.ingress.middleware import headers_of_all
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from asgiref.typing import ASGI3Application, ASGIReceiveCallable, ASGISendCallable, HTTPScope, Scope
 
-    from backend.config.threads import Threads
+    from backend.core.processes.threads import Threads
 
 log = logging.getLogger("bt_studio.access")
 

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 @lru_cache(maxsize=1)
 def document() -> dict[str, Any]:
     """The OpenAPI document of this version."""
-    # Only whoever asks pays for importing the generator.
+    # Imported at the first request for the document, so that the server starts sooner.
     from drf_spectacular.generators import SchemaGenerator  # noqa: PLC0415
 
-    from backend.accounts import schema  # noqa: F401, PLC0415 - importing it registers it
+    from backend.accounts.api import schema  # noqa: F401, PLC0415 - importing it registers it
 
     generated: dict[str, Any] = SchemaGenerator().get_schema(  # type: ignore[no-untyped-call]
         request=None, public=True
@@ -37,7 +37,7 @@ def document() -> dict[str, Any]:
 
 @require_safe
 def docs(request: HttpRequest) -> HttpResponse:
-    """The document as a page to browse and try, without the internet; whoever is nobody signs in first."""
+    """The document as a page to browse and try, without the internet; anonymous users sign in first."""
     if identify(request.COOKIES) is None:
         return HttpResponseRedirect(f"{settings.LOGIN_URL}?{urlencode({'next': request.path})}")
     return render(request, "config/api_docs.html")

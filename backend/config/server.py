@@ -1,4 +1,4 @@
-"""Runs the web server: prepares the data folder, takes the port, serves until it is told to stop."""
+"""Runs the web server: prepares the data folder, takes the port, serves until a signal to stop."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ import time
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Final
 
-from backend.config.clients import proxies
 from backend.config.environment import environment
-from backend.config.logs import set_up
-from backend.config.siblings import siblings
+from backend.core.clients import proxies
+from backend.core.logs import set_up
+from backend.core.processes.siblings import siblings
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -47,10 +47,10 @@ class ServeError(Exception):
 
 @contextmanager
 def ended_by_interrupt() -> Iterator[None]:
-    """Lets Ctrl+C end the process itself, as SIGTERM does, while it starts.
+    """Makes Ctrl+C end the process itself, as SIGTERM does, while it starts.
 
     Python drops a `KeyboardInterrupt` that is raised in the callback of a weak reference, and imports have
-    many of those: the server would go on to serve.
+    many of those: the server would continue to serve.
     """
     before = signal.getsignal(signal.SIGINT)
     if before is signal.default_int_handler:
@@ -224,8 +224,8 @@ def run(
 def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.Server:
     import uvicorn  # noqa: PLC0415 - slow to load
 
-    from backend.config.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
-    from backend.config.websocket import LARGEST_MESSAGE, PatientSocket  # noqa: PLC0415 - as above
+    from backend.core.heads import PatientProtocol  # noqa: PLC0415 - it loads uvicorn
+    from backend.core.websocket import LARGEST_MESSAGE, PatientSocket  # noqa: PLC0415 - as above
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: Sequence[socket.socket] | None = None) -> None:
@@ -258,7 +258,7 @@ def warm_up() -> None:
 
     import backend.config.urls  # noqa: F401, PLC0415
     import translator  # noqa: F401, PLC0415
-    from backend.projects.actions import collect_garbage  # noqa: PLC0415
+    from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
     from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
     # All that was imported stays: Python need not look through it again and again for what is in no use.
@@ -276,7 +276,7 @@ def warm_up() -> None:
 
 
 def write_ready_file(path: Path, url: str, port: int) -> None:
-    """Tells a program that waits where the server is; the file appears whole, for its owner alone."""
+    """Reports the server's address to a program that waits; the file appears whole, for its owner alone."""
     partial = path.with_name(path.name + ".partial")
     descriptor = os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
     with os.fdopen(descriptor, "w", encoding="utf-8") as file:

@@ -25,7 +25,7 @@ def _secret_key() -> str:
 
 SECRET_KEY = _secret_key()
 DEBUG = False
-# The guard judges hosts, for pages and sockets alike (`backend/config/guard.py`).
+# The guard judges hosts, for pages and sockets alike (`backend/core/guard.py`).
 ALLOWED_HOSTS = ["*"]
 ASGI_APPLICATION = "backend.config.asgi.application"
 # The same apps, and so the same tables, in both modes; what differs is who answers which address.
@@ -51,8 +51,8 @@ INSTALLED_APPS = [
 ]
 LOCAL_URLS, TEAM_URLS = "backend.config.urls", "backend.config.urls_team"
 LOCAL_MIDDLEWARE = [
-    "backend.config.middleware.SecurityHeaders",
-    "backend.config.middleware.Guard",
+    "backend.ingress.middleware.SecurityHeaders",
+    "backend.ingress.middleware.Guard",
     "backend.config.static.FrontEndFiles",
     "django.middleware.http.ConditionalGetMiddleware",
     "backend.workers.deferred.Waiting",
@@ -60,11 +60,11 @@ LOCAL_MIDDLEWARE = [
 # The API reads its session itself; what pages need costs it nothing.
 TEAM_MIDDLEWARE = [
     *LOCAL_MIDDLEWARE,
-    "backend.accounts.middleware.PageSession",
-    "backend.accounts.middleware.PageLocale",
-    "backend.accounts.middleware.PageCsrf",
-    "backend.accounts.middleware.PageUser",
-    "backend.accounts.middleware.PageMessages",
+    "backend.accounts.sign_in.middleware.PageSession",
+    "backend.accounts.sign_in.middleware.PageLocale",
+    "backend.accounts.sign_in.middleware.PageCsrf",
+    "backend.accounts.sign_in.middleware.PageUser",
+    "backend.accounts.sign_in.middleware.PageMessages",
     "allauth.account.middleware.AccountMiddleware",
 ]
 ROOT_URLCONF = TEAM_URLS if ENVIRONMENT.is_team else LOCAL_URLS
@@ -79,7 +79,7 @@ TEMPLATES: list[dict[str, Any]] = [
                 "django.template.context_processors.request",
                 "django.contrib.auth.context_processors.auth",
                 "django.contrib.messages.context_processors.messages",
-                "backend.accounts.pages.context",
+                "backend.accounts.sign_in.pages.context",
             ]
         },
     }
@@ -103,7 +103,7 @@ DATA_UPLOAD_MAX_MEMORY_SIZE = ENVIRONMENT.max_request_bytes
 FILE_UPLOAD_MAX_MEMORY_SIZE = 4 * 1024 * 1024
 FILE_UPLOAD_HANDLERS = [
     "django.core.files.uploadhandler.MemoryFileUploadHandler",
-    "backend.config.scratch.ScratchUploads",
+    "backend.core.scratch.ScratchUploads",
 ]
 SECURE_CONTENT_TYPE_NOSNIFF = True
 # Small notices only, such as that a project has a new revision; never frames, logs or files.
@@ -141,7 +141,7 @@ CSRF_COOKIE_SECURE = ENVIRONMENT.is_https
 CSRF_COOKIE_HTTPONLY = True
 CSRF_COOKIE_SAMESITE = "Lax"
 CSRF_TRUSTED_ORIGINS = [ENVIRONMENT.public_url] if ENVIRONMENT.public_url else []
-CSRF_FAILURE_VIEW = "backend.accounts.pages.csrf_failure"
+CSRF_FAILURE_VIEW = "backend.accounts.sign_in.pages.csrf_failure"
 SECURE_PROXY_SSL_HEADER = ("HTTP_X_FORWARDED_PROTO", "https") if ENVIRONMENT.proxy_hops else None
 globals().update(team.mail(ENVIRONMENT.smtp_url.get_secret_value(), ENVIRONMENT.mail_from))
 
@@ -157,7 +157,7 @@ AUTH_PASSWORD_VALIDATORS = [
 ]
 LOGIN_URL = "/accounts/login/"
 LOGIN_REDIRECT_URL = "/"
-ACCOUNT_ADAPTER = "backend.accounts.adapters.AccountAdapter"
+ACCOUNT_ADAPTER = "backend.accounts.sign_in.adapters.AccountAdapter"
 ACCOUNT_LOGIN_METHODS = {"email", "username"}
 ACCOUNT_SIGNUP_FIELDS = ["username*", "email*", "password1*", "password2*"]
 ACCOUNT_UNIQUE_EMAIL = True
@@ -170,8 +170,8 @@ ACCOUNT_PREVENT_ENUMERATION = True
 ACCOUNT_SESSION_REMEMBER = True
 ACCOUNT_USERNAME_MIN_LENGTH = 2
 ACCOUNT_USERNAME_BLACKLIST = ["local", "admin", "root", "system"]
-# Failed sign-ins are counted by `backend.accounts.attempts`, wrong codes of second factors here, by user.
-# A class behind one address signs up, or follows links for new passwords, at once.
+# Failed sign-ins are counted by `backend.accounts.sign_in.attempts`, wrong codes of second factors here, by
+# user. A class behind one address signs up, or follows links for new passwords, at once.
 ACCOUNT_RATE_LIMITS = {
     "login": "",
     "login_failed": "5/5m/key",
@@ -179,7 +179,7 @@ ACCOUNT_RATE_LIMITS = {
     "reset_password": "100/m/ip,5/m/key",
     "reset_password_from_key": "300/m/ip",
 }
-SOCIALACCOUNT_ADAPTER = "backend.accounts.adapters.SocialAccountAdapter"
+SOCIALACCOUNT_ADAPTER = "backend.accounts.sign_in.adapters.SocialAccountAdapter"
 SOCIALACCOUNT_LOGIN_ON_GET = False
 SOCIALACCOUNT_ONLY = False
 SOCIALACCOUNT_EMAIL_AUTHENTICATION = False
@@ -202,18 +202,18 @@ MFA_TOTP_ISSUER = "BT Studio"
 MFA_TOTP_TOLERANCE = 1
 
 REST_FRAMEWORK: dict[str, Any] = {
-    "DEFAULT_AUTHENTICATION_CLASSES": ["backend.accounts.authentication.GuardAuthentication"],
+    "DEFAULT_AUTHENTICATION_CLASSES": ["backend.accounts.api.authentication.GuardAuthentication"],
     "DEFAULT_PERMISSION_CLASSES": ["backend.accounts.permissions.MayAsk"],
     "DEFAULT_THROTTLE_CLASSES": [
         "backend.accounts.permissions.ExpensiveCalls",
         "backend.accounts.permissions.ExpensiveCallsOfGuests",
     ],
-    "DEFAULT_PARSER_CLASSES": ["backend.config.parsers.StrictJSONParser"],
+    "DEFAULT_PARSER_CLASSES": ["backend.core.rest.parsers.StrictJSONParser"],
     "DEFAULT_RENDERER_CLASSES": ["rest_framework.renderers.JSONRenderer"],
-    "DEFAULT_SCHEMA_CLASS": "backend.config.openapi.ProblemSchema",
-    "EXCEPTION_HANDLER": "backend.config.problems.exception_handler",
+    "DEFAULT_SCHEMA_CLASS": "backend.core.rest.openapi.ProblemSchema",
+    "EXCEPTION_HANDLER": "backend.core.problems.exception_handler",
     "UNAUTHENTICATED_USER": None,
-    "DEFAULT_CONTENT_NEGOTIATION_CLASS": "backend.config.negotiation.IgnoreClientNegotiation",
+    "DEFAULT_CONTENT_NEGOTIATION_CLASS": "backend.core.rest.negotiation.IgnoreClientNegotiation",
 }
 SPECTACULAR_SETTINGS: dict[str, Any] = {
     "TITLE": "BT Studio",

@@ -64,7 +64,7 @@ def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
 
 @require_safe
 def signed_in_page(request: HttpRequest, project_id: object = None) -> HttpResponse:
-    """The same page for whoever is signed in or came by a link; the others sign in first."""
+    """The page for users who are signed in or came by a link; others sign in first."""
     user = identify(request.COOKIES)
     if user is None or (user.is_guest and request.path_info == "/"):
         following = urlencode({"next": request.get_full_path()}) if request.path_info != "/" else ""

@@ -69,7 +69,7 @@ class TeamSettings(BaseSettings):
     )
     mail_from: str = Field(default="", description="Sender of mails, `BT Studio <bt@example.org>`.")
     registration: Literal["closed", "open"] = Field(
-        default="closed", description="`closed`: accounts by invitation only. `open`: whoever can sign up."
+        default="closed", description="`closed`: accounts by invitation only. `open`: anyone can sign up."
     )
     allowed_email_domains: tuple[str, ...] = Field(
         default=(),

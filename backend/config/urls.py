@@ -6,14 +6,14 @@ from django.urls import URLPattern, URLResolver, include, path, re_path
 
 from backend.config import static
 from backend.config.schema_view import OpenApi, docs
-from backend.projects.views_legacy import urlpatterns as legacy
+from backend.projects.api.views_legacy import urlpatterns as legacy
 
 api: list[URLPattern | URLResolver] = [
-    path("", include("backend.projects.urls")),
+    path("", include("backend.projects.api.urls")),
     path("", include("backend.catalog.urls")),
     path("", include("backend.sessions.urls")),
     path("", include("backend.language.urls")),
-    path("", include("backend.accounts.urls")),
+    path("", include("backend.accounts.api.urls")),
     path("openapi.json", OpenApi.as_view()),
     path("docs", docs),
 ]
@@ -23,5 +23,5 @@ urlpatterns = [
     path("", static.page),
     re_path(r"^projects/[0-9a-f-]+/?$", static.page),
 ]
-handler404 = "backend.config.problems.not_found"
-handler500 = "backend.config.problems.server_error"
+handler404 = "backend.core.problems.not_found"
+handler500 = "backend.core.problems.server_error"

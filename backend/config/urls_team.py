@@ -6,12 +6,12 @@ from django.urls import URLPattern, URLResolver, include, path, re_path
 
 import backend.projects.administration
 import backend.sessions.administration  # noqa: F401
-from backend.accounts import pages
 from backend.accounts.administration import site
+from backend.accounts.sign_in import pages
 from backend.config import static
 from backend.config.urls import api
-from backend.projects import pages as project_pages
-from backend.projects.views_legacy import urlpatterns as legacy
+from backend.projects.api import pages as project_pages
+from backend.projects.api.views_legacy import urlpatterns as legacy
 
 urlpatterns: list[URLPattern | URLResolver] = [
     path("api/v1/", include(api)),
@@ -23,5 +23,5 @@ urlpatterns: list[URLPattern | URLResolver] = [
     path("", static.signed_in_page),
     re_path(r"^projects/[0-9a-f-]+/?$", static.signed_in_page),
 ]
-handler404 = "backend.config.problems.not_found"
-handler500 = "backend.config.problems.server_error"
+handler404 = "backend.core.problems.not_found"
+handler500 = "backend.core.problems.server_error"

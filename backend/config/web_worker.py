@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
 from backend.config.server import GRACE_S, run, warm_up
-from backend.config.siblings import Family, answering, siblings
+from backend.core.processes.siblings import Family, answering, siblings
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +25,7 @@ ORPHAN_S: Final = 10.0
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Serves until it is told to end, or the parent has gone."""
+    """Serves until a signal to end arrives, or the parent has gone."""
     parser = argparse.ArgumentParser(prog="python -m backend.config.web_worker", description=__doc__)
     parser.add_argument("--fd", type=int, required=True, help="the socket that listens")
     parser.add_argument("--folder", type=Path, required=True, help="what all workers of the parent share")

@@ -1,4 +1,4 @@
-"""How many web workers serve, and where there can be one only."""
+"""The number of web workers, and the cases where there can be one only."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def judge_workers(settings: Environment) -> None:
 
 
 def workers_of(settings: Environment) -> int:
-    """How many workers serve: as many as are set, or as the machine and the database have room for.
+    """Returns the number of workers: the configured one, or what the machine and the database have room for.
 
     Raises:
         ServeError: the database does not admit as many connections as are needed.
@@ -60,7 +60,7 @@ def workers_of(settings: Environment) -> int:
 
 
 def _connections(url: str) -> int:
-    """How many connections the database admits."""
+    """Returns the number of connections that the database admits."""
     import psycopg  # noqa: PLC0415 - localhost does without
 
     with psycopg.connect(url, connect_timeout=5) as connection:
@@ -69,5 +69,5 @@ def _connections(url: str) -> int:
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """Returns the number of processors that this process may use."""
     return len(os.sched_getaffinity(0))

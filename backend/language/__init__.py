@@ -1,1 +1,1 @@
-"""What helps writing Python: a language server for each open page, and ruff."""
+"""Help for writing Python: a language server for each open page, and ruff."""

@@ -1,4 +1,4 @@
-"""What files are called in messages: `file:///project/…` for the page, real places for the server.
+"""Names of files in messages: `file:///project/…` for the page, real paths for the server.
 
 The page never learns where its files lie on this machine, and cannot name any other file: an address of
 the page that leads out of the project is refused. Addresses of the server that lie outside the project

@@ -23,17 +23,17 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 
 from backend.config.environment import environment
-from backend.config.problems import NotFoundError
-from backend.config.siblings import siblings
-from backend.config.sockets import ID, Call, Closed
+from backend.core.problems import NotFoundError
+from backend.core.processes.siblings import siblings
+from backend.ingress.sockets import ID, Call, Closed
 from backend.language.addresses import PROJECT, Addresses, ForeignAddressError
 from backend.language.errors import UnavailableError
 from backend.language.framing import FramingError, Unframer, framed
 from backend.language.messages import for_page, for_server
 from backend.language.places import launcher
-from backend.projects import queries
-from backend.projects.access import Need
-from backend.projects.notices import notices_of
+from backend.projects.api.notices import notices_of
+from backend.projects.storage import queries
+from backend.projects.storage.access import Need
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable
@@ -90,7 +90,7 @@ def _contents(page: Page) -> dict[str, bytes]:
 
 
 class Page(NamedTuple):
-    """Who is at the other end of the socket."""
+    """The page at the other end of the socket."""
 
     project_id: UUID
     user: User
@@ -109,7 +109,7 @@ class Relay:
         self._last_heard_s = time.monotonic()
 
     async def run(self, following: Following) -> Closed | None:
-        """Relays until a side ends; returns what the page is told, None when it has gone itself."""
+        """Relays until a side ends; returns the close message for the page, None when the page has gone."""
         tasks = [
             asyncio.create_task(each)
             for each in (self._from_page(), self._from_server(), self._watch(), self._follow(following))

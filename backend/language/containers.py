@@ -67,7 +67,7 @@ class ContainerServer:
         await self._send(data)
 
     async def read(self) -> bytes:
-        """The next bytes; what is told besides is noted."""
+        """Returns the next bytes; reports of the memory in use are noted."""
         try:
             while isinstance(message := await self._connection.recv(), str):
                 self._memory_bytes = int(json.loads(message)["memory_bytes"])
@@ -76,7 +76,7 @@ class ContainerServer:
         return message
 
     def memory_bytes(self) -> int:
-        """What was told last, a second ago at most."""
+        """Returns the last reported size, a second old at most."""
         return self._memory_bytes
 
     async def stop(self) -> None:

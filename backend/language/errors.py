@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 
 class UnavailableError(Exception):

@@ -35,7 +35,7 @@ _lock: Final = Lock()
 
 @dataclass(frozen=True, slots=True)
 class Sync:
-    """What changed on the disk, by path in the project."""
+    """The changes on the disk, by path in the project."""
 
     created: tuple[str, ...]
     changed: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""What all Python of a project can import, for a language server: the engine, and stubs of ROS messages.
+"""The packages that a project's Python can import, for a language server: the engine, stubs of ROS messages.
 
 On localhost the folder is made beside the data (`folder.py`); for containers it is made with their image:
 `python -m backend.language.library SITE_PACKAGES REPOSITORY FOLDER`.

@@ -130,7 +130,7 @@ def _class(interface: Interface, package: str, kind: str, used: set[str]) -> str
 
 
 def _python_type(ros: str, package: str, used: set[str]) -> tuple[str, str]:
-    """What reading a field gives, and what may be assigned to it."""
+    """The types that a field has when it is read, and when it is assigned."""
     if sequence := _SEQUENCE.match(ros) or _ARRAY.match(ros):
         inner = _python_type(sequence[1], package, used)[0]
         return f"list[{inner}]", f"Iterable[{inner}]"

@@ -25,7 +25,7 @@ _LOOKED_IN: Final = re.compile(r"\n\s*Looked in these locations[\s\S]*$")
 
 
 def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | None]:
-    """What of a page's message the server gets, and what the page is answered instead."""
+    """Filters a message of the page: the part for the server, and the answer to the page instead."""
     if not isinstance(message, dict):
         return None, _error(None, _INVALID_REQUEST, "A message is an object.")
     method = message.get("method")
@@ -55,7 +55,7 @@ def _initialize(params: Any, root_uri: str) -> Message:
 
 
 def for_page(message: Any) -> tuple[Message | None, Message | None]:
-    """What of a server's message the page gets, and what the server is answered instead."""
+    """Filters a message of the server: the part for the page, and the answer to the server instead."""
     if not isinstance(message, dict):
         return None, None
     if "method" not in message:

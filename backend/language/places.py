@@ -18,7 +18,7 @@ _MISSING = "This server has no containers, and without them it offers no help wi
 
 
 def launcher() -> Launcher:
-    """What starts language servers here.
+    """Returns the starter of language servers here.
 
     Raises:
         UnavailableError: nothing does.
@@ -31,7 +31,7 @@ def launcher() -> Launcher:
 
 
 def checker(user: User) -> ruff.Run:
-    """What runs ruff here.
+    """Returns the runner of ruff here.
 
     Raises:
         CheckerUnavailableError: nothing does.

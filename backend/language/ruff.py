@@ -45,7 +45,7 @@ def format_source(source: str, filename: str, run: Run) -> str:
 
 
 def findings(source: str, filename: str, run: Run) -> list[dict[str, Any]]:
-    """What ruff says about the source, each with the edits that would mend it.
+    """Returns ruff's findings in the source, each with the edits that fix it.
 
     Lines count from 1; columns from 1, in code points.
     """

@@ -1,4 +1,4 @@
-"""What requests about Python hold, and what they are answered."""
+"""Requests and answers of the Python API."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class EditSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class FixSerializer(serializers.Serializer[dict[str, object]]):
-    """What mends a finding."""
+    """The fix of a finding."""
 
     message = serializers.CharField()
     edits = EditSerializer(many=True)

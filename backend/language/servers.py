@@ -49,7 +49,7 @@ class Server(Protocol):
         """The next bytes; empty at the end."""
 
     def memory_bytes(self) -> int:
-        """What it holds in memory now; 0 when it has ended."""
+        """Returns the memory that the server uses now; 0 when it has ended."""
 
     async def stop(self) -> None:
         """Ends it; ending twice is no error."""

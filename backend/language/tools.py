@@ -1,4 +1,4 @@
-"""How the web server reaches a user's tools: a container of their own that reads files for the editor.
+"""Connects the web server to a user's tools: a container per user that reads files for the editor.
 
 The container is `executor.tools`, started by the launcher of the sessions. Its id and token follow from the
 user, so that every web server finds the same one, and nothing is stored.
@@ -21,8 +21,8 @@ from websockets.sync.client import unix_connect as sync_unix_connect
 
 from backend.config.environment import environment
 from backend.language.errors import CheckerUnavailableError, UnavailableError
-from backend.sessions.actions import launcher
 from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
     from backend.accounts.models import User

@@ -9,7 +9,7 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import parsed, user_of
+from backend.accounts.api.requests import parsed, user_of
 from backend.language import ruff
 from backend.language import serializers as s
 from backend.language.places import checker
@@ -48,7 +48,7 @@ class Lint(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """What is likely wrong, with the edits that mend it."""
+        """Probable errors, with the edits that fix them."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.findings, **given, run=checker(user_of(request)))
         return _answered(self, request, "findings", work)

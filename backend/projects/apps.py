@@ -10,7 +10,7 @@ class ProjectsConfig(AppConfig):
     label = "projects"
 
     def ready(self) -> None:
-        """Who loses a role must not go on listening."""
-        from backend.projects.lost_roles import watch_roles  # noqa: PLC0415 - models must be loaded
+        """Connects the notices to users who lose a role: they must not continue to listen."""
+        from backend.projects.sharing.demotions import watch_roles  # noqa: PLC0415 - models must be loaded
 
         watch_roles()

@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class Role(IntEnum):
-    """What a user may do with a project; each role may all that the ones below it may."""
+    """The rights of a user in a project; each role includes the ones below it."""
 
     NONE = 0
     VIEWER = 1

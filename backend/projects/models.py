@@ -1,4 +1,4 @@
-"""Projects as immutable revisions. Nothing outside this app touches these tables, and only `actions` writes.
+"""Projects as immutable revisions. Nothing outside this app touches the tables; only `storage.writes` writes.
 
 A change set is one user action. It is number n of its project, and a file's revision is the number of
 the change set that last touched it; so numbers only grow, and a client that knows revision b of a
@@ -17,12 +17,12 @@ from django.db.models import Q
 
 from backend.accounts.models import Group
 from backend.projects.choices import SHARED_ROLES, Role
-from backend.projects.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
+from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from backend.projects.changes import Existing
+    from backend.projects.storage.changes import Existing
 
 
 class Blob(models.Model):
@@ -116,7 +116,7 @@ class ChangeSet(models.Model):
 
 
 class FileRevision(models.Model):
-    """What a change set made of one file; no blob means that it removed it."""
+    """The result of a change set for one file; no blob means that it removed the file."""
 
     change = models.ForeignKey(ChangeSet, on_delete=models.CASCADE, related_name="files")
     path = models.CharField(max_length=MAX_PATH_LENGTH)
@@ -142,7 +142,7 @@ class CurrentFile(models.Model):
 
 
 class Draft(models.Model):
-    """What one user typed into one file and has not saved; never part of a revision."""
+    """Text that one user typed into one file and did not save; never part of a revision."""
 
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="drafts")
     author = models.ForeignKey(settings.AUTH_USER_MODEL, on_delete=models.CASCADE)

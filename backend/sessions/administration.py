@@ -12,8 +12,8 @@ from backend.accounts.administration import ReadOnly, site
 from backend.accounts.audit import note
 from backend.accounts.models import User
 from backend.sessions import drain, queries
-from backend.sessions.actions import end_session
 from backend.sessions.models import LIVE_STATES, Session
+from backend.sessions.writes import end_session
 
 if TYPE_CHECKING:
     from django.db.models import QuerySet
@@ -42,17 +42,17 @@ class Sessions(ReadOnly):
         return super().changelist_view(request, more | (extra_context or {}))
 
     def drain(self, request: HttpRequest) -> HttpResponse:
-        """Lets no robot start any more, or lets them again."""
+        """Stops robots from starting, or allows it again."""
         actor = request.user if isinstance(request.user, User) else None
         if request.method == "POST" and "off" in request.POST:
             drain.lift(acting_user=actor)
             messages.success(request, "Robots start again.")
         elif request.method == "POST":
             drain.begin(request.POST.get("message", ""), acting_user=actor)
-            messages.success(request, "No robot starts any more, and users are told.")
+            messages.success(request, "No robot starts any more, and users are notified.")
         return HttpResponseRedirect(reverse("admin:executor_sessions_session_changelist"))
 
-    @admin.action(description="End (the user is told)")
+    @admin.action(description="End (the user is notified)")
     def end(self, request: HttpRequest, rows: QuerySet[Session]) -> None:
         """Ends executors with all their processes."""
         actor = request.user if isinstance(request.user, User) else None

@@ -17,12 +17,12 @@ from uuid import UUID
 from asgiref.sync import sync_to_async
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
-from backend.config.problems import NotFoundError
-from backend.config.sockets import ID, Call, Closed
-from backend.config.websocket import READ_BYTES, read_at_most
-from backend.sessions import actions, queries
-from backend.sessions.care import attendance, say
+from backend.core.problems import NotFoundError
+from backend.core.websocket import READ_BYTES, read_at_most
+from backend.ingress.sockets import ID, Call, Closed
+from backend.sessions import queries, writes
 from backend.sessions.choices import SessionState
+from backend.sessions.maintenance import attendance, say
 from backend.sessions.manager_socket import manager_socket
 from backend.sessions.watch import watchmen, why
 
@@ -53,7 +53,7 @@ EXECUTOR_SILENT: Final = 4504
 
 def may_use(session_id: UUID, user: User) -> None:
     """Raises a StudioError when the user may no longer run the session's project."""
-    actions.require_right(queries.session(session_id, user=user))
+    writes.require_right(queries.session(session_id, user=user))
 
 
 async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
@@ -71,7 +71,7 @@ async def _serve(  # noqa: PLR0913, PLR0917 - both ends of a relay
     receive: ASGIReceiveCallable,
     send: ASGISendCallable,
 ) -> Closed | None:
-    """Relays until a side ends; returns what the browser is told, None when it has gone itself."""
+    """Relays until a side ends; returns the close message for the browser, None when the browser has gone."""
     is_control = channel == "control"
     try:
         session = await _when_ready(session_id, user, send if is_control else None)
@@ -117,7 +117,7 @@ def _is_ping(text: str) -> bool:
 async def _explained(session: Session, closed: Closed) -> Closed:
     """Adds why a lost executor was lost; its process ends a moment after its sockets do."""
     for _ in range(LOST_POLLS if closed.code == EXECUTOR_FAILED else 1):
-        session = await sync_to_async(actions.refresh)(session)
+        session = await sync_to_async(writes.refresh)(session)
         if session.state != SessionState.READY:
             return _ended(session)
         await asyncio.sleep(LOST_POLL_S)
@@ -131,7 +131,7 @@ def _ended(session: Session) -> Closed:
 
 
 async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | None) -> Session:
-    """The session, as soon as it neither waits nor starts; a browser that waits is told its place."""
+    """Returns the session when it neither waits nor starts; a waiting browser receives its place."""
     find = sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
     # Another web server may be starting it, so the database tells, and no event of this process.
@@ -194,7 +194,7 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
 
 
 class _Turns:
-    """Lets other sockets have their turn after some messages: taking one that is there waits for nothing."""
+    """Yields to other sockets after some messages: to take a message that is there waits for nothing."""
 
     def __init__(self) -> None:
         self._messages = 0

@@ -1,4 +1,4 @@
-"""Before an upgrade: no robot starts any more, those that run go on, and everybody is told."""
+"""Before an upgrade: no robot starts any more, those that run continue, and everybody is notified."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 ONLY: Final = 1
 LOOK_EVERY_S: Final = 2.0
-SENTENCE: Final = "The server is about to be upgraded: no robot starts any more, those that run go on."
+SENTENCE: Final = "The server is about to be upgraded: no robot starts any more, those that run continue."
 MAX_MESSAGE: Final = 300
 
 
 def current() -> Drain | None:
-    """What was said, while no robot starts."""
+    """Returns the drain with its message, while no robot starts."""
     return Drain.objects.filter(pk=ONLY).first() if environment().is_team else None
 
 
 def text() -> str:
-    """What users are told; empty while robots start."""
+    """Returns the notice to users; empty while robots start."""
     found = current()
     return f"{SENTENCE} {found.message}".strip() if found is not None else ""
 
@@ -47,7 +47,7 @@ def require_open() -> None:
 
 @transaction.atomic
 def begin(message: str, *, acting_user: User | None) -> None:
-    """Lets no robot start any more; said again, the message is another one."""
+    """Stops robots from starting; a second call replaces the message."""
     Drain.objects.update_or_create(
         pk=ONLY, defaults={"since": timezone.now(), "message": message.strip()[:MAX_MESSAGE]}
     )
@@ -56,7 +56,7 @@ def begin(message: str, *, acting_user: User | None) -> None:
 
 @transaction.atomic
 def lift(*, acting_user: User | None) -> None:
-    """Lets robots start again."""
+    """Allows robots to start again."""
     if Drain.objects.all().delete()[0]:
         note("server.drain_off", actor=acting_user)
 

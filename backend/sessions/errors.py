@@ -1,8 +1,8 @@
-"""Errors of sessions; the tree of exceptions starts at `backend.config.problems.StudioError`."""
+"""Errors of sessions; the tree of exceptions starts at `backend.core.problems.StudioError`."""
 
 from __future__ import annotations
 
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 
 class LaunchError(StudioError):

@@ -1,4 +1,4 @@
-"""What one web server does for all: it has the lease, a row of the database that it renews while it lives.
+"""Work of one web server for all: it has the lease, a row of the database that it renews while it lives.
 
 A row and not a lock of the database: a lock is held as long as its connection, and a server that hangs, is
 frozen with its machine, or has lost the network may keep that for hours. The row runs out by the clock of the
@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Final
 
 from django.db import connection
 
-from backend.sessions.actions import launcher
 from backend.sessions.models import Lease
+from backend.sessions.writes import launcher
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,9 +54,9 @@ class Holder:
 
     @contextmanager
     def chore(self, name: str, every_s: float) -> Iterator[bool]:
-        """Says whether to do something now that is to be done once in a while by one of all.
+        """Yields whether this server is to do a periodic task now that only one of all servers does.
 
-        What fails, or is cut short by the end of its server, is tried again by whoever asks next.
+        What fails, or is cut short by the end of its server, is tried again by the next caller.
         """
         if not self._take(name, LONGEST_CHORE_S, is_renewal=False):
             yield False
@@ -69,7 +69,7 @@ class Holder:
         self._take(name, every_s, is_renewal=True)
 
     def give_back(self, name: str) -> None:
-        """Lets the next one have it at once."""
+        """Releases the lease, so that the next server can take it immediately."""
         Lease.objects.filter(name=name, owner=self.name).delete()
 
     def _take(self, name: str, seconds: float, *, is_renewal: bool) -> bool:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from websockets.asyncio.client import connect, unix_connect
 
-from backend.sessions import actions
+from backend.sessions import writes
 
 if TYPE_CHECKING:
     from backend.sessions.models import Session
@@ -18,7 +18,7 @@ QUEUED_MESSAGES: Final = 2
 def manager_socket(session: Session, target: str) -> connect:
     """Opens a socket to the manager, whose address is `host:port`, or `unix:` and the path of its socket."""
     options: dict[str, Any] = {
-        "additional_headers": {"Authorization": f"Bearer {actions.manager_token(session)}"},
+        "additional_headers": {"Authorization": f"Bearer {writes.manager_token(session)}"},
         "compression": None,
         "max_size": MAX_MESSAGE_BYTES,
         "max_queue": QUEUED_MESSAGES,

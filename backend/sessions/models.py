@@ -22,7 +22,7 @@ class Drain(models.Model):
 
 
 class Lease(models.Model):
-    """Who of several web servers does something for all, and how long without a word (`lease.py`)."""
+    """The one of several web servers that does a task for all, and until when (`lease.py`)."""
 
     name = models.CharField(max_length=40, primary_key=True)
     owner = models.CharField(max_length=100)

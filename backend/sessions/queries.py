@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from django.db.models import Count
 
-from backend.config.problems import NotFoundError
+from backend.core.problems import NotFoundError
 from backend.sessions.choices import SessionState
 from backend.sessions.models import LIVE_STATES, Session
 
@@ -43,6 +43,6 @@ def position(session: Session) -> int | None:
 
 
 def counts() -> dict[str, int]:
-    """How many sessions wait, start and run."""
+    """Counts the sessions that wait, start and run."""
     found = dict(Session.objects.filter(state__in=LIVE_STATES).values_list("state").annotate(n=Count("id")))
     return {state.value: found.get(state.value, 0) for state in LIVE_STATES}

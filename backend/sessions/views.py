@@ -8,8 +8,8 @@ from drf_spectacular.utils import extend_schema
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
-from backend.config.api import user_of
-from backend.sessions import actions, queries
+from backend.accounts.api.requests import user_of
+from backend.sessions import queries, writes
 from backend.sessions.serializers import SessionSerializer, presented
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class ProjectSession(APIView):
     @extend_schema(operation_id="start_session", request=None, responses=SessionSerializer, tags=["sessions"])
     def post(self, request: Request, project_id: UUID) -> Response:
         """Starts an executor for the project, or returns the one that runs."""
-        return Response(presented(actions.start_session(project_id, acting_user=user_of(request))))
+        return Response(presented(writes.start_session(project_id, acting_user=user_of(request))))
 
 
 class OneSession(APIView):
@@ -35,10 +35,10 @@ class OneSession(APIView):
     @extend_schema(operation_id="get_session", responses=SessionSerializer, tags=["sessions"])
     def get(self, request: Request, session_id: UUID) -> Response:
         """Whether it starts, runs, failed or has ended."""
-        return Response(presented(actions.refresh(queries.session(session_id, user=user_of(request)))))
+        return Response(presented(writes.refresh(queries.session(session_id, user=user_of(request)))))
 
     @extend_schema(operation_id="end_session", responses={204: None}, tags=["sessions"])
     def delete(self, request: Request, session_id: UUID) -> Response:
         """Ends the executor with all its processes."""
-        actions.end_session(queries.session(session_id, user=user_of(request)))
+        writes.end_session(queries.session(session_id, user=user_of(request)))
         return Response(status=204)

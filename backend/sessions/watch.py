@@ -1,8 +1,8 @@
 """Whether executors answer: each is pinged every second, and one that is silent for too long is ended.
 
-The web server that looks after the sessions (`care.py`) does so for all of them, and each does so for those
-that its own pages look at. All of them hear the same; the first to give one up ends it, and the others find
-it ended. So a session that no page looks at does not stay frozen, nor one whose server has gone.
+The web server that looks after the sessions (`maintenance.py`) does so for all of them, and each does so for
+those that its own pages look at. All of them hear the same; the first to give one up ends it, and the others
+find it ended. So a session that no page looks at does not stay frozen, nor one whose server has gone.
 
 Silence is counted in what this server itself was awake: after a second in which it had no processor, or was
 stopped, the answer is probably there and only not yet read.
@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Final
 from websockets.exceptions import ConnectionClosed, InvalidHandshake, InvalidStatus
 
 from backend.config.environment import environment
-from backend.sessions import actions
+from backend.sessions import writes
 from backend.sessions.manager_socket import manager_socket
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ NOTED_S: Final = 3.0
 
 
 def longest_s() -> float:
-    """How long a manager may be silent."""
+    """The time that a manager may be silent."""
     return environment().session_silence_s
 
 
@@ -144,9 +144,9 @@ class Watchmen:
 async def _look_after(session: Session) -> None:
     await until_silent(session)
     try:
-        await asyncio.to_thread(actions.fail_session, session.id, why())
+        await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
-        # The next round of care begins again.
+        # The next round of maintenance begins again.
         log.exception("session %s: a silent executor was not ended", session.id)
 
 

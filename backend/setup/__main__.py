@@ -68,13 +68,13 @@ def main(arguments: list[str]) -> None:
 
 
 def stop(sentence: str) -> NoReturn:
-    """Says in one sentence why set-up cannot go on."""
+    """Reports in one sentence why set-up cannot continue, and exits."""
     print(f"set-up: {sentence}", file=sys.stderr)
     sys.exit(1)
 
 
 def say(sentence: str) -> None:
-    """Tells what set-up does now."""
+    """Prints the current step of set-up."""
     print(f"set-up: {sentence}", flush=True)
 
 
@@ -124,7 +124,7 @@ def python_step() -> Step:
 
 
 def make_venv() -> None:
-    """Makes the environment anew."""
+    """Makes the environment again."""
     try:
         venv.create(VENV, with_pip=True, clear=VENV.exists())
     except (subprocess.CalledProcessError, ImportError):
@@ -276,7 +276,7 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
         subprocess.run(command, cwd=cwd, env=environment, check=True)
     except (OSError, subprocess.CalledProcessError) as error:
         shown = " ".join(command[:4])
-        stop(f"`{shown} …` failed ({error}); what it says stands above. Mend it and run make again.")
+        stop(f"`{shown} …` failed ({error}); what it says stands above. Fix it and run make again.")
 
 
 # --- Debian packages for the tests ----------------------------------------------------------------

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.db import connection
 
+from backend.core.processes.fair import FairQueue, QueueFullError
 from backend.workers.errors import BusyError
-from backend.workers.fair import FairQueue, QueueFullError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,7 +41,7 @@ class Aside:
         self._threads: list[threading.Thread] = []
 
     def ask(self, owner: str, work: Callable[[], Any]) -> Future[Any]:
-        """Has work done as soon as a thread is free.
+        """Does the work as soon as a thread is free.
 
         Raises:
             BusyError: too much waits already.

@@ -1,4 +1,4 @@
-"""What can become of work that was handed to the pool.
+"""Errors of work that was handed to the pool.
 
 StudioError
 ├─ BusyError         503, with Retry-After: too much waits already
@@ -8,7 +8,7 @@ StudioError
 
 from __future__ import annotations
 
-from backend.config.problems import StudioError
+from backend.core.problems import StudioError
 
 
 class BusyError(StudioError):

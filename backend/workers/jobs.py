@@ -1,4 +1,4 @@
-"""What a worker does: pure functions of files and texts, without Django.
+"""The jobs of a worker: pure functions of files and texts, without Django.
 
 What the translator refuses is an answer like any other: `{"refused": [diagnostic, …]}`.
 """
@@ -49,7 +49,7 @@ def xml(files: Files, *, self_contained: bool) -> Answer:
 
 
 def app(files: Files, *, universe: str, built_in: bytes | None) -> Answer:
-    """What the browser sends to the executor to run the project, there or in its own universe.
+    """Returns the message by which the browser makes the executor run the project.
 
     Args:
         files: the project.
@@ -108,7 +108,7 @@ def package(files: Files, *, name: str | None) -> Answer:
 
 
 def package_preview(files: Files, *, name: str | None) -> Answer:
-    """What the ROS 2 package will hold."""
+    """Returns the files of the ROS 2 package."""
     import translator  # noqa: PLC0415
 
     made = translator.to_ros2_package(translator.load(files), name=name)
@@ -131,7 +131,7 @@ def opened(files: Files, *, name: str, repair: bool) -> Answer:
 
 
 def inspect(source: str, *, filename: str) -> Answer:
-    """What the source of an action says about it."""
+    """Returns the declarations in the source of an action."""
     import translator  # noqa: PLC0415
 
     return translator.inspect_action(source, filename).to_json()

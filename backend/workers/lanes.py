@@ -1,4 +1,4 @@
-"""Two pools: small work does not wait behind large work, whoever asked for the large work.
+"""Two pools: small work does not wait behind large work of anyone.
 
 A save is answered with a check of its project, which takes milliseconds. Large work runs at a lower priority
 (*nice*), so that answers to requests come before it; work that a request of every editor waits for must not.
@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from backend.config.environment import environment
-from backend.config.siblings import POOL, siblings
+from backend.core.processes.siblings import POOL, siblings
 from backend.workers.pool import Limits, Pool, packed_job
 from backend.workers.remote import RemotePool
 

@@ -20,9 +20,9 @@ from typing import Any, Final
 import msgspec
 
 from backend.config.environment import REPOSITORY
+from backend.core.processes.fair import FairQueue, QueueFullError
 from backend.workers import frames
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
-from backend.workers.fair import FairQueue, QueueFullError
 
 log = logging.getLogger(__name__)
 
@@ -33,7 +33,7 @@ SMALLER: Final = "Make the project smaller: split it, or remove what it does not
 
 @dataclass(frozen=True)
 class Limits:
-    """What a pool may use.
+    """The limits of a pool.
 
     Attributes:
         workers: processes, each started when it is first needed.
@@ -75,12 +75,12 @@ class Pool:
 
     @property
     def waiting(self) -> int:
-        """How many jobs wait for a worker."""
+        """Returns the number of jobs that wait for a worker."""
         with self._changed:
             return len(self._queue)
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Has a job done; the same job is done once, however many ask for it.
+        """Hands a job to a worker; equal jobs are done once, for all callers.
 
         Args:
             owner: for whom; owners take turns.
@@ -96,7 +96,7 @@ class Pool:
         return self.ask_packed(owner, packed_job(job, arguments))
 
     def ask_packed(self, owner: str, packed: bytes) -> Future[Any]:
-        """Has a job done that `packed_job` made, as `ask`."""
+        """Hands a job that `packed_job` made to a worker, as `ask`."""
         key = hashlib.sha256(packed).digest()
         future: Future[Any] = Future()
         with self._changed:
@@ -162,7 +162,7 @@ class Pool:
 
     @property
     def limits(self) -> Limits:
-        """What it may use."""
+        """The limits of this pool."""
         return self._limits
 
 

@@ -19,7 +19,7 @@ from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from backend.config.problems import StudioError
+    from backend.core.problems import StudioError
 
 log = logging.getLogger(__name__)
 
@@ -43,13 +43,13 @@ class RemotePool:
 
     @property
     def waiting(self) -> int:
-        """How many jobs of all web workers wait; 0 while the pool does not say."""
+        """Returns how many jobs of all web workers wait; 0 while the pool does not answer."""
         with suppress(BusyError, FutureTimeoutError):
             return int(self._ask({}).result(PATIENCE_S))
         return 0
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Has a job done, as `Pool.ask`; that too much waits is said by the future.
+        """Hands a job to the pool, as `Pool.ask`; the future raises when too many jobs wait.
 
         Raises:
             BusyError: the pool is started again at this moment.

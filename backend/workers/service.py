@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any, Final
 import msgspec
 
 from backend.config.environment import environment
-from backend.config.logs import set_up
-from backend.config.problems import StudioError
+from backend.core.logs import set_up
+from backend.core.problems import StudioError
 from backend.workers import frames
 from backend.workers.lanes import make_lanes
 

@@ -11,12 +11,12 @@ from django.conf import settings
 from django.db import connections
 from django.test import Client
 
-from backend.accounts.actions import local_user
 from backend.accounts.identity import the_local_user
-from backend.config import guard
+from backend.accounts.writes import local_user
 from backend.config.environment import environment
-from backend.config.handler import ThreadedHandler
-from backend.config.scratch import scratch
+from backend.core import guard
+from backend.core.scratch import scratch
+from backend.ingress.handler import ThreadedHandler
 
 HOST = "127.0.0.1:8000"
 

@@ -12,14 +12,14 @@ from backend.config import examples
 from backend.config.schema_view import document
 from backend.language import ruff
 from backend.language import views as language
-from backend.sessions import actions as session_actions
+from backend.sessions import writes as session_writes
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
 from tests.backend.story import Story, play
 
 
 @pytest.fixture
 def told(person, stranger, monkeypatch):  # noqa: F811
-    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
     # A team's server checks Python in containers.
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")

@@ -1,4 +1,4 @@
-"""Every endpoint × every role × someone else's project; the policy is in `backend.projects.access`.
+"""Every endpoint × every role × someone else's project; the policy is in `backend.projects.storage.access`.
 
 The list of endpoints is the OpenAPI document, so that a new one without a row here fails.
 """
@@ -14,9 +14,10 @@ from backend.accounts import groups, invitations
 from backend.accounts.models import GroupMember
 from backend.catalog import queries
 from backend.config.schema_view import document
-from backend.projects import actions, sharing
 from backend.projects.choices import Role
-from backend.sessions import actions as session_actions
+from backend.projects.sharing import memberships
+from backend.projects.storage import writes
+from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person, person, stranger, team  # noqa: F401
@@ -146,16 +147,16 @@ def world(person, monkeypatch):  # noqa: F811
     teacher.save()
     owner = people["owner"].user
     files = {"trees/MainTree.json": TREE, "notes.txt": b"hello"}
-    project = actions.create_project(files, acting_user=owner, name="Robot")
+    project = writes.create_project(files, acting_user=owner, name="Robot")
     group = groups.create("Class", acting_user=teacher)
     GroupMember.objects.create(group=group, user=people["viewer"].user, joined_at=project.created_at)
-    sharing.GroupShare.objects.create(
+    memberships.GroupShare.objects.create(
         project=project, group=group, role=Role.VIEWER, created_at=project.created_at
     )
-    sharing.share_with_person(project.id, "editor", Role.EDITOR, acting_user=owner)
-    sharing.share_with_person(project.id, "teacher", Role.VIEWER, acting_user=owner)
-    sharing.make_link(project.id, acting_user=owner, days=None)
-    link = sharing.shares(project)["links"][0]
+    memberships.share_with_person(project.id, "editor", Role.EDITOR, acting_user=owner)
+    memberships.share_with_person(project.id, "teacher", Role.VIEWER, acting_user=owner)
+    memberships.make_link(project.id, acting_user=owner, days=None)
+    link = memberships.shares(project)["links"][0]
     people["nobody"], people["guest"] = Person(), Person()
     assert people["guest"].page(link["url"].partition(PUBLIC)[2]).status_code == 302
     session = Session.objects.create(
@@ -165,7 +166,7 @@ def world(person, monkeypatch):  # noqa: F811
         ros_domain_id=7,
         created_at=project.created_at,
     )
-    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
     values = {
         "project_id": project.id,

@@ -12,13 +12,13 @@ from django.utils import timezone
 from hypothesis import HealthCheck
 from hypothesis import strategies as st
 
-from backend.accounts.actions import create_account
-from backend.config import guard
+from backend.accounts.writes import create_account
 from backend.config.schema_view import document
-from backend.projects import queries
-from backend.projects.access import Need
-from backend.projects.actions import create_project
-from backend.sessions import actions
+from backend.core import guard
+from backend.projects.storage import queries
+from backend.projects.storage.access import Need
+from backend.projects.storage.writes import create_project
+from backend.sessions import writes
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person, team  # noqa: F401 - the fixture of that name
 from tests.budget import count
@@ -47,7 +47,7 @@ def one_transaction(monkeypatch):
         found = queries.project(project_id, user=acting_user, need=Need.RUN)
         return Session(project=found, user=acting_user, created_at=timezone.now())
 
-    monkeypatch.setattr(actions, "start_session", start)
+    monkeypatch.setattr(writes, "start_session", start)
     for moment in (signals.request_started, signals.request_finished):
         moment.disconnect(close_old_connections)
     yield

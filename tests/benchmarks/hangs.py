@@ -102,9 +102,9 @@ async def watch_managers(rounds: int, times: Times, failed: list[str]) -> None:
 
 async def stop_manager(session: HangingSession) -> tuple[float, float]:
     """Stops a manager; returns the seconds until the watch noted that, and until it ended the manager."""
-    from backend.sessions import actions, watch
+    from backend.sessions import watch, writes
 
-    actions.manager_token = lambda _: TOKEN
+    writes.manager_token = lambda _: TOKEN
     one = SimpleNamespace(id="benchmark", address=f"127.0.0.1:{session.manager.ready['port']}")
     noted: list[float] = []
     handler = logging.Handler()

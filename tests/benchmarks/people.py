@@ -17,7 +17,7 @@ def main() -> None:
     from django.conf import settings
     from django.contrib.auth import BACKEND_SESSION_KEY, HASH_SESSION_KEY, SESSION_KEY
 
-    from backend.accounts.actions import create_account
+    from backend.accounts.writes import create_account
 
     cookies = []
     for number in range(int(sys.argv[1])):

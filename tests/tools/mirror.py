@@ -1,7 +1,7 @@
 """Lists modules without a test file of their own: `python -m tests.tools.mirror`.
 
-The test file of `backend/projects/names.py` is `tests/backend/projects/test_names.py`, that of
-`src/model/layout.ts` is `src/model/layout.test.ts`. It must import its module, or a package that
+The test file of `backend/projects/storage/names.py` is `tests/backend/projects/storage/test_names.py`,
+that of `src/model/layout.ts` is `src/model/layout.test.ts`. It must import its module, or a package that
 exports it, and assert something.
 
 `unmirrored.txt` lists the modules that have none. The list only shrinks: a module that has its test file now

@@ -1,4 +1,4 @@
-"""`python -m backend.sessions.gate`: serves until it is told to end; sessions continue without it."""
+"""`python -m backend.sessions.gate`: serves until a signal to end; sessions continue without it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the keeper says to the gate: a door is open for as long as a `Door` is."""
+"""The keeper's messages to the gate: a door is open for as long as a `Door` is."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ IDLE_S: Final = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What the gate admits. All doors and callers together take fewer than 1,024 descriptors.
+    """The limits of the gate. All doors and callers together take fewer than 1,024 descriptors.
 
     Attributes:
         doors: sessions on their way at once; each takes three descriptors.

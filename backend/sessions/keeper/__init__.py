@@ -1,6 +1,6 @@
 """The keeper: the one program that talks to Docker, and lets the web server start executors and nothing else.
 
-It runs beside the web server, holds the Docker socket, and has no network. It is told ids and tokens of
+It runs beside the web server, holds the Docker socket, and has no network. It receives ids and tokens of
 sessions, never images, mounts, commands or limits: those are its own. The standard library is all it uses,
 so that what has root's power over the host can be read in one sitting:
 

@@ -1,4 +1,4 @@
-"""`python -m backend.sessions.keeper`: serves until it is told to end; executors go on without it."""
+"""`python -m backend.sessions.keeper`: serves until a signal to end; executors continue without it."""
 
 from __future__ import annotations
 

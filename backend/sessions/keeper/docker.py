@@ -31,7 +31,7 @@ class Docker:
         self._call("POST", f"/containers/{quote(container)}/start")
 
     def inspect(self, container: str) -> dict[str, Any] | None:
-        """What Docker knows of a container; None when there is none."""
+        """Returns Docker's record of a container; None when there is none."""
         found = self._call("GET", f"/containers/{quote(container)}/json", missing=True)
         return found if isinstance(found, dict) else None
 
@@ -42,7 +42,7 @@ class Docker:
         return list(found)
 
     def processes(self, container: str) -> int:
-        """How many processes and threads a container has."""
+        """Returns the number of processes and threads of a container."""
         path = f"/containers/{quote(container)}/stats?stream=0&one-shot=1"
         stats = self._call("GET", path, missing=True) or {}
         return int(stats.get("pids_stats", {}).get("current") or 0)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Gate:
-    """Has sockets handed to sessions.
+    """Requests sockets for sessions from the gate.
 
     Args:
         control: where the gate listens for the keeper.

@@ -1,4 +1,4 @@
-"""What an executor's and a tools' container may do. The keeper's own settings decide it all."""
+"""The rights of an executor's and a tools' container. The keeper's own settings decide them all."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PROFILE: Final = Path(__file__).with_name("seccomp.json")
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """What one container may use; each is a variable, such as `BT_STUDIO_SESSION_<NAME>`.
+    """The limits of one container; each is a variable, such as `BT_STUDIO_SESSION_<NAME>`.
 
     Attributes:
         cpus: processor cores.
@@ -85,7 +85,7 @@ def seccomp_profile() -> str:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """How this keeper makes containers.
+    """The way that this keeper makes containers.
 
     Attributes:
         image: the executor's image.
@@ -120,7 +120,7 @@ class Plan:
             *("--domain-id", str(domain_id), "--grace", str(self.grace_s)),
         ]
         environment = [
-            # An application that takes too much is told so before the kernel ends the whole session.
+            # An application that takes too much gets an error before the kernel ends the whole session.
             f"BT_STUDIO_APPLICATION_MEMORY_MB={max(64, int(limits.memory_mb * 0.6))}",
             f"BT_STUDIO_APPLICATION_FILE_MB={max(1, int(limits.disk_mb))}",
             f"BT_STUDIO_APPLICATION_PROCESSES={max(8, int(limits.pids / 4))}",
@@ -138,7 +138,7 @@ class Plan:
         return made | {"Entrypoint": ["python", "-m", "executor.tools"], "Cmd": command}
 
     def _confined(self, token: str, limits: Limits, labels: dict[str, str]) -> dict[str, Any]:
-        """What every container has in common: no network, no privileges, nothing to write to but memory."""
+        """The settings of every container: no network, no privileges, nothing to write to but memory."""
         memory = int(limits.memory_mb * MEBIBYTE)
         return {
             "Image": self.image,

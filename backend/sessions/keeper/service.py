@@ -77,7 +77,7 @@ class Keeper:
         """Whether an executor runs, and how it ended."""
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
-            # Whoever asks while somebody else clears up is told the same.
+            # A caller that asks while another clears up gets the same answer.
             reason = self._reasons.get(session_id, "There is no executor of this session.")
             return {"running": False, "status": None, "reason": reason}
         state = found["State"]

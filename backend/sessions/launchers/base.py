@@ -36,7 +36,7 @@ _SURVIVORS_OWE: Final = ("running", "state_of")
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """What an executor is told."""
+    """The parameters of an executor."""
 
     session_id: str
     token: str = field(repr=False)
@@ -72,7 +72,7 @@ class Launcher:
         raise NotImplementedError
 
     def poll(self, state: State) -> int | None:
-        """Tells whether the executor runs (None) or how it ended."""
+        """Returns None while the executor runs, then its exit status."""
         raise NotImplementedError
 
     def stop(self, state: State, *, timeout_s: float) -> None:
@@ -80,11 +80,11 @@ class Launcher:
         raise NotImplementedError
 
     def explain(self, state: State) -> str:
-        """Tells why an executor ended."""
+        """Returns why an executor ended."""
         return ""
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
-        """Tells where a user's tools listen."""
+        """Starts a user's tools and returns the address where they listen."""
         raise LaunchError("Without containers there are none for users' files.")
 
     def running(self) -> list[str]:

@@ -1,7 +1,7 @@
 """Executors in containers of their own, which the keeper starts; they outlive the web server.
 
 The web server never speaks to Docker. It tells the keeper (`backend/sessions/keeper`) the id and the token
-of a session and is told at which unix socket its manager listens.
+of a session and receives the unix socket at which its manager listens.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class DockerLauncher(Launcher):
         return str(answer["socket"])
 
     def poll(self, state: State) -> int | None:
-        """What the keeper says; while it cannot be asked, executors are taken to run."""
+        """Returns the keeper's answer; while the keeper does not answer, executors count as running."""
         status, answer = self._look(state)
         if status != 200 or answer.get("running"):
             return None
@@ -87,7 +87,7 @@ class DockerLauncher(Launcher):
         return [one["session"] for one in sessions if one["running"]]
 
     def state_of(self, session_id: str) -> dict[str, Any]:
-        """What finds the executor of a session of which only the id is known."""
+        """Returns the state by which an executor is found when only the session's id is known."""
         return {"session": session_id}
 
     def _look(self, state: State) -> tuple[int, dict[str, Any]]:

@@ -1,4 +1,4 @@
-"""What one web server does for all."""
+"""The lease of the web server that works for all."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description What the source of an action declares. */
+        /** @description The declarations in the source of an action. */
         post: operations["inspect_action"];
         delete?: never;
         options?: never;
@@ -216,7 +216,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The group, with members and invitations for who looks after it. */
+        /** @description The group; its managers also get the members and invitations. */
         get: operations["get_group"];
         put?: never;
         post?: never;
@@ -272,7 +272,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Takes the link back; whoever used it stays. */
+        /** @description Revokes the link; users who joined by it stay. */
         delete: operations["revoke_invitation"];
         options?: never;
         head?: never;
@@ -375,7 +375,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description What the executor needs to run the project; 422 with `diagnostics` when it has errors. */
+        /** @description The project in the form that the executor runs; 422 with `diagnostics` when it has errors. */
         get: operations["get_app"];
         put?: never;
         post?: never;
@@ -546,7 +546,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description What the ROS 2 package will hold, before it is downloaded. */
+        /** @description The files of the ROS 2 package, before it is downloaded. */
         get: operations["preview_package"];
         put?: never;
         post?: never;
@@ -860,7 +860,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description What is likely wrong, with the edits that mend it. */
+        /** @description Probable errors, with the edits that fix them. */
         post: operations["lint_python"];
         delete?: never;
         options?: never;
@@ -926,7 +926,7 @@ export interface components {
     schemas: {
         /** @enum {string} */
         AccountRole: "local" | "administrator" | "teacher" | "user" | "guest";
-        /** @description What the source of an action says about it. */
+        /** @description The declarations in the source of an action. */
         Action: {
             name: string;
             path: string;
@@ -938,7 +938,7 @@ export interface components {
             imports: string[];
             diagnostics: components["schemas"]["Diagnostic"][];
         };
-        /** @description What the executor needs to run the project. */
+        /** @description The project in the form that the executor runs. */
         App: {
             app_zip_base64: string;
             /** Format: double */
@@ -1056,7 +1056,7 @@ export interface components {
         };
         /** @enum {string} */
         DirectionEnum: "input" | "output" | "inout";
-        /** @description What this user typed and did not save. */
+        /** @description A draft: text that this user typed and did not save. */
         Draft: {
             path: string;
             base_revision: number;
@@ -1142,7 +1142,7 @@ export interface components {
         Findings: {
             findings: components["schemas"]["Finding"][];
         };
-        /** @description What mends a finding. */
+        /** @description The fix of a finding. */
         Fix: {
             message: string;
             edits: components["schemas"]["Edit"][];
@@ -1151,7 +1151,7 @@ export interface components {
         Formatted: {
             source: string;
         };
-        /** @description A group; members and invitations are shown to who looks after it. */
+        /** @description A group; its members and invitations are shown to its managers only. */
         Group: {
             /** Format: uuid */
             id: string;
@@ -1180,7 +1180,7 @@ export interface components {
             uses: number;
             max_uses: number;
         };
-        /** @description How long an invitation works, and for how many. */
+        /** @description The lifetime of an invitation, and the number of accounts that it may make. */
         InviteRequest: {
             /** @default 14 */
             days: number;
@@ -1197,7 +1197,7 @@ export interface components {
             /** Format: date-time */
             created_at: string;
         };
-        /** @description How long a link works. */
+        /** @description The lifetime of a link. */
         MakeLinkRequest: {
             days?: number | null;
         };
@@ -1251,7 +1251,7 @@ export interface components {
             path: string;
             size: number;
         };
-        /** @description What a package will hold. */
+        /** @description The list of files of a package. */
         PackagePreview: {
             name: string;
             files: components["schemas"]["PackageFile"][];
@@ -1389,7 +1389,7 @@ export interface components {
             /** @description The diagram before the text was edited. */
             diagram: string;
         };
-        /** @description What the translator says of a project. */
+        /** @description The findings of the translator in a project. */
         Report: {
             diagnostics: components["schemas"]["Diagnostic"][];
             actions: components["schemas"]["Action"][];
@@ -1410,7 +1410,7 @@ export interface components {
             created_at: string;
             files: components["schemas"]["RevisionFile"][];
         };
-        /** @description What a revision did to a file. */
+        /** @description The change of a file in a revision. */
         RevisionFile: {
             path: string;
             change: components["schemas"]["RevisionFileChangeEnum"];
@@ -1465,7 +1465,7 @@ export interface components {
         };
         /** @enum {string} */
         SharedRole: "viewer" | "editor";
-        /** @description What someone may do. */
+        /** @description The role of a person or group. */
         SharedRoleRequest: {
             role: components["schemas"]["SharedRole"];
         };

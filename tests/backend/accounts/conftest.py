@@ -10,8 +10,8 @@ from django.conf import settings as django_settings
 from django.core.cache import cache
 from django.test import Client, override_settings
 
-from backend.accounts import signals
-from backend.accounts.actions import create_account
+from backend.accounts.sign_in import signals
+from backend.accounts.writes import create_account
 from backend.config.environment import environment
 from tests.backend.conftest import Api
 

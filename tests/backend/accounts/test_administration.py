@@ -12,8 +12,8 @@ from backend.accounts.signals_out import account_leaves
 from backend.cli import admin as commands
 from backend.cli.errors import CliError
 from backend.config import server
-from backend.sessions import actions as session_actions
 from backend.sessions import drain
+from backend.sessions import writes as session_writes
 from tests.backend.accounts.test_sharing import project_of
 
 
@@ -41,7 +41,7 @@ def test_an_administrator_deletes_an_account_as_its_user_would(person):
 
 
 def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkeypatch):
-    monkeypatch.setattr(session_actions, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
     ada, olga = person("ada", is_admin=True), person("olga")
     running, waiting = project_of(olga), project_of(olga, "Later")
     olga.post(f"projects/{running}/session")
@@ -56,8 +56,8 @@ def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkey
     refused = olga.post(f"projects/{waiting}/session", expect=503)
     assert (refused["code"], refused["hint"]) == ("draining", "Back at 15:00.")
     olga.post(f"projects/{running}/session")  # what runs goes on
-    assert session_actions.start_queued() == 0
-    assert drain.text().endswith("those that run go on. Back at 15:00.")
+    assert session_writes.start_queued() == 0
+    assert drain.text().endswith("those that run continue. Back at 15:00.")
     told = []
     assert drain.wait_for_the_last(0, told.append) == 1
     assert told == ["Robots that run: 1. Users who wait for one: 0."]

@@ -8,7 +8,7 @@ from django.utils import timezone
 
 from backend.accounts.audit import note
 from backend.accounts.models import AuditEntry
-from backend.projects.actions import collect_garbage
+from backend.projects.storage.writes import collect_garbage
 
 
 def test_old_entries_go_and_young_ones_stay(person, settings_of):

@@ -12,15 +12,16 @@ import zipfile
 
 import pytest
 
-from backend.config import bodies, guard, handler
-from backend.config.bodies import UNKNOWN_BYTES, Upload
-from backend.config.handler import ThreadedHandler
-from backend.config.siblings import siblings
+from backend.core import guard
+from backend.core.processes.siblings import siblings
+from backend.ingress import bodies, handler
+from backend.ingress.bodies import UNKNOWN_BYTES, Upload
+from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
-from backend.projects.usage import room_for_archive
+from backend.projects.storage.usage import room_for_archive
 from tests.backend.accounts.conftest import PUBLIC, Person
-from tests.backend.config.test_handler import ask, body
 from tests.backend.conftest import HOST
+from tests.backend.ingress.test_handler import ask, body
 from tests.backend.serving import serving
 
 MEBIBYTE = 1024 * 1024

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from backend import __version__
-from backend.accounts.actions import local_user
 from backend.accounts.models import User
+from backend.accounts.writes import local_user
 
 
 def test_the_local_user_is_made_once_and_has_no_password(db):

@@ -6,8 +6,8 @@ import pytest
 from django.conf import settings
 from django.test import override_settings
 
-from backend.accounts import attempts
 from backend.accounts.models import AuditEntry, User
+from backend.accounts.sign_in import attempts
 from tests.backend.accounts.conftest import PASSWORD, PUBLIC, Person
 from tests.fakes.identity_provider import CLIENT_ID, SECRET, identity_provider
 

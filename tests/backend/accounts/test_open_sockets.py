@@ -12,9 +12,9 @@ from django.db import connections
 from django.utils import timezone
 
 from backend.accounts.models import User
-from backend.config.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
-from backend.projects.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
-from backend.sessions import actions as session_actions
+from backend.ingress.sockets import FORBIDDEN, SIGNED_OUT, Route, serve
+from backend.projects.api.consumers import ADDRESS, NO_SUCH_PROJECT, may_read, may_write, serve_notices
+from backend.sessions import writes as session_writes
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
 from tests.backend.accounts.conftest import PUBLIC, Person
@@ -128,7 +128,7 @@ def test_signing_out_or_being_deactivated_ends_what_is_open(person):
 def test_a_robot_does_not_outlive_the_right_to_run_it(person, monkeypatch):
     ended = []
     workers = type("Now", (), {"submit": lambda _, call, session, why="": ended.append((session.user, why))})
-    monkeypatch.setattr(session_actions, "_workers", workers)
+    monkeypatch.setattr(session_writes, "_workers", workers)
     owner, friend = person("olga"), person("fred")
     one = shared_project(owner, name="fred", role="viewer")
     Session.objects.bulk_create(

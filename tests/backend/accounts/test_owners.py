@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from backend.accounts.identity import identify
-from backend.config.owners import owner_of
-from backend.config.sockets import OF_A_USER, OF_AN_ADDRESS, Crowd
+from backend.ingress.owners import owner_of
+from backend.ingress.sockets import OF_A_USER, OF_AN_ADDRESS, Crowd
 from tests.backend.accounts.conftest import PUBLIC
 
 pytestmark = pytest.mark.django_db(transaction=True)

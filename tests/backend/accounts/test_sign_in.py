@@ -9,9 +9,10 @@ from django.conf import settings
 from django.core import mail
 from django.test import override_settings
 
-from backend.accounts import invitations, links, passwords
-from backend.accounts.actions import create_account
+from backend.accounts import invitations, links
 from backend.accounts.models import AuditEntry, User
+from backend.accounts.sign_in import passwords
+from backend.accounts.writes import create_account
 from tests.backend.accounts.conftest import PASSWORD, PUBLIC, Person
 
 NEW = "Another-horse-7"
@@ -98,7 +99,7 @@ def test_only_the_servers_own_name_is_answered(person):
 
 
 def test_the_token_of_localhost_opens_nothing_here(stranger):
-    from backend.config import guard
+    from backend.core import guard
 
     token = guard.keys().token
     answer = stranger.client.get("/api/v1/me", headers={"Authorization": f"Bearer {token}"})

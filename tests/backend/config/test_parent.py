@@ -12,7 +12,7 @@ import pytest
 
 from backend.config import parent
 from backend.config.server import ServeError
-from backend.config.siblings import PAGE
+from backend.core.processes.siblings import PAGE
 
 WORKER = """
     import mmap, os, struct, sys, time

@@ -8,10 +8,11 @@ import sys
 
 import pytest
 
-from backend.config import metrics, probes
+from backend.config import probes
 from backend.config.environment import environment
-from backend.config.logs import JsonFormatter, TextFormatter
-from backend.config.threads import Threads
+from backend.core.logs import JsonFormatter, TextFormatter
+from backend.core.processes import metrics
+from backend.core.processes.threads import Threads
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

@@ -22,9 +22,9 @@ import requests
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from backend.config.metrics import requests as counted
-from backend.config.numbers import BEAT, read_page
-from backend.config.siblings import Family
+from backend.core.processes.metrics import requests as counted
+from backend.core.processes.numbers import BEAT, read_page
+from backend.core.processes.siblings import Family
 from tests.backend.services import postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving, start
 from tests.backend.sessions.keeper.conftest import Host

@@ -12,8 +12,9 @@ import uvicorn
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
-from backend.config import asgi, guard
+from backend.config import asgi
 from backend.config.server import bind
+from backend.core import guard
 
 GO = "file:///project/actions/Go.py"
 SOURCE = """import py_trees

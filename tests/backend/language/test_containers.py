@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from backend.language import consumers, tools
-from backend.sessions import actions
+from backend.sessions import writes
 from tests.backend.language.conftest import GO, SOURCE, opened
 from tests.backend.sessions.keeper.conftest import Host
 
@@ -30,7 +30,7 @@ def keeper():
 def contained(host, keeper, limits, monkeypatch):
     """The server's address; its sessions and tools come from the keeper."""
     limits(launcher="docker", keeper_folder=keeper.folder)
-    monkeypatch.setattr(actions, "launcher", lambda: keeper.launcher)
+    monkeypatch.setattr(writes, "launcher", lambda: keeper.launcher)
     monkeypatch.setattr(tools, "launcher", lambda: keeper.launcher)
     monkeypatch.setattr(tools, "_paths", {})
     return host

@@ -8,9 +8,10 @@ from concurrent.futures import Future
 import pytest
 from django.db import OperationalError
 
-from backend.config import telling
-from backend.projects import presentation, queries
+from backend.core import notify
+from backend.projects.api import presentation
 from backend.projects.signals import project_deleted
+from backend.projects.storage import queries
 from backend.workers.errors import BusyError, WorkFailedError
 from backend.workers.lanes import Lanes
 
@@ -40,8 +41,8 @@ STEPS = {
     "the check": (Lanes, "ask", WorkFailedError("The worker was killed.")),
     "the pool": (Lanes, "ask", BusyError("Too much waits.")),
     "the contents": (queries, "contents", DOWN),
-    "the notices": (telling._teller, "tell", ConnectionError("Redis is down")),
-    "the channel layer": (telling, "get_channel_layer", ConnectionError("Redis is down")),
+    "the notices": (notify._teller, "tell", ConnectionError("Redis is down")),
+    "the channel layer": (notify, "get_channel_layer", ConnectionError("Redis is down")),
 }
 
 
@@ -52,7 +53,7 @@ def broken(request, monkeypatch):
         failing = fails_later(error) if isinstance(error, WorkFailedError) else fails(error)
         monkeypatch.setattr(where, what, failing)
         if what == "tell":
-            monkeypatch.setattr("backend.projects.notices.tell", fails(error))
+            monkeypatch.setattr("backend.projects.api.notices.tell", fails(error))
 
     return breaks
 

@@ -18,7 +18,7 @@ from django.db.backends.base.base import BaseDatabaseWrapper
 from django.utils import timezone
 
 from backend.accounts.models import Group, GroupMember, User
-from backend.config import telling
+from backend.core import notify
 from backend.projects.models import ChangeSet, Draft, Membership, Project, ShareLink
 from backend.workers.lanes import Lanes
 from tests.backend.accounts.conftest import person, stranger, team  # noqa: F401 - fixtures
@@ -48,8 +48,8 @@ def dead_after_commit(monkeypatch):
     with monkeypatch.context() as patched, connection.execute_wrapper(asking):
         patched.setattr(BaseDatabaseWrapper, "_commit", committing)
         patched.setattr(Lanes, "ask", failing)
-        patched.setattr(telling._teller, "tell", failing)
-        patched.setattr("backend.projects.notices.tell", failing)
+        patched.setattr(notify._teller, "tell", failing)
+        patched.setattr("backend.projects.api.notices.tell", failing)
         patched.setattr("backend.accounts.rights.tell", failing)
         yield dead
 

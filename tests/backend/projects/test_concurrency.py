@@ -10,12 +10,12 @@ from django.db import connection
 from hypothesis import HealthCheck, settings
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule, run_state_machine_as_test
 
-from backend.accounts.actions import local_user
-from backend.projects import actions, queries
-from backend.projects.access import Need
-from backend.projects.changes import Content, FileChange
+from backend.accounts.writes import local_user
 from backend.projects.errors import RevisionConflictError
-from backend.projects.manifest import MANIFEST
+from backend.projects.storage import queries, writes
+from backend.projects.storage.access import Need
+from backend.projects.storage.changes import Content, FileChange
+from backend.projects.storage.manifest import MANIFEST
 from tests.budget import count
 
 PATHS = ("actions/Go.py", "trees/MainTree.json")
@@ -30,7 +30,7 @@ class TwoClients(RuleBasedStateMachine):
     def begin(self):
         self.user = local_user()
         files = dict.fromkeys(PATHS, b"")
-        project = actions.create_project(files, acting_user=self.user, name=f"P{id(self)}-{next(NUMBERS)}")
+        project = writes.create_project(files, acting_user=self.user, name=f"P{id(self)}-{next(NUMBERS)}")
         self.project = project.id
         self.lines = {path: [] for path in PATHS}
         self.known = {}
@@ -64,7 +64,7 @@ class TwoClients(RuleBasedStateMachine):
         project = queries.project(self.project, user=self.user, need=Need.READ)
         number = data.draw(st.integers(1, project.revision))
         then = queries.files_at(project, number, PATHS)
-        actions.restore_revision(self.project, number, acting_user=self.user, paths=PATHS)
+        writes.restore_revision(self.project, number, acting_user=self.user, paths=PATHS)
         self.lines = {path: then[path].data.decode().splitlines() for path in PATHS}
 
     def write(self, client, chosen, line=None):
@@ -74,7 +74,7 @@ class TwoClients(RuleBasedStateMachine):
             revision, data = self.known[client].get(path, (0, b""))
             wanted[path] = FileChange(path, revision, Content.of(data + f"{line}\n".encode()))
         try:
-            project = actions.save_files(self.project, list(wanted.values()), acting_user=self.user)
+            project = writes.save_files(self.project, list(wanted.values()), acting_user=self.user)
         except RevisionConflictError as error:
             conflicts = {row["path"] for row in error.extra["conflicts"]}
             self.load(client)
@@ -119,7 +119,7 @@ def test_no_interleaving_of_two_clients_loses_an_update(db):
 
 @pytest.mark.django_db(transaction=True)
 def test_threads_that_save_at_once_all_get_through(user):
-    project = actions.create_project({"log.txt": b""}, acting_user=user, name="Threads")
+    project = writes.create_project({"log.txt": b""}, acting_user=user, name="Threads")
     conflicts = []
 
     def save(name):
@@ -130,7 +130,7 @@ def test_threads_that_save_at_once_all_get_through(user):
                     content = Content.of(file.data + f"{name}{number}\n".encode())
                     try:
                         change = FileChange("log.txt", file.revision, content)
-                        actions.save_files(project.id, [change], acting_user=user)
+                        writes.save_files(project.id, [change], acting_user=user)
                         break
                     except RevisionConflictError:
                         conflicts.append(name)
@@ -154,9 +154,9 @@ def test_one_name_goes_to_one_of_two_that_ask_at_once(user):
 
     def create():
         try:
-            actions.create_project({MANIFEST: b"{}"}, acting_user=user, name="Same")
+            writes.create_project({MANIFEST: b"{}"}, acting_user=user, name="Same")
             outcomes.append("made")
-        except actions.NameTakenError:
+        except writes.NameTakenError:
             outcomes.append("taken")
         finally:
             connection.close()

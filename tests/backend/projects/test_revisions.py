@@ -11,10 +11,10 @@ from datetime import timedelta
 import pytest
 from django.utils import timezone
 
-from backend.projects import actions
 from backend.projects.models import Blob, Draft, Project
+from backend.projects.storage import writes
 from backend.workers import zips
-from tests.backend.projects.test_views import file
+from tests.backend.projects.api.test_views import file
 
 
 @pytest.fixture
@@ -225,8 +225,8 @@ def test_garbage_goes_and_what_someone_can_reach_stays(api, edited):
     api.save(gone, file("only.txt", 0, "only here"))
     api.delete(f"projects/{gone}")
     api.put(f"projects/{edited}/drafts/c.txt", {"base_revision": 0, "content": "typed"})
-    assert actions.collect_garbage(now=now) == 0
-    assert actions.collect_garbage(now=now + timedelta(days=31)) > 0
+    assert writes.collect_garbage(now=now) == 0
+    assert writes.collect_garbage(now=now + timedelta(days=31)) > 0
     assert not Project.objects.filter(id=gone).exists()
     assert not Draft.objects.exists()
     assert api.get(f"projects/{edited}/revisions/2/files/a.txt") == b"one\ntwo\n"

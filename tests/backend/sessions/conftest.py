@@ -8,7 +8,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from backend.sessions import actions
+from backend.sessions import writes
 from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
 
@@ -57,7 +57,7 @@ def fake_manager(launcher_of, monkeypatch):
 
     def use(kind):
         launcher = launcher_of(kind)
-        monkeypatch.setattr(actions, "launcher", lambda: launcher)
+        monkeypatch.setattr(writes, "launcher", lambda: launcher)
         return launcher
 
     return use

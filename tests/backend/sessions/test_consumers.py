@@ -12,11 +12,11 @@ import uvicorn
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from backend.config import guard
 from backend.config.server import _make_server, bind
-from backend.config.sockets import Route, serve
-from backend.config.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
-from backend.sessions import actions
+from backend.core import guard
+from backend.core.websocket import LARGEST_MESSAGE, READ_BYTES, PatientSocket
+from backend.ingress.sockets import Route, serve
+from backend.sessions import writes
 from backend.sessions.consumers import (
     ADDRESS,
     EXECUTOR_FAILED,
@@ -59,7 +59,7 @@ def session(api, project, fake_manager):
         return api.post(f"projects/{project['id']}/session")
 
     yield start
-    actions.end_all_sessions()
+    writes.end_all_sessions()
 
 
 @contextlib.contextmanager
@@ -268,4 +268,4 @@ def test_what_a_browser_sends_is_read_little_at_a_time(monkeypatch):
     server.should_exit = True
     thread.join()
     assert max(sizes) <= READ_BYTES
-    assert _make_server(lambda: None).config.ws is PatientSocket
+    assert _make_server(lambda: None, 1).config.ws is PatientSocket

@@ -11,7 +11,7 @@ import pytest
 from django.utils import timezone
 
 from backend.projects.models import Project
-from backend.sessions import actions
+from backend.sessions import writes
 from backend.sessions.choices import SessionState
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import children, spec
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 
 def launched(session_id):
     """Waits for the launch to end, as `end_session` does."""
-    if launch := actions._launches.get(UUID(session_id)):
+    if launch := writes._launches.get(UUID(session_id)):
         launch.result()
 
 
@@ -54,7 +54,7 @@ def test_a_session_can_be_ended_by_who_saw_it_start(api, project, fake_manager):
     launched(started["id"])
     seen = Session.objects.get()
     seen.state, seen.launcher_state = SessionState.STARTING, {}
-    actions.end_session(seen)
+    writes.end_session(seen)
     assert Session.objects.get().state == "ended"
     assert children() == []
 
@@ -101,7 +101,7 @@ def test_an_executor_that_was_ended_did_not_die_by_itself(api, project, fake_man
     launched(started["id"])
     seen = Session.objects.get()
     api.delete(f"sessions/{started['id']}")
-    assert actions.refresh(seen).state == "ended"
+    assert writes.refresh(seen).state == "ended"
     assert Session.objects.get().error == ""
 
 
@@ -121,19 +121,19 @@ def test_each_session_has_a_ros_domain_of_its_own(api, fake_manager):
         api.post(f"projects/{pid}/session")
     domains = set(Session.objects.values_list("ros_domain_id", flat=True))
     assert len(domains) == 2
-    assert domains <= set(actions.ROS_DOMAINS)
-    actions.end_all_sessions()
+    assert domains <= set(writes.ROS_DOMAINS)
+    writes.end_all_sessions()
     assert set(Session.objects.values_list("state", flat=True)) == {"ended"}
     assert children() == []
 
 
 def test_a_full_host_says_so(api, project, fake_manager, monkeypatch):
     fake_manager("echo")
-    monkeypatch.setattr(actions, "ROS_DOMAINS", range(5, 6))
+    monkeypatch.setattr(writes, "ROS_DOMAINS", range(5, 6))
     api.post(f"projects/{project['id']}/session")
     other = api.post("projects", {"name": "Other"}, expect=201)
     assert api.post(f"projects/{other['id']}/session", expect=503)["code"] == "host_full"
-    actions.end_all_sessions()
+    writes.end_all_sessions()
 
 
 def test_what_a_killed_server_left_is_ended_at_the_next_start(api, project, user, fake_manager):
@@ -144,7 +144,7 @@ def test_what_a_killed_server_left_is_ended_at_the_next_start(api, project, user
         state=SessionState.READY, ros_domain_id=5, created_at=timezone.now(),
     )  # fmt: skip
     fake_manager("echo")
-    actions.end_orphans()
+    writes.end_orphans()
     assert Session.objects.get().state == "ended"
     assert launcher.poll(started.state) is not None
 
@@ -155,7 +155,7 @@ def test_the_token_between_relay_and_manager_is_stored_nowhere(api, project, fak
     launched(started["id"])
     session = Session.objects.get()
     stored = " ".join(str(value) for value in session.__dict__.values())
-    assert actions.manager_token(session) not in stored
+    assert writes.manager_token(session) not in stored
     api.delete(f"sessions/{started['id']}")
 
 

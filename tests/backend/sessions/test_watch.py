@@ -15,7 +15,7 @@ import psutil
 import pytest
 from websockets.exceptions import ConnectionClosed
 
-from backend.sessions import actions, care, watch
+from backend.sessions import maintenance, watch, writes
 from backend.sessions.consumers import EXECUTOR_SILENT, _is_ping, _noting
 from backend.sessions.models import Session
 from tests.backend.sessions.conftest import spec
@@ -79,9 +79,9 @@ async def test_a_page_that_pings_alone_lets_its_session_become_idle():
 
     noted = _noting(session_id, receive)
     await noted()
-    assert session_id not in care.attendance.take_used()
+    assert session_id not in maintenance.attendance.take_used()
     await noted()
-    assert session_id in care.attendance.take_used()
+    assert session_id in maintenance.attendance.take_used()
 
 
 # --- managers of every kind -----------------------------------------------------------------------
@@ -89,7 +89,7 @@ async def test_a_page_that_pings_alone_lets_its_session_become_idle():
 
 def row(address, token=TOKEN, monkeypatch=None):
     """What the watch knows of a session."""
-    monkeypatch.setattr(actions, "manager_token", lambda _: token)
+    monkeypatch.setattr(writes, "manager_token", lambda _: token)
     return SimpleNamespace(id=uuid4(), address=address)
 
 
@@ -191,7 +191,7 @@ def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_onc
 
     async def two_servers():
         servers = [watch.Watchmen(), watch.Watchmen()]
-        ready = await asyncio.to_thread(care.ready_sessions)
+        ready = await asyncio.to_thread(maintenance.ready_sessions)
         for server in servers:
             server.keep_to(ready)
             server.keep_to(ready)
@@ -211,16 +211,16 @@ def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_onc
 def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkeypatch):  # noqa: F811
     started = session("echo")
     launched(started["id"])
-    launcher = actions.launcher()
+    launcher = writes.launcher()
     stop = launcher.stop
 
     def stop_and_be_seen(state, *, timeout_s):
         stop(state, timeout_s=timeout_s)
         monkeypatch.setattr(launcher, "stop", stop)
-        care.care()
+        maintenance.maintain()
 
     monkeypatch.setattr(launcher, "stop", stop_and_be_seen)
-    actions.fail_session(Session.objects.get().id, watch.why())
+    writes.fail_session(Session.objects.get().id, watch.why())
     failed = api.get(f"sessions/{started['id']}")
     assert (failed["state"], failed["error"]) == ("failed", watch.why())
 
@@ -230,7 +230,7 @@ def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: 
     started = session("echo")
     launched(started["id"])
     api.delete(f"sessions/{started['id']}")
-    actions.fail_session(Session.objects.get().id, watch.why())
+    writes.fail_session(Session.objects.get().id, watch.why())
     assert api.get(f"sessions/{started['id']}")["state"] == "ended"
 
 

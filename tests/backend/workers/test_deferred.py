@@ -9,8 +9,9 @@ from concurrent.futures import Future
 import pytest
 from asgiref.sync import sync_to_async
 
-from backend.config import guard, handler
-from backend.config.handler import ThreadedHandler
+from backend.core import guard
+from backend.ingress import handler
+from backend.ingress.handler import ThreadedHandler
 from backend.workers.errors import BusyError
 from backend.workers.lanes import Lanes
 from tests.backend.conftest import HOST

@@ -7,7 +7,7 @@ import json
 
 import pytest
 
-from backend.config.handler import ThreadedHandler
+from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
 from backend.workers.lanes import MEMORY_BYTES
 from backend.workers.pool import Limits, Pool
@@ -55,7 +55,7 @@ async def ask(handling, browser, path):
 def patient(monkeypatch):
     """A pool as on a team server of four processors, whose deadline a busy machine does not meet."""
     made = Pool(Limits(workers=4, per_owner=2, waiting=16, deadline_s=300, memory_bytes=MEMORY_BYTES))
-    monkeypatch.setattr("backend.projects.checking.pool", lambda: made)
+    monkeypatch.setattr("backend.projects.documents.checking.pool", lambda: made)
     yield made
     made.close()
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from backend.projects.templates import files_of
+from backend.projects.documents.templates import files_of
 from backend.workers import pool as module
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 from backend.workers.pool import Limits, Pool

@@ -1,0 +1,47 @@
+"""Reads of a request that every view of the API shares."""
+
+from __future__ import annotations
+
+from threading import local
+from typing import TYPE_CHECKING, Any, Final
+
+from rest_framework.exceptions import ValidationError
+
+from backend.accounts.models import User
+
+if TYPE_CHECKING:
+    from rest_framework import serializers
+    from rest_framework.request import Request
+
+_threads: Final = local()
+
+
+def parsed(serializer: type[serializers.Serializer[Any]], data: Any) -> dict[str, Any]:
+    """The checked values of a request; DRF's ValidationError tells the first that is wrong."""
+    try:
+        return dict(_reader(serializer).run_validation(data))
+    except ValidationError:
+        # Rare, so that it may take its time: DRF words it by a serializer of its own.
+        bound = serializer(data=data)
+        bound.is_valid(raise_exception=True)
+        return dict(bound.validated_data)
+
+
+def _reader(serializer: type[serializers.Serializer[Any]]) -> serializers.Serializer[Any]:
+    """This thread's serializer: to make one with its fields takes longer than to read most requests."""
+    readers: dict[type[serializers.Serializer[Any]], serializers.Serializer[Any]]
+    readers = _threads.__dict__.setdefault("readers", {})
+    if serializer not in readers:
+        readers[serializer] = serializer()
+    return readers[serializer]
+
+
+def user_of(request: Request) -> User:
+    """Returns the user of the request; the permission classes guarantee that there is one."""
+    assert isinstance(request.user, User)  # noqa: S101 - for the type checker
+    return request.user
+
+
+def if_match(request: Request) -> str:
+    """The header that says on what a write is based; empty without one."""
+    return request.headers.get("If-Match", "")

@@ -1,0 +1,26 @@
+"""Describes authentication in the OpenAPI document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from drf_spectacular.extensions import OpenApiAuthenticationExtension
+
+
+class GuardScheme(OpenApiAuthenticationExtension):  # type: ignore[no-untyped-call]
+    """The cookie of the browser, or the token of a program."""
+
+    target_class = "backend.accounts.api.authentication.GuardAuthentication"
+    name = ["cookie", "token"]  # noqa: RUF012 - what the base class asks for
+
+    def get_security_definition(self, auto_schema: Any) -> list[dict[str, str]]:
+        """Both ways in."""
+        return [
+            {
+                "type": "apiKey",
+                "in": "cookie",
+                "name": "bt_studio_session_<port>",
+                "description": "Set by the link that `bt-studio serve` prints.",
+            },
+            {"type": "http", "scheme": "bearer", "description": "The token of that link, for programs."},
+        ]

@@ -1,0 +1,153 @@
+"""Counts wrong passwords, so that a guesser is slowed down and nobody else is shut out.
+
+A browser in which someone signed in before is *known* to that account, by a signed cookie, and has a count
+of its own: whatever others guess, its user gets in. Of other browsers, failures are counted by account and
+address together; by account alone, against many machines that guess one password; and by address alone,
+against one machine that tries a password on many accounts. The last is so large that a class behind one
+address, mistyping, does not meet it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+from dataclasses import dataclass
+from ipaddress import IPv6Address, IPv6Network, ip_address
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from django.conf import settings
+from django.core.cache import cache
+from django.core.signing import BadSignature, TimestampSigner
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from django.http import HttpRequest, HttpResponse
+
+KNOWN_DAYS: Final = 180
+KNOWN_ACCOUNTS: Final = 12
+"""Accounts that one browser, in a laboratory for example, is known to at most."""
+COOKIE: Final = "bt_studio_browser"
+MINUTE_S: Final = 60
+
+
+class Bound(NamedTuple):
+    """So many failures in so many seconds."""
+
+    key: str
+    most: int
+    window_s: int
+
+
+@dataclass(frozen=True, slots=True)
+class Browser:
+    """Where someone signed in before.
+
+    Attributes:
+        identity: made by chance when the first one did.
+        accounts: keys of the accounts, the latest last.
+    """
+
+    identity: str
+    accounts: tuple[int, ...] = ()
+
+    def with_account(self, account: int) -> Browser:
+        """The same browser, known to one account more."""
+        others = [each for each in self.accounts if each != account]
+        return Browser(self.identity, (*others, account)[-KNOWN_ACCOUNTS:])
+
+
+def bounds(account: int | str, address: str | None, browser: Browser | None) -> tuple[Bound, ...]:
+    """The limit of the next attempt to sign in to an account; its key is the account, or the typed name."""
+    if browser is not None and account in browser.accounts:
+        return (Bound(f"browser {browser.identity} {account}", 10, 5 * MINUTE_S),)
+    place = network_of(address)
+    return (
+        Bound(f"place {account} {place}", 5, 5 * MINUTE_S),
+        Bound(f"account {account}", 50, 60 * MINUTE_S),
+        Bound(f"address {place}", 300, 10 * MINUTE_S),
+    )
+
+
+def network_of(address: str | None) -> str:
+    """Returns what counts as one address: for IPv6 the /64, since a machine can use all addresses in it."""
+    if not address:
+        return "?"
+    found = ip_address(address)
+    if isinstance(found, IPv6Address):
+        return str(IPv6Network((found, 64), strict=False).network_address)
+    return str(found)
+
+
+class Attempt:
+    """One attempt, counted as failed until it is known to have succeeded: many at once are counted, too."""
+
+    def __init__(self, limits: Iterable[Bound]) -> None:
+        self._keys = [(_cache_key(limit.key), limit) for limit in limits]
+        self.is_allowed = True
+        self._counted: list[str] = []
+        for key, limit in self._keys:
+            cache.add(key, 0, limit.window_s)
+            if _more(key, 1) > limit.most:
+                self.is_allowed = False
+            self._counted.append(key)
+        if not self.is_allowed:
+            self.take_back()
+
+    def take_back(self) -> None:
+        """It succeeded, or was refused: it counts no longer."""
+        for key in self._counted:
+            _more(key, -1)
+        self._counted = []
+
+
+def forget(limits: Iterable[Bound]) -> None:
+    """A new password was set: what was wrong before counts no longer."""
+    cache.delete_many([_cache_key(limit.key) for limit in limits])
+
+
+def _more(key: str, number: int) -> int:
+    try:
+        return int(cache.incr(key, number))
+    except ValueError:  # its time was over just now
+        return max(number, 0)
+
+
+def _cache_key(key: str) -> str:
+    return f"sign-in-{hashlib.sha256(key.encode()).hexdigest()}"
+
+
+# --- the cookie ---------------------------------------------------------------------------------------
+
+
+def _signer() -> TimestampSigner:
+    return TimestampSigner(salt="bt-studio browser")
+
+
+def _cookie_name() -> str:
+    return ("__Host-" if settings.ENVIRONMENT.is_https else "") + COOKIE
+
+
+def browser_of(request: HttpRequest) -> Browser | None:
+    """The browser that a request comes from, if someone signed in there before."""
+    try:
+        found: Any = _signer().unsign_object(
+            request.COOKIES.get(_cookie_name(), ""), max_age=KNOWN_DAYS * 24 * 3600
+        )
+        return Browser(str(found["id"]), tuple(int(account) for account in found["accounts"]))
+    except (BadSignature, ValueError, KeyError, TypeError):
+        return None
+
+
+def remember(request: HttpRequest, response: HttpResponse, account: int) -> None:
+    """From now on the browser is known to the account that signed in."""
+    browser = (browser_of(request) or Browser(secrets.token_urlsafe(16))).with_account(account)
+    value = _signer().sign_object({"id": browser.identity, "accounts": list(browser.accounts)})
+    response.set_cookie(
+        _cookie_name(),
+        value,
+        max_age=KNOWN_DAYS * 24 * 3600,
+        httponly=True,
+        secure=settings.ENVIRONMENT.is_https,
+        samesite="Lax",
+    )

@@ -1,0 +1,195 @@
+"""Errors as RFC 9457 problem documents.
+
+    StudioError                 status, code, title, hint; subclasses per app in its `errors.py`
+    ├─ InvalidInputError        422, names the field
+    ├─ NotFoundError            404
+    └─ (projects, sessions: see there)
+
+Views raise; `exception_handler` turns these, DRF's own errors and those of a database that is out of
+reach or out of room into answers, and nothing else.
+"""
+
+from __future__ import annotations
+
+import errno
+import logging
+import math
+from http import HTTPStatus
+from typing import Any, ClassVar
+
+from django.core.exceptions import PermissionDenied
+from django.db import OperationalError
+from django.http import Http404, HttpRequest, JsonResponse
+from rest_framework import exceptions
+from rest_framework.response import Response
+
+log = logging.getLogger(__name__)
+
+DISK_FULL = frozenset({"SQLITE_FULL", "SQLITE_IOERR_WRITE", "53100"})
+"""How the databases say that there is no room to write."""
+RETRY_S = 5
+MEDIA_TYPE = "application/problem+json"
+TYPE_PREFIX = "urn:bt-studio:problem:"
+
+
+class StudioError(Exception):
+    """An error that is shown to the user.
+
+    Args:
+        detail: one sentence that says what happened.
+        hint: what to do now.
+        field: the part of the request that is wrong, as a dotted path.
+        extra: further members of the problem document.
+    """
+
+    status: ClassVar[int] = 400
+    code: ClassVar[str] = "bad_request"
+    title: ClassVar[str] = "The request cannot be carried out"
+    retry_after_s: ClassVar[int] = 0
+    """When to ask again; 0 where that does not help."""
+
+    def __init__(self, detail: str, *, hint: str = "", field: str = "", **extra: Any) -> None:
+        super().__init__(detail)
+        self.detail = detail
+        self.hint = hint
+        self.field = field
+        self.extra = extra
+
+    def document(self) -> dict[str, Any]:
+        """The problem document."""
+        return problem(
+            self.status,
+            self.code,
+            title=self.title,
+            detail=self.detail,
+            hint=self.hint,
+            field=self.field,
+            **self.extra,
+        )
+
+
+class InvalidInputError(StudioError):
+    """A value in the request cannot be used."""
+
+    status = 422
+    code = "invalid_input"
+    title = "A value cannot be used"
+
+
+class NotFoundError(StudioError):
+    """There is no such thing, or not for this user."""
+
+    status = 404
+    code = "not_found"
+    title = "Not found"
+
+
+def problem(
+    status: int, code: str, *, title: str = "", detail: str, hint: str = "", **extra: Any
+) -> dict[str, Any]:
+    """Builds a problem document; members without a value are left out."""
+    document = {
+        "type": TYPE_PREFIX + code,
+        "title": title or HTTPStatus(status).phrase,
+        "status": status,
+        "code": code,
+        "detail": detail,
+        "hint": hint,
+    }
+    return document | {key: value for key, value in extra.items() if value not in ("", None)}
+
+
+def problem_response(document: dict[str, Any], headers: dict[str, str] | None = None) -> JsonResponse:
+    """A problem document as Django's response, for what happens outside DRF."""
+    return JsonResponse(document, status=document["status"], content_type=MEDIA_TYPE, headers=headers)
+
+
+def exception_handler(error: Exception, context: dict[str, Any]) -> Response | None:
+    """DRF's hook: every known error becomes a problem document, the others become a logged 500."""
+    headers: dict[str, str] = {}
+    if isinstance(error, StudioError):
+        document = error.document()
+        headers |= {"Retry-After": str(error.retry_after_s)} if error.retry_after_s else {}
+    elif isinstance(error, Http404):
+        document = problem(404, "not_found", detail="There is nothing at this address.")
+    elif isinstance(error, OperationalError):
+        log.error("the database failed", exc_info=error)
+        document, headers = database_problem(error), {"Retry-After": str(RETRY_S)}
+    elif isinstance(error, OSError) and error.errno == errno.ENOSPC:
+        log.error("the disk is full", exc_info=error)
+        document = disk_full()
+    elif isinstance(error, PermissionDenied):
+        document = problem(403, "forbidden", detail="This is not allowed.")
+    elif isinstance(error, exceptions.ValidationError):
+        field, detail = _first_message(error.detail)
+        document = problem(422, "invalid_input", title=InvalidInputError.title, detail=detail, field=field)
+    elif isinstance(error, exceptions.APIException):
+        field, detail = _first_message(error.detail)
+        codes = error.get_codes()
+        document = problem(
+            error.status_code, codes if isinstance(codes, str) else "bad_request", detail=detail
+        )
+        if wait := getattr(error, "wait", None):
+            headers["Retry-After"] = str(math.ceil(wait))
+        if isinstance(error, exceptions.MethodNotAllowed):
+            headers["Allow"] = ", ".join(context["view"].allowed_methods)
+    else:
+        return None
+    return Response(document, status=document["status"], content_type=MEDIA_TYPE, headers=headers)
+
+
+def disk_full() -> dict[str, Any]:
+    """There is no room to write."""
+    return problem(
+        507,
+        "disk_full",
+        detail="The server's disk is full: nothing was written, and what was saved before is safe.",
+        hint="Keep this page open, make room on the server's disk, then save again.",
+    )
+
+
+def database_problem(error: OperationalError) -> dict[str, Any]:
+    """No transaction was committed: the client may try again as soon as the database can write."""
+    cause = error.__cause__
+    code = getattr(cause, "sqlite_errorname", None) or getattr(cause, "sqlstate", None)
+    if code in DISK_FULL:
+        return disk_full()
+    return problem(
+        503,
+        "database_unavailable",
+        detail="The database does not answer: nothing was written.",
+        hint="Try again in a moment. If it stays so, the server's log has the reason.",
+    )
+
+
+def _first_message(detail: Any, path: str = "") -> tuple[str, str]:
+    """The first leaf of DRF's nested error structure, with its dotted path."""
+    if isinstance(detail, dict):
+        key, value = next(iter(detail.items()))
+        own = "" if key == "non_field_errors" else str(key)
+        return _first_message(value, ".".join(filter(None, (path, own))))
+    if isinstance(detail, list):
+        for index, value in enumerate(detail):
+            if isinstance(value, dict | list) and value:
+                return _first_message(value, ".".join(filter(None, (path, str(index)))))
+            if value:
+                return path, str(value)
+        return path, "A value is missing."
+    return path, str(detail)
+
+
+def not_found(request: HttpRequest, exception: Exception | None = None) -> JsonResponse:
+    """Django's 404."""
+    return problem_response(problem(404, "not_found", detail="There is nothing at this address."))
+
+
+def server_error(request: HttpRequest) -> JsonResponse:
+    """Django's 500; the traceback is in the log only."""
+    return problem_response(
+        problem(
+            500,
+            "internal_error",
+            detail="The server failed to answer; this is a fault of BT Studio.",
+            hint="The server's log has the details. Nothing that was acknowledged is lost.",
+        )
+    )

@@ -1,0 +1,163 @@
+"""A few threads that stay; of those that are idle, the one that worked last works next.
+
+What that thread needs is still at hand: its connection to the database, and at the other end a PostgreSQL
+process that knows the statements. Where threads take turns, as in `ThreadPoolExecutor`, each begins cold.
+Owners, however, take turns, and none has more than a share of the threads: however much one of them asks
+for, the others find a free one.
+"""
+
+from __future__ import annotations
+
+import atexit
+import itertools
+import sys
+import threading
+import time
+from contextlib import suppress
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from backend.core.processes.fair import FairQueue
+
+if TYPE_CHECKING:
+    import asyncio
+    from collections.abc import Callable
+
+    Job = Callable[[], Callable[[], None]]
+    """Works, and returns what tells that it is done."""
+
+PATIENCE_S: Final = 5.0
+"""How long the end of the program waits for each thread that still works."""
+
+
+class _Task(NamedTuple):
+    owner: str
+    job: Job
+
+
+Inbox = SimpleQueue[_Task | None]
+
+
+class Threads:
+    """Works for coroutines.
+
+    Args:
+        number: how many there are.
+        name: what they are called.
+        per_owner: how many work for one owner at a time; all of them without it.
+    """
+
+    def __init__(self, number: int, name: str, *, per_owner: int | None = None) -> None:
+        self._number, self._name = number, name
+        self._per_owner = per_owner or number
+        self._lock = threading.Lock()
+        self._idle: list[Inbox] = []
+        self._waiting = self._empty()
+        self._nobody = itertools.count()
+        self._threads: dict[threading.Thread, Inbox] = {}
+        self._full_since_s: float | None = None
+        self._progress_s = 0.0
+        atexit.register(self.end)
+
+    def run(
+        self, loop: asyncio.AbstractEventLoop, work: Callable[[], Any], owner: str | None = None
+    ) -> asyncio.Future[Any]:
+        """Begins the work as soon as a thread is free; the future belongs to the loop.
+
+        Args:
+            loop: whose coroutine waits.
+            work: what is done.
+            owner: for whom, who then has a share of the threads; work of nobody counts for itself.
+        """
+        future = loop.create_future()
+
+        def job() -> Callable[[], None]:
+            try:
+                result, error = work(), None
+            except BaseException as raised:  # the waiting caller gets it
+                result, error = None, raised
+            return lambda: _tell(loop, future, result, error)
+
+        self._hand_out(f"#{next(self._nobody)}" if owner is None else owner, job)
+        return future
+
+    def full_for_s(self) -> float:
+        """For how long no thread has been free."""
+        with self._lock:
+            return 0.0 if self._full_since_s is None else time.monotonic() - self._full_since_s
+
+    def stuck_for_s(self) -> float:
+        """For how long no thread has been free or has come to the end of a piece of work."""
+        with self._lock:
+            if self._full_since_s is None:
+                return 0.0
+            return time.monotonic() - max(self._full_since_s, self._progress_s)
+
+    def end(self) -> None:
+        """Waits a while until the calls that have begun are finished."""
+        with self._lock:
+            threads, self._threads = self._threads, {}
+            self._waiting = self._empty()
+        for inbox in threads.values():
+            inbox.put(None)
+        for thread in threads:
+            thread.join(PATIENCE_S)
+        atexit.unregister(self.end)
+
+    def _empty(self) -> FairQueue[Job]:
+        return FairQueue(room=sys.maxsize, per_owner=self._per_owner)
+
+    def _hand_out(self, owner: str, job: Job) -> None:
+        with self._lock:
+            self._waiting.put(owner, job)
+            is_one_free = self._idle or len(self._threads) < self._number
+            if not is_one_free or (taken := self._waiting.take()) is None:
+                return
+            inbox = self._idle.pop() if self._idle else self._begin_thread()
+            if not self._idle and len(self._threads) == self._number:
+                self._full_since_s = time.monotonic()
+        inbox.put(_Task(*taken))
+
+    def _begin_thread(self) -> Inbox:
+        inbox: Inbox = SimpleQueue()
+        name = f"{self._name}_{len(self._threads)}"
+        thread = threading.Thread(target=self._work, args=(inbox,), name=name, daemon=True)
+        self._threads[thread] = inbox
+        thread.start()
+        return inbox
+
+    def _work(self, inbox: Inbox) -> None:
+        while (task := inbox.get()) is not None:
+            following: _Task | None = task
+            while following is not None:
+                done, tell = following.owner, following.job()
+                following = self._next(inbox, done)  # first: the notified caller finds it idle
+                tell()
+
+    def _next(self, inbox: Inbox, done: str) -> _Task | None:
+        """Returns the next call that may begin; without one, this thread is idle."""
+        with self._lock:
+            self._progress_s = time.monotonic()
+            self._waiting.done(done)
+            if (taken := self._waiting.take()) is not None:
+                return _Task(*taken)
+            self._idle.append(inbox)
+            self._full_since_s = None
+            return None
+
+
+def _tell(
+    loop: asyncio.AbstractEventLoop, future: asyncio.Future[Any], result: Any, error: BaseException | None
+) -> None:
+    # A loop that has ended has nobody who waits.
+    with suppress(RuntimeError):
+        loop.call_soon_threadsafe(_settle, future, result, error)
+
+
+def _settle(future: asyncio.Future[Any], result: Any, error: BaseException | None) -> None:
+    if future.cancelled():
+        return
+    if error is None:
+        future.set_result(result)
+    else:
+        future.set_exception(error)

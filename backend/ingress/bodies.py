@@ -1,0 +1,298 @@
+"""Reads the bodies of requests: headers are judged first, what comes is bounded, and threads write files.
+
+Nobody is trusted with more than a megabyte before they are known. An *upload* is the body of one of a few
+routes that take an archive: it may be as large as its user has room, and goes straight to a file.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import io
+from dataclasses import dataclass
+from functools import partial
+from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
+
+from django.db import OperationalError, close_old_connections
+
+from backend.accounts.identity import identify
+from backend.config.environment import environment
+from backend.core import guard
+from backend.core.problems import StudioError, database_problem, disk_full, problem
+from backend.core.processes.siblings import siblings
+from backend.core.processes.threads import Threads
+from backend.core.scopes import cookies_of, facts_of, headers_of
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Callable
+
+    from asgiref.typing import ASGIReceiveCallable, HTTPScope
+
+    from backend.accounts.models import User
+    from backend.core.processes.siblings import Place
+    from backend.core.scratch import Scratch
+
+UNKNOWN_BYTES: Final = 1024 * 1024
+"""What a client may send that is not signed in."""
+GUEST_BYTES: Final = 8 * 1024 * 1024
+"""What one may send that came by a read-only link: two texts of a tree, to look at it as XML."""
+IN_MEMORY: Final = 4 * 1024 * 1024
+"""A body above this lies in a file."""
+PART: Final = 1024 * 1024
+"""What is written to a file at once."""
+PATIENCE_S: Final = 30.0
+SLOWEST: Final = 8 * 1024
+"""Bytes a second, after the first `PATIENCE_S`, below which a body is given up."""
+LARGE_AT_ONCE: Final = 4
+"""Bodies above `UNKNOWN_BYTES` that one user, or all guests together, may send at a time."""
+UPLOADS_AT_ONCE: Final = 1
+RETRY_S: Final = 5
+BODY: Final = "bt_studio.body"
+"""Where the scope of a request keeps its body, a file that can be sought."""
+
+
+class Body(NamedTuple):
+    """A body, as a file that can be sought."""
+
+    file: IO[bytes]
+    is_whole: bool = True
+    """Whether all of it was read; what the guard refuses is not."""
+
+
+class Refused(NamedTuple):
+    """Why a body is not read."""
+
+    document: dict[str, Any]
+    headers: dict[str, str]
+
+
+class BodyRefusedError(Exception):
+    """A body is too large, too slow, or from somebody who may not send it."""
+
+    def __init__(self, document: dict[str, Any], retry_s: int | None = None) -> None:
+        super().__init__(document["code"])
+        self.refused = Refused(document, {} if retry_s is None else {"Retry-After": str(retry_s)})
+
+
+class ClientLeftError(Exception):
+    """The connection ended before the request was whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A route that takes archives; all others take at most `BT_STUDIO_MAX_REQUEST_BYTES`.
+
+    Attributes:
+        path: its address.
+        room: says how many bytes a user may send there; raises a StudioError where it is none.
+        kind: the content type of what is streamed; forms, for one, are not.
+    """
+
+    path: str
+    room: Callable[[User], int]
+    kind: str = "application/octet-stream"
+
+    def takes(self, scope: HTTPScope, kind: str) -> bool:
+        """Whether a request is such an upload."""
+        return scope["method"] == "POST" and scope["path"] == self.path and kind.startswith(self.kind)
+
+
+def body_of(request: Any) -> IO[bytes]:
+    """The body of a request that no parser reads, as a file that can be sought."""
+    scope = getattr(request, "scope", {})
+    return scope[BODY] if BODY in scope else io.BytesIO(request.body)
+
+
+class Bodies:
+    """Reads bodies.
+
+    Args:
+        asking: threads that may ask the database.
+        upload: the route for archives, if there is one.
+        scratch: where large bodies lie while they are needed.
+    """
+
+    def __init__(self, asking: Threads, upload: Upload | None, scratch: Scratch) -> None:
+        self._asking, self.upload, self.scratch = asking, upload, scratch
+        self._writing = Threads(2, "bodies")
+
+    @contextlib.asynccontextmanager
+    async def read(
+        self, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None = None
+    ) -> AsyncIterator[Body]:
+        """Reads one body; it is there until the block ends. `owner` is for whom threads work.
+
+        Raises:
+            BodyRefusedError: it is not, or no longer, read.
+            ClientLeftError: there is nobody to answer.
+        """
+        reading = _Reading(self, scope, receive, owner)
+        try:
+            body = await reading.whole()
+            with body.file:
+                yield body
+        except StudioError as error:
+            raise BodyRefusedError(error.document(), error.retry_after_s or None) from error
+        except OSError as error:
+            if error.errno != errno.ENOSPC:
+                raise
+            raise BodyRefusedError(disk_full()) from error
+        except OperationalError as error:
+            raise BodyRefusedError(database_problem(error), RETRY_S) from error
+        finally:
+            reading.done()
+
+    async def ask(self, work: Callable[[], Any], owner: str | None) -> Any:
+        """Calls the function in a thread that has a connection to the database."""
+        return await self._asking.run(asyncio.get_running_loop(), partial(_asked, work), owner)
+
+    async def write(self, work: Callable[[], Any]) -> Any:
+        """Writes to the disk, or reads from it, in a thread."""
+        return await self._writing.run(asyncio.get_running_loop(), work)
+
+
+def _asked(work: Callable[[], Any]) -> Any:
+    close_old_connections()
+    return work()
+
+
+class _Reading:
+    """One body."""
+
+    def __init__(
+        self, bodies: Bodies, scope: HTTPScope, receive: ASGIReceiveCallable, owner: str | None
+    ) -> None:
+        self._bodies, self._scope, self._receive, self._owner = bodies, scope, receive, owner
+        self._headers = headers_of(scope)
+        self._place: Place | None = None
+        self._is_upload = False
+        self._in_memory, self._most = IN_MEMORY, UNKNOWN_BYTES
+        self._pending = bytearray()
+        self._file: IO[bytes] | None = None
+        self._size = 0
+
+    async def whole(self) -> Body:
+        """Reads it to its end."""
+        declared = self._declared()
+        if declared or "transfer-encoding" in self._headers:
+            # Who is refused for their headers sends nothing: the guard's middleware says why.
+            if guard.check(facts_of(self._scope)) is not None:
+                return Body(io.BytesIO(), is_whole=False)
+            await self._admit(declared or 0)
+        return Body(await self._stored())
+
+    def done(self) -> None:
+        """Allows the user to send another large body."""
+        if self._place is not None:
+            self._place.give_back()
+
+    def _declared(self) -> int | None:
+        text = self._headers.get("content-length", "")
+        return int(text) if text.isascii() and text.isdigit() else None
+
+    async def _admit(self, declared: int) -> None:
+        """Judges what the headers say."""
+        upload = self._bodies.upload
+        user = None
+        if upload is not None and upload.takes(self._scope, self._headers.get("content-type", "")):
+            user = await self._sender()
+        if upload is not None and user is not None and not user.is_guest:
+            self._take_slot(user, is_upload=True)
+            room = await self._ask(partial(upload.room, user))
+            self._most, self._in_memory = min(room, environment().max_temporary_bytes), PART
+        elif declared > environment().max_request_bytes:
+            raise _too_large(environment().max_request_bytes)
+        if declared > self._most:
+            await self._allow_more(declared)
+        if declared > self._in_memory:  # refused before it is sent where there is no room for all of it
+            self._file = await self._bodies.write(partial(self._bodies.scratch.file, expected=declared))
+
+    async def _allow_more(self, size: int) -> None:
+        """Called when more comes than everybody may send."""
+        if self._place is None:
+            user = await self._sender()
+            if user is None:
+                raise _too_large(UNKNOWN_BYTES, hint="Sign in to send more.")
+            self._take_slot(user, is_upload=False)
+            most = environment().max_request_bytes
+            self._most = min(GUEST_BYTES, most) if user.is_guest else most
+        if size > self._most:
+            hint = "That is the room that you have left." if self._is_upload else ""
+            raise _too_large(self._most, hint=hint)
+
+    async def _sender(self) -> User | None:
+        """Returns the sender of this body."""
+        cookies = cookies_of(self._headers.get("cookie", ""))
+        user: User | None = await self._ask(partial(identify, cookies))
+        return user
+
+    async def _ask(self, work: Callable[[], Any]) -> Any:
+        return await self._bodies.ask(work, self._owner)
+
+    def _take_slot(self, user: User, *, is_upload: bool) -> None:
+        most = UPLOADS_AT_ONCE if is_upload else LARGE_AT_ONCE
+        self._place = siblings.take(f"{'upload' if is_upload else 'body'} of {user.pk}", most)
+        if self._place is None:
+            sentence = f"You send {most} large file{'s' if most > 1 else ''} already."
+            hint = "Wait until it has arrived."
+            raise BodyRefusedError(problem(429, "throttled", detail=sentence, hint=hint), RETRY_S)
+        self._is_upload = is_upload
+
+    async def _stored(self) -> IO[bytes]:
+        loop = asyncio.get_running_loop()
+        began_s = loop.time()
+        try:
+            while True:
+                try:
+                    async with asyncio.timeout_at(began_s + PATIENCE_S + self._size / SLOWEST):
+                        message = await self._receive()
+                except TimeoutError:
+                    raise _too_slow() from None
+                if message["type"] == "http.disconnect":
+                    raise ClientLeftError
+                await self._take(message.get("body", b""))  # type: ignore[arg-type]
+                if not message.get("more_body", False):
+                    return await self._finished()
+        except BaseException:
+            if self._file is not None:
+                self._file.close()
+            raise
+
+    async def _take(self, data: bytes) -> None:
+        self._size += len(data)
+        if self._size > self._most:
+            await self._allow_more(self._size)
+        self._pending += data
+        if len(self._pending) > (self._in_memory if self._file is None else PART):
+            await self._flush()
+
+    async def _finished(self) -> IO[bytes]:
+        if self._file is None:
+            return io.BytesIO(bytes(self._pending))
+        await self._flush()
+        self._file.seek(0)
+        return self._file
+
+    async def _flush(self) -> None:
+        data, self._pending = self._pending, bytearray()
+        if self._file is None:
+            self._file = await self._bodies.write(self._bodies.scratch.file)
+        await self._bodies.write(partial(_write, self._file, data))
+
+
+def _write(file: IO[bytes], data: bytes | bytearray) -> None:
+    view = memoryview(data)
+    while view:
+        view = view[file.write(view) :]
+
+
+def _too_large(most: int, *, hint: str = "") -> BodyRefusedError:
+    sentence = f"The body of this request may have at most {most:,} bytes."
+    return BodyRefusedError(problem(413, "request_too_large", title="Too large", detail=sentence, hint=hint))
+
+
+def _too_slow() -> BodyRefusedError:
+    sentence = "The request came too slowly, or not to its end."
+    hint = "Send it again over a better connection."
+    return BodyRefusedError(problem(408, "request_too_slow", detail=sentence, hint=hint))

@@ -1,0 +1,160 @@
+"""Django middleware: the guard for pages and API, and the headers of every answer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+from urllib.parse import urlencode
+
+from django.http import HttpRequest, HttpResponse, HttpResponseRedirect
+from django.shortcuts import render
+
+from backend.accounts.audit import client_address
+from backend.accounts.sign_in.middleware import PAGES
+from backend.config.environment import environment
+from backend.core import guard
+from backend.core.clients import FORWARDED, address_of, proxies
+from backend.core.problems import problem, problem_response
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from django.http.response import HttpResponseBase
+
+CONTENT_SECURITY_POLICY: Final = "; ".join(
+    (
+        "default-src 'self'",
+        "script-src 'self'",
+        "style-src 'self' 'unsafe-inline'",  # Mantine sets style attributes
+        "img-src 'self' data: blob:",
+        "font-src 'self' data:",
+        "connect-src 'self'",
+        "worker-src 'self' blob:",
+        "object-src 'none'",
+        "base-uri 'none'",
+        "form-action 'self'",
+        "frame-ancestors 'none'",
+    )
+)
+FORWARDED_META: Final = {name: "HTTP_" + name.upper().replace("-", "_") for name in FORWARDED}
+HEADERS: Final[dict[str, str]] = {
+    "Content-Security-Policy": CONTENT_SECURITY_POLICY,
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Permissions-Policy": "camera=(), microphone=(), geolocation=()",
+}
+
+
+def page_policy() -> str:
+    """The policy of pages with forms: signing in may lead to the provider's page."""
+    issuer = environment().oidc_issuer
+    origin = "/".join(issuer.split("/")[:3])
+    return CONTENT_SECURITY_POLICY.replace("form-action 'self'", f"form-action 'self' {origin}".rstrip())
+
+
+def headers_of_all() -> dict[str, str]:
+    """The headers of every answer."""
+    settings = environment()
+    if not settings.is_https or not settings.hsts_days:
+        return HEADERS
+    return HEADERS | {"Strict-Transport-Security": f"max-age={settings.hsts_days * 24 * 3600}"}
+
+
+class Middleware:
+    """A middleware that looks at requests and answers."""
+
+    def __init__(self, get_response: Callable[[HttpRequest], HttpResponseBase]) -> None:
+        self.get_response = get_response
+
+    def __call__(self, request: HttpRequest) -> HttpResponseBase:
+        """Django's entry."""
+        return self.after(request, self.before(request) or self.get_response(request))
+
+    def before(self, request: HttpRequest) -> HttpResponseBase | None:
+        """May answer in place of the view."""
+        return None
+
+    def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """May change the answer."""
+        return response
+
+
+class SecurityHeaders(Middleware):
+    """Puts the security headers on every answer."""
+
+    def after(self, request: HttpRequest, response: HttpResponseBase) -> HttpResponseBase:
+        """Adds what the view did not set itself."""
+        return secured(request.path_info, response)
+
+
+def secured(path: str, response: HttpResponseBase) -> HttpResponseBase:
+    """Puts the security headers on the answer to a request for this path."""
+    if path.startswith(PAGES):
+        # Under `no-referrer`, browsers send forms with `Origin: null`.
+        response.headers["Referrer-Policy"] = "same-origin"
+        response.headers["Content-Security-Policy"] = page_policy()
+    for name, value in headers_of_all().items():
+        response.headers.setdefault(name, value)
+    if path.startswith("/api/"):
+        response.headers.setdefault("Cache-Control", "private, no-cache")
+    return response
+
+
+class Guard(Middleware):
+    """Passes on requests that `guard.judge` allows; exchanges the token for the cookie."""
+
+    def before(self, request: HttpRequest) -> HttpResponseBase | None:
+        """Answers refused requests and the link with the token."""
+        headers = {name: request.META[key] for name, key in FORWARDED_META.items() if key in request.META}
+        client_address.set(address_of(request.META.get("REMOTE_ADDR"), headers))
+        proxies.see(headers)
+        if "\0" in request.path_info or "%00" in request.META.get("QUERY_STRING", ""):
+            # No name holds one, and no database stores one.
+            sentence = "An address holds no NUL character."
+            return problem_response(problem(400, "bad_address", detail=sentence))
+        facts = facts_of(request)
+        keys = guard.keys()
+        link = request.method == "GET" and request.path_info == "/" and "token" in request.GET
+        if link and not environment().is_team and keys.is_token(request.GET["token"]):
+            refusal = guard.check(guard.Facts("GET", facts.host, cookie=keys.cookie_value))
+            return refuse(request, refusal) if refusal else exchange(request, facts.host)
+        refusal = guard.check(facts)
+        return refuse(request, refusal) if refusal else None
+
+
+def facts_of(request: HttpRequest) -> guard.Facts:
+    """Returns the facts of a request that the guard needs."""
+    host = request.META.get("HTTP_HOST", "")
+    scheme, _, bearer = request.META.get("HTTP_AUTHORIZATION", "").partition(" ")
+    return guard.Facts(
+        method=request.method or "GET",
+        host=host,
+        schemes=guard.schemes_of(host, request.scheme or "http"),
+        origin=request.META.get("HTTP_ORIGIN"),
+        fetch_site=request.META.get("HTTP_SEC_FETCH_SITE"),
+        cookie=request.COOKIES.get(guard.cookie_name(host)),
+        bearer=bearer if scheme.lower() == "bearer" else None,
+    )
+
+
+def exchange(request: HttpRequest, host: str) -> HttpResponse:
+    """Sets the cookie and redirects to the same page without the token."""
+    rest = {key: value for key, value in request.GET.items() if key != "token"}
+    response = HttpResponseRedirect("/" + (f"?{urlencode(rest)}" if rest else ""))
+    response.set_cookie(
+        guard.cookie_name(host), guard.keys().cookie_value, httponly=True, samesite="Strict", path="/"
+    )
+    response.headers["Cache-Control"] = "no-store"
+    return response
+
+
+def refuse(request: HttpRequest, refusal: guard.Refusal) -> HttpResponse:
+    """Answers a person in HTML, a program with a problem document."""
+    document = problem(refusal.status, refusal.code, detail=refusal.detail, hint=refusal.hint)
+    if "text/html" not in request.META.get("HTTP_ACCEPT", "") or request.path_info.startswith("/api/"):
+        return problem_response(document)
+    response = render(request, "config/refused.html", {"problem": document}, status=refusal.status)
+    response.headers["Cache-Control"] = "no-store"
+    return response

@@ -1,0 +1,206 @@
+"""Checks every websocket before an app serves it, and finds that app.
+
+Apps register their sockets in `routes` of `backend.config.asgi`: a pattern of the path, a coroutine that is
+called once the guard has let the socket pass and it is accepted, and what a user must still be allowed to do
+for it to stay open.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import re  # noqa: TC003
+from collections import Counter
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from uuid import UUID
+
+from asgiref.sync import sync_to_async
+
+from backend.accounts import rights
+from backend.accounts.identity import identify
+from backend.config.environment import environment
+from backend.core import guard
+from backend.core.problems import StudioError
+from backend.core.scopes import cookies_of, facts_of, headers_of
+from backend.core.websocket import MOST_BYTES, SMALL_BYTES
+from backend.ingress.owners import owner_of
+
+if TYPE_CHECKING:
+    from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
+
+    from backend.accounts.models import User
+
+PROTOCOL: Final = "bt-studio.v1"
+ID: Final = r"([0-9a-f]{8}(?:-[0-9a-f]{4}){3}-[0-9a-f]{12})"
+"""What of an address is a project's or a session's id."""
+POLICY_VIOLATION: Final = 1008
+SIGNED_OUT: Final = 4401
+FORBIDDEN: Final = 4404
+_REASON_BYTES: Final = 120  # a close frame holds 123
+OF_A_USER: Final = 100
+"""Sockets that one user may have open: each page has up to four."""
+OF_AN_ADDRESS: Final = 500
+"""The same of all guests, and of all whom the server has not seen before, behind one address."""
+AT_THE_DOOR: Final = 2
+"""Of these, how many are asked at a time who they are; the others wait."""
+
+
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """The code and reason with which one side closed its socket."""
+
+    code: int
+    reason: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """The request of a socket: its address as its route matched it, the user, and the query string."""
+
+    address: re.Match[str]
+    user: User
+    query: str
+
+
+Handler = Callable[[Call, "ASGIReceiveCallable", "ASGISendCallable"], Awaitable["Closed | None"]]
+
+
+class Route(NamedTuple):
+    """The app that serves a socket, and what its user must be allowed to do.
+
+    `may` is given the id in the address and the user, and raises a StudioError when they may no longer.
+    Guests say nothing, and users at most `most_bytes` at a time.
+    """
+
+    handler: Handler
+    may: Callable[[UUID, User], object]
+    most_bytes: int = SMALL_BYTES
+
+
+class Crowd:
+    """Counts the sockets of each owner, and lets few of them in at a time."""
+
+    def __init__(self) -> None:
+        self.sockets: Counter[str] = Counter()
+        self._doors: dict[str, asyncio.Semaphore] = {}
+
+    @contextlib.asynccontextmanager
+    async def place(self, owner: str) -> AsyncIterator[asyncio.Semaphore | None]:
+        """The owner's door for as long as a socket is open; None where they have too many."""
+        most = OF_AN_ADDRESS if owner.startswith("address") else OF_A_USER
+        if self.sockets[owner] >= most and environment().is_team:
+            yield None
+            return
+        self.sockets[owner] += 1
+        try:
+            yield self._doors.setdefault(owner, asyncio.Semaphore(AT_THE_DOOR))
+        finally:
+            self.sockets[owner] -= 1
+            if not self.sockets[owner]:
+                del self.sockets[owner], self._doors[owner]
+
+
+_crowd: Final = Crowd()
+
+
+def refusal(scope: WebSocketScope) -> guard.Refusal | None:
+    """Why the socket goes no further, by the same rules as for pages."""
+    return guard.check(facts_of(scope))
+
+
+async def serve(
+    routes: Mapping[re.Pattern[str], Route],
+    scope: WebSocketScope,
+    receive: ASGIReceiveCallable,
+    send: ASGISendCallable,
+) -> None:
+    """Serves a socket whose path is one of these; all others are refused."""
+    await receive()  # websocket.connect
+    found = _route(routes, scope["path"])
+    async with _crowd.place(owner_of(scope)) as door:
+        # Whether this user may see what the path names is for the handler to ask.
+        user = None
+        if found is not None and door is not None and refusal(scope) is None:
+            async with door:
+                user = await _user(scope)
+        if found is None or user is None:
+            # A close before the accept makes the server answer the handshake with 403.
+            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})
+            return
+        await _serve(*found, user, scope, receive, send)
+
+
+async def _serve(  # noqa: PLR0913, PLR0917 - a socket
+    address: re.Match[str],
+    route: Route,
+    user: User,
+    scope: WebSocketScope,
+    receive: ASGIReceiveCallable,
+    send: ASGISendCallable,
+) -> None:
+    offered = list(scope.get("subprotocols") or [])
+    subprotocol = PROTOCOL if PROTOCOL in offered else None
+    most = SMALL_BYTES if user.is_guest else route.most_bytes
+    accept: Any = {"subprotocol": subprotocol, "headers": [], MOST_BYTES: most}
+    await send({"type": "websocket.accept"} | accept)
+    call = Call(address, user, scope["query_string"].decode("latin-1"))
+    try:
+        if environment().is_team:
+            closed = await _while_allowed(route, call, scope, receive, send)
+        else:
+            closed = await route.handler(call, receive, send)
+    except StudioError as error:
+        closed = Closed(FORBIDDEN, error.detail)
+    if closed is not None:
+        with contextlib.suppress(OSError, RuntimeError):
+            await send({"type": "websocket.close", "code": closed.code, "reason": short(closed.reason)})
+
+
+async def _while_allowed(
+    route: Route, call: Call, scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable
+) -> Closed | None:
+    """Serves until the socket ends by itself, or its user is no longer allowed to have it."""
+    serving = asyncio.ensure_future(route.handler(call, receive, send))
+    watching = asyncio.create_task(_until_forbidden(route, call, scope))
+    try:
+        done, _ = await asyncio.wait((serving, watching), return_when=asyncio.FIRST_COMPLETED)
+        return (serving if serving in done else watching).result()
+    finally:
+        serving.cancel()
+        watching.cancel()
+        await asyncio.gather(serving, watching, return_exceptions=True)
+
+
+async def _until_forbidden(route: Route, call: Call, scope: WebSocketScope) -> Closed:
+    async with rights.notices() as next_notice:
+        while True:
+            notice: Mapping[str, object] = {}
+            with contextlib.suppress(TimeoutError):
+                notice = await asyncio.wait_for(next_notice(), rights.RECHECK_S)
+            if notice.get("user_id") not in {None, call.user.pk}:
+                continue
+            await asyncio.sleep(rights.SETTLE_S)
+            user = await _user(scope)
+            if user is None or user.pk != call.user.pk:
+                return Closed(SIGNED_OUT, "You are signed out.")
+            try:
+                await sync_to_async(route.may)(UUID(call.address[1]), user)
+            except StudioError as error:
+                return Closed(FORBIDDEN, error.detail)
+
+
+def _route(routes: Mapping[re.Pattern[str], Route], path: str) -> tuple[re.Match[str], Route] | None:
+    matches = ((pattern.match(path), route) for pattern, route in routes.items())
+    return next(((match, route) for match, route in matches if match), None)
+
+
+async def _user(scope: WebSocketScope) -> User | None:
+    return await sync_to_async(identify)(cookies_of(headers_of(scope).get("cookie", "")))
+
+
+def short(reason: str) -> str:
+    """Shortens a reason so that it fits into a close frame."""
+    first = reason.splitlines()[0] if reason else ""
+    return first.encode()[:_REASON_BYTES].decode(errors="ignore")

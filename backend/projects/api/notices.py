@@ -1,0 +1,57 @@
+"""Notifies everyone who has a project open of a new revision; the changes are fetched, not sent.
+
+A notice is small and may be lost (a full channel drops it): the number in the next one says the same.
+"""
+
+from __future__ import annotations
+
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Any, Final
+
+from channels.layers import get_channel_layer
+from django.db import transaction
+
+from backend.core.notify import tell
+from backend.projects.signals import revision_made
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator, Awaitable, Callable
+    from uuid import UUID
+
+    from backend.projects.models import ChangeSet
+
+KIND: Final = "revision"
+
+
+def watch_revisions() -> None:
+    """From now on each change set is announced when it is committed."""
+    revision_made.connect(_announce_later, dispatch_uid="announce_revision")
+
+
+def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
+    notice = {
+        "type": KIND,
+        "revision": change.number,
+        "author": change.author.username if change.author else "",
+        "message": change.message,
+    }
+    group = group_of(change.project_id)
+    # Robust: a lost notice must not make a save that is stored look as if it had failed.
+    transaction.on_commit(lambda: tell(group, notice), robust=True)
+
+
+def group_of(project_id: UUID) -> str:
+    """The channel layer's group of those who have the project open."""
+    return f"project.{project_id}"
+
+
+@asynccontextmanager
+async def notices_of(project_id: UUID) -> AsyncIterator[Callable[[], Awaitable[dict[str, Any]]]]:
+    """Gives a function that waits for the next notice."""
+    layer = get_channel_layer()
+    channel = await layer.new_channel()
+    await layer.group_add(group_of(project_id), channel)
+    try:
+        yield lambda: layer.receive(channel)
+    finally:
+        await layer.group_discard(group_of(project_id), channel)

@@ -1,0 +1,446 @@
+"""Requests and answers of the projects API: what OpenAPI says, and the first check of what comes in."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+from typing import Any, Final
+
+from drf_spectacular.utils import extend_schema_field
+from rest_framework import serializers
+
+from backend.core.limits import LIMITS
+from backend.projects.storage.changes import Content, FileChange
+from backend.projects.storage.names import MAX_NAME_LENGTH, MAX_PATH_LENGTH
+
+OBJECT = {"type": "object", "additionalProperties": {}}
+MAX_REVISION = 2**31 - 1
+
+
+@extend_schema_field(OBJECT)
+class ObjectField(serializers.JSONField):
+    """A JSON object."""
+
+    def to_internal_value(self, data: Any) -> Any:
+        """Refuses every other JSON value."""
+        value = super().to_internal_value(data)
+        if not isinstance(value, dict):
+            raise serializers.ValidationError("This must be a JSON object.")
+        return value
+
+
+class TextField(serializers.CharField):
+    """Text as it is: not trimmed, and no number or boolean taken for text."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**{"trim_whitespace": False, "allow_blank": True, **kwargs})
+
+    def to_internal_value(self, data: Any) -> str:
+        """Refuses what is not text."""
+        if not isinstance(data, str):
+            raise serializers.ValidationError("This must be text.")
+        return super().to_internal_value(data)
+
+
+class StrictIntegerField(serializers.IntegerField):
+    """A number, not text that looks like one."""
+
+    def to_internal_value(self, data: Any) -> int:
+        """Refuses text and booleans."""
+        if isinstance(data, bool) or not isinstance(data, int):
+            raise serializers.ValidationError("This must be a whole number.")
+        return super().to_internal_value(data)
+
+
+class StrictBooleanField(serializers.BooleanField):
+    """True or false, not a word for it."""
+
+    def to_internal_value(self, data: Any) -> bool:
+        """Refuses everything else."""
+        if not isinstance(data, bool):
+            raise serializers.ValidationError("This must be true or false.")
+        return data
+
+
+class StrictSerializer(serializers.Serializer[Any]):
+    """Refuses fields that it does not know: a misspelt one is never dropped in silence."""
+
+    def to_internal_value(self, data: Any) -> Any:
+        """Names the unknown field."""
+        if isinstance(data, dict) and (unknown := set(data) - set(self.fields)):
+            raise serializers.ValidationError({str(min(unknown))[:100]: "There is no such field."})
+        return super().to_internal_value(data)
+
+
+class DiagnosticSerializer(serializers.Serializer[Any]):
+    """One finding of the translator."""
+
+    code = serializers.CharField()
+    severity = serializers.ChoiceField(choices=["error", "warning", "note"])
+    message = serializers.CharField()
+    hint = serializers.CharField()
+    values = serializers.DictField(child=serializers.CharField())
+    tree = serializers.CharField()
+    node = serializers.CharField()
+    port = serializers.CharField()
+    file = serializers.CharField()
+    line = serializers.IntegerField(allow_null=True)
+    column = serializers.IntegerField(allow_null=True)
+
+
+class PortSerializer(serializers.Serializer[Any]):
+    """A port that an action declares."""
+
+    name = serializers.CharField()
+    direction = serializers.ChoiceField(choices=["input", "output", "inout"])
+    type = serializers.CharField()
+    default = serializers.CharField(allow_null=True)
+    required = serializers.BooleanField()  # type: ignore[assignment]
+    description = serializers.CharField()
+
+
+class ActionSerializer(serializers.Serializer[Any]):
+    """The declarations in the source of an action."""
+
+    name = serializers.CharField()
+    path = serializers.CharField()
+    doc = serializers.CharField()
+    kind = serializers.CharField()
+    open = serializers.BooleanField()
+    line = serializers.IntegerField()
+    ports = PortSerializer(many=True)
+    imports = serializers.ListField(child=serializers.CharField())
+    diagnostics = DiagnosticSerializer(many=True)
+
+
+CHECKED: Final = "false: the project could not be checked, so that its actions are not known."
+
+
+class ReportSerializer(serializers.Serializer[Any]):
+    """The findings of the translator in a project."""
+
+    diagnostics = DiagnosticSerializer(many=True)
+    actions = ActionSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
+
+
+class FileSerializer(serializers.Serializer[Any]):
+    """A file as it is now; `content` is null when it is not text."""
+
+    path = serializers.CharField()
+    revision = serializers.IntegerField()
+    size = serializers.IntegerField()
+    sha256 = serializers.CharField()
+    updated_at = serializers.DateTimeField()
+    content = serializers.CharField(allow_null=True)
+
+
+class FileInfoSerializer(serializers.Serializer[Any]):
+    """A file without its content."""
+
+    path = serializers.CharField()
+    revision = serializers.IntegerField()
+    size = serializers.IntegerField()
+    sha256 = serializers.CharField()
+
+
+class ProjectSummarySerializer(serializers.Serializer[Any]):
+    """A project in a list."""
+
+    id = serializers.UUIDField()
+    name = serializers.CharField()
+    description = serializers.CharField()
+    main_tree = serializers.CharField()
+    universe = serializers.CharField()
+    revision = serializers.IntegerField()
+    size = serializers.IntegerField()
+    created_at = serializers.DateTimeField()
+    updated_at = serializers.DateTimeField()
+    archived_at = serializers.DateTimeField(allow_null=True)
+    deleted_at = serializers.DateTimeField(allow_null=True)
+    role = serializers.ChoiceField(
+        choices=["viewer", "editor", "owner"], help_text="What the user who asked may do with it."
+    )
+    owner = serializers.CharField()
+    root_diagram = ObjectField(allow_null=True)
+
+
+class ProjectListSerializer(serializers.Serializer[Any]):
+    """A page of projects; `next_offset` is null on the last."""
+
+    items = ProjectSummarySerializer(many=True)
+    total = serializers.IntegerField()
+    next_offset = serializers.IntegerField(allow_null=True)
+
+
+class ProjectDetailSerializer(ProjectSummarySerializer):
+    """An opened project."""
+
+    settings = ObjectField()
+    files = FileSerializer(many=True)
+    actions = ActionSerializer(many=True)
+    diagnostics = DiagnosticSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
+
+
+class ProjectListQuerySerializer(serializers.Serializer[Any]):
+    """The query of a list."""
+
+    search = serializers.CharField(required=False, default="", allow_blank=True, max_length=200)
+    sort = serializers.ChoiceField(
+        choices=["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"],
+        required=False,
+        default="-updated_at",
+    )
+    shelf = serializers.ChoiceField(
+        choices=["current", "archived", "deleted"], required=False, default="current"
+    )
+    limit = serializers.IntegerField(required=False, default=500, min_value=1, max_value=500)
+    offset = serializers.IntegerField(required=False, default=0, min_value=0, max_value=MAX_REVISION)
+
+
+class CreateProjectSerializer(StrictSerializer):
+    """A new project."""
+
+    name = TextField(required=False, default="", max_length=MAX_NAME_LENGTH)
+    template = TextField(required=False, default="empty", max_length=MAX_NAME_LENGTH)
+
+
+class DuplicateProjectSerializer(StrictSerializer):
+    """The name of the copy; without one it gets a number."""
+
+    name = TextField(required=False, default="", max_length=MAX_NAME_LENGTH)
+
+
+class EditProjectSerializer(StrictSerializer):
+    """Fields of project.json to change; `settings` replaces it as a whole."""
+
+    base_revision = StrictIntegerField(min_value=1, max_value=MAX_REVISION)
+    name = TextField(required=False, max_length=MAX_NAME_LENGTH)
+    description = TextField(required=False, max_length=LIMITS["description_characters"])
+    settings = ObjectField(required=False)
+
+
+class FileChangeSerializer(StrictSerializer):
+    """New content, a new path, both, or the end of one file."""
+
+    path = TextField(max_length=MAX_PATH_LENGTH)
+    base_revision = StrictIntegerField(
+        min_value=0, max_value=MAX_REVISION, help_text="0: the file must not exist yet."
+    )
+    content = TextField(required=False)
+    content_base64 = TextField(required=False)
+    delete = StrictBooleanField(required=False, default=False)
+    rename_to = TextField(required=False, default="", max_length=MAX_PATH_LENGTH)
+
+    def validate(self, attrs: dict[str, Any]) -> dict[str, Any]:
+        """Decodes the content."""
+        if "content" in attrs and "content_base64" in attrs:
+            raise serializers.ValidationError({"content": "Give content or content_base64, not both."})
+        attrs["bytes"] = _content(attrs)
+        return attrs
+
+
+def _content(attrs: dict[str, Any]) -> Content | None:
+    if "content" in attrs:
+        return Content.of(attrs["content"].encode())
+    if "content_base64" not in attrs:
+        return None
+    try:
+        return Content.of(base64.b64decode(attrs["content_base64"], validate=True))
+    except (binascii.Error, ValueError) as error:
+        raise serializers.ValidationError({"content_base64": "This is not base64."}) from error
+
+
+class ChangesSerializer(StrictSerializer):
+    """One user action on several files, done as a whole or not at all."""
+
+    message = TextField(required=False, default="", max_length=500)
+    files = FileChangeSerializer(many=True, allow_empty=False)
+
+
+def file_changes(data: dict[str, Any]) -> list[FileChange]:
+    """The checked request as the core takes it."""
+    return [
+        FileChange(f["path"], f["base_revision"], f["bytes"], delete=f["delete"], rename_to=f["rename_to"])
+        for f in data["files"]
+    ]
+
+
+class ChangesDoneSerializer(serializers.Serializer[Any]):
+    """The project after the change: all files, and what the translator says now."""
+
+    revision = serializers.IntegerField()
+    files = FileInfoSerializer(many=True)
+    actions = ActionSerializer(many=True)
+    diagnostics = DiagnosticSerializer(many=True)
+    checked = serializers.BooleanField(help_text=CHECKED)
+
+
+class TheirsSerializer(serializers.Serializer[Any]):
+    """The version that exists."""
+
+    revision = serializers.IntegerField()
+    content = serializers.CharField(allow_null=True)
+    updated_at = serializers.DateTimeField()
+
+
+class MineSerializer(serializers.Serializer[Any]):
+    """The version of the request."""
+
+    content = serializers.CharField(allow_null=True)
+
+
+class ConflictSerializer(serializers.Serializer[Any]):
+    """Both versions of a file; `theirs` is null when the file is gone."""
+
+    path = serializers.CharField()
+    base_revision = serializers.IntegerField()
+    theirs = TheirsSerializer(allow_null=True)
+    mine = MineSerializer()
+
+
+class OverlayFileSerializer(StrictSerializer):
+    """A file as it is in the editor."""
+
+    path = TextField(max_length=MAX_PATH_LENGTH)
+    content = TextField()
+
+
+class CheckSerializer(StrictSerializer):
+    """Files that differ from what is stored, for a check before saving."""
+
+    files = OverlayFileSerializer(many=True, required=False, default=list)
+
+
+class InspectActionSerializer(StrictSerializer):
+    """The source of an action."""
+
+    source = TextField(max_length=2_000_000)  # type: ignore[assignment]
+    filename = TextField(max_length=MAX_PATH_LENGTH)
+
+
+class RevisionFileSerializer(serializers.Serializer[Any]):
+    """The change of a file in a revision."""
+
+    path = serializers.CharField()
+    change = serializers.ChoiceField(choices=["written", "deleted", "renamed"])
+    renamed_from = serializers.CharField()
+
+
+class RevisionSerializer(serializers.Serializer[Any]):
+    """One revision of a project."""
+
+    number = serializers.IntegerField()
+    message = serializers.CharField()
+    label = serializers.CharField()  # type: ignore[assignment]
+    author = serializers.CharField()
+    created_at = serializers.DateTimeField()
+    files = RevisionFileSerializer(many=True)
+
+
+class RevisionListSerializer(serializers.Serializer[Any]):
+    """Revisions, the newest first; `next_before` is null on the last page."""
+
+    items = RevisionSerializer(many=True)
+    next_before = serializers.IntegerField(allow_null=True)
+
+
+class RevisionListQuerySerializer(serializers.Serializer[Any]):
+    """The query of a history."""
+
+    path = serializers.CharField(required=False, default="", max_length=MAX_PATH_LENGTH)
+    before = serializers.IntegerField(required=False, min_value=1, max_value=MAX_REVISION)
+    limit = serializers.IntegerField(required=False, default=100, min_value=1, max_value=500)
+
+
+class LabelSerializer(StrictSerializer):
+    """A name for a revision; empty takes it away."""
+
+    label = TextField(max_length=100)  # type: ignore[assignment]
+
+
+class RestoreRevisionSerializer(StrictSerializer):
+    """Which files to put back; all, when none are named."""
+
+    paths = serializers.ListField(
+        child=TextField(max_length=MAX_PATH_LENGTH),
+        required=False,
+        default=list,
+        max_length=LIMITS["files_per_project"],
+    )
+
+
+class FileDiffSerializer(serializers.Serializer[Any]):
+    """One file that differs; `diff` is null when a side is not text."""
+
+    path = serializers.CharField()
+    change = serializers.ChoiceField(choices=["added", "removed", "changed"])
+    diff = serializers.CharField(allow_null=True)
+
+
+class DiffSerializer(serializers.Serializer[Any]):
+    """The differences between two revisions."""
+
+    older = serializers.IntegerField()
+    newer = serializers.IntegerField()
+    files = FileDiffSerializer(many=True)
+
+
+class DiffQuerySerializer(serializers.Serializer[Any]):
+    """The revision to compare with; by default the one before."""
+
+    against = serializers.IntegerField(required=False, min_value=0, max_value=MAX_REVISION)
+
+
+class DraftSerializer(serializers.Serializer[Any]):
+    """A draft: text that this user typed and did not save."""
+
+    path = serializers.CharField()
+    base_revision = serializers.IntegerField()
+    content = serializers.CharField(allow_blank=True)
+    updated_at = serializers.DateTimeField()
+
+
+class DraftListSerializer(serializers.Serializer[Any]):
+    """The drafts of a project."""
+
+    items = DraftSerializer(many=True)
+
+
+class SaveDraftSerializer(StrictSerializer):
+    """A draft to keep."""
+
+    base_revision = StrictIntegerField(min_value=0, max_value=MAX_REVISION)
+    content = TextField()
+
+
+class AppSerializer(serializers.Serializer[Any]):
+    """The project in the form that the executor runs."""
+
+    app_zip_base64 = serializers.CharField()
+    tick_hz = serializers.FloatField()
+    on_finish = serializers.ChoiceField(choices=["stop", "repeat"])
+    on_error = serializers.ChoiceField(choices=["stop", "failure"])
+    universe = serializers.SerializerMethodField()
+    robot = serializers.CharField(allow_null=True)
+
+    @extend_schema_field(
+        {
+            "oneOf": [
+                {"type": "string"},
+                {
+                    "type": "object",
+                    "properties": {
+                        "document": {"type": "string"},
+                        "assets_zip_base64": {"type": "string"},
+                        "file": {"type": "string", "description": "What errors call the document."},
+                    },
+                    "required": ["document", "assets_zip_base64", "file"],
+                },
+            ]
+        }
+    )
+    def get_universe(self, app: dict[str, Any]) -> Any:
+        """An id, or a document with its assets."""
+        return app["universe"]

@@ -1,0 +1,317 @@
+"""Projects over HTTP: parse, call, answer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from uuid import UUID
+
+from django.db import transaction
+from drf_spectacular.utils import OpenApiParameter, extend_schema
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.api.requests import if_match, parsed, user_of
+from backend.core.rest.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
+from backend.projects.api import presentation
+from backend.projects.api import serializers as s
+from backend.projects.api.idempotency import once
+from backend.projects.api.schema import ConflictProblemSerializer
+from backend.projects.documents import checking, templates
+from backend.projects.storage import names, queries, writes
+from backend.projects.storage.access import Need
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+
+    from backend.projects.models import Project
+
+
+def opened(
+    view: APIView, request: Request, action: Callable[[], Project], *, status: int = 200
+) -> HttpResponseBase:
+    """Carries out what writes a project, once for its key, and answers with the project and its problems.
+
+    What the answer takes from the database is read in the same transaction: nothing that comes after the
+    commit can make what was written look as if it had failed.
+    """
+    contents: dict[str, bytes] = {}
+
+    def effect() -> Response:
+        with transaction.atomic():
+            project = action()
+            found = presentation.opened(project)
+        contents.update(found.contents)
+        return Response(found.rows, status=status, headers={"ETag": queries.etag(project)})
+
+    response = once(request, user_of(request), effect)
+    return checking.reported(
+        view, request, response, lambda: contents or _stored(request, response.data["id"])
+    )
+
+
+def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
+    """The files of a project that an earlier request with the same key wrote."""
+    return queries.contents(queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ))
+
+
+class Projects(APIView):
+    """All projects of a user."""
+
+    @extend_schema(
+        operation_id="list_projects",
+        parameters=[s.ProjectListQuerySerializer],
+        responses=s.ProjectListSerializer,
+        tags=["projects"],
+    )
+    def get(self, request: Request) -> Response:
+        """Lists the user's projects."""
+        asked = parsed(s.ProjectListQuerySerializer, request.query_params.dict())
+        rows = queries.projects(
+            user=user_of(request), search=asked["search"], sort=asked["sort"], shelf=asked["shelf"]
+        )
+        end = asked["offset"] + asked["limit"]
+        page, total = queries.page(rows, asked["offset"], end)
+        diagrams = queries.root_diagrams(page)
+        items = [presentation.summary(project, diagrams.get(project.id)) for project in page]
+        return Response({"items": items, "total": total, "next_offset": end if end < total else None})
+
+    @extend_schema(
+        operation_id="create_project",
+        parameters=[IDEMPOTENCY_KEY],
+        request=s.CreateProjectSerializer,
+        responses={201: s.ProjectDetailSerializer},
+        tags=["projects"],
+    )
+    def post(self, request: Request) -> HttpResponseBase:
+        """Creates a project from a template."""
+        asked = parsed(s.CreateProjectSerializer, request.data)
+        user = user_of(request)
+
+        def create() -> Project:
+            files = templates.files_of(asked["template"])
+            return writes.create_project(files, acting_user=user, name=asked["name"])
+
+        return opened(self, request, create, status=201)
+
+
+class OneProject(APIView):
+    """One project."""
+
+    @extend_schema(
+        operation_id="get_project",
+        parameters=[IF_NONE_MATCH],
+        responses={200: s.ProjectDetailSerializer, 304: None},
+        tags=["projects"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Opens a project: its files, actions and problems."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        if queries.etag(project) in request.headers.get("If-None-Match", ""):
+            return Response(status=304, headers={"ETag": queries.etag(project)})
+        found = presentation.opened(project)
+        response = Response(found.rows, headers={"ETag": queries.etag(project)})
+        return checking.reported(self, request, response, lambda: found.contents)
+
+    @extend_schema(
+        operation_id="edit_project",
+        parameters=[IF_MATCH],
+        request=s.EditProjectSerializer,
+        responses={200: s.ProjectDetailSerializer}
+        | problem_of(ConflictProblemSerializer, "project.json changed meanwhile, or the name is taken."),
+        tags=["projects"],
+    )
+    def patch(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Renames a project or changes its settings."""
+        asked = parsed(s.EditProjectSerializer, request.data)
+        user, tag = user_of(request), if_match(request)
+        return opened(
+            self,
+            request,
+            lambda: writes.edit_settings(project_id, acting_user=user, if_match=tag, **asked),
+        )
+
+    @extend_schema(
+        operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
+    )
+    def delete(self, request: Request, project_id: UUID) -> Response:
+        """Deletes a project; `restore` brings it back."""
+        writes.delete_project(project_id, acting_user=user_of(request), if_match=if_match(request))
+        return Response(status=204)
+
+
+class Restore(APIView):
+    """Undo of a deletion."""
+
+    @extend_schema(
+        operation_id="restore_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Brings a deleted project back, under another name where its own was taken since."""
+        user, tag = user_of(request), if_match(request)
+        return opened(
+            self, request, lambda: writes.restore_project(project_id, acting_user=user, if_match=tag)
+        )
+
+
+class Archive(APIView):
+    """Puts a project out of the way."""
+
+    @extend_schema(
+        operation_id="archive_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Moves a project to the archive."""
+        user, tag = user_of(request), if_match(request)
+        return opened(
+            self,
+            request,
+            lambda: writes.set_archived(project_id, acting_user=user, archived=True, if_match=tag),
+        )
+
+
+class Unarchive(APIView):
+    """Takes a project back into use."""
+
+    @extend_schema(
+        operation_id="unarchive_project",
+        parameters=[IF_MATCH],
+        request=None,
+        responses=s.ProjectDetailSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Moves a project out of the archive."""
+        user, tag = user_of(request), if_match(request)
+        return opened(
+            self,
+            request,
+            lambda: writes.set_archived(project_id, acting_user=user, archived=False, if_match=tag),
+        )
+
+
+class Duplicate(APIView):
+    """Copies a project."""
+
+    expensive = ("POST",)
+
+    @extend_schema(
+        operation_id="duplicate_project",
+        parameters=[IDEMPOTENCY_KEY],
+        request=s.DuplicateProjectSerializer,
+        responses={201: s.ProjectDetailSerializer},
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Makes a new project of the current files."""
+        name = parsed(s.DuplicateProjectSerializer, request.data)["name"]
+        user = user_of(request)
+        return opened(
+            self,
+            request,
+            lambda: writes.duplicate_project(project_id, acting_user=user, name=name),
+            status=201,
+        )
+
+
+class Changes(APIView):
+    """The one way to write files."""
+
+    @extend_schema(
+        operation_id="save_changes",
+        parameters=[IF_MATCH, IDEMPOTENCY_KEY],
+        request=s.ChangesSerializer,
+        responses={200: s.ChangesDoneSerializer}
+        | problem_of(ConflictProblemSerializer, "A base is stale; nothing was written."),
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Writes, renames and deletes files in one step, all or nothing."""
+        asked = parsed(s.ChangesSerializer, request.data)
+        user = user_of(request)
+        saved: list[Project] = []
+
+        def effect() -> Response:
+            project = writes.save_files(
+                project_id,
+                s.file_changes(asked),
+                acting_user=user,
+                message=asked["message"],
+                if_match=if_match(request),
+            )
+            saved.append(project)
+            return Response(presentation.changed(project), headers={"ETag": queries.etag(project)})
+
+        response = once(request, user, effect)
+        return checking.reported(
+            self,
+            request,
+            response,
+            lambda: queries.contents(saved[0]) if saved else _stored(request, project_id),
+        )
+
+
+class Check(APIView):
+    """Problems before saving."""
+
+    @extend_schema(
+        operation_id="check_project",
+        request=s.CheckSerializer,
+        responses=s.ReportSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Checks the project as it would be with these files."""
+        asked = parsed(s.CheckSerializer, request.data)
+        files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
+        for overlay in asked["files"]:
+            files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
+        return checking.reported(self, request, Response({}), lambda: files)
+
+
+class App(APIView):
+    """The form of a project that runs."""
+
+    @extend_schema(
+        operation_id="get_app",
+        parameters=[OpenApiParameter("universe", str, description="Where to run, if not where it says.")],
+        responses=s.AppSerializer,
+        tags=["projects"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The project in the form that the executor runs; 422 with `diagnostics` when it has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        universe = request.query_params.get("universe") or ""
+        files = queries.contents(project)
+        built_in = checking.built_in_universe(files, universe or project.universe)
+        return checking.answered(
+            self, request, "app", Response, files=files, universe=universe, built_in=built_in
+        )
+
+
+class InspectAction(APIView):
+    """Reads the source of one action."""
+
+    @extend_schema(
+        operation_id="inspect_action",
+        request=s.InspectActionSerializer,
+        responses=s.ActionSerializer,
+        tags=["projects"],
+    )
+    def post(self, request: Request) -> HttpResponseBase:
+        """The declarations in the source of an action."""
+        asked = parsed(s.InspectActionSerializer, request.data)
+        filename = names.file_path(asked["filename"], field="filename")
+        return checking.answered(
+            self, request, "inspect", Response, source=asked["source"], filename=filename
+        )

@@ -1,0 +1,272 @@
+"""Files of a project as downloads: one file, the whole project, the tree as XML; and the way back."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import IO, TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from django.http import HttpResponse
+from drf_spectacular.types import OpenApiTypes
+from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
+from rest_framework import serializers
+from rest_framework.parsers import BaseParser, MultiPartParser
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.api.requests import user_of
+from backend.core.problems import InvalidInputError
+from backend.core.rest.openapi import IDEMPOTENCY_KEY
+from backend.ingress.bodies import body_of
+from backend.projects.api import serializers as s
+from backend.projects.api.views import opened
+from backend.projects.documents import archive, checking
+from backend.projects.storage import names, queries, writes
+from backend.projects.storage.access import Need
+from backend.workers.aside import unpacking
+from backend.workers.deferred import Deferred
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from concurrent.futures import Future
+    from uuid import UUID
+
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+
+    from backend.projects.documents.archive import Upload
+
+
+def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
+    """Bytes that the browser saves and never shows: what users stored must not run as a page."""
+    return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
+
+
+def saved_as(filename: str) -> dict[str, str]:
+    """Headers of what the browser saves under a name and never shows."""
+    return {
+        "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
+        "Content-Security-Policy": "default-src 'none'; sandbox",
+    }
+
+
+def flag(request: Request, name: str) -> bool:
+    """A yes or no of the query."""
+    wish = request.query_params.get(name, "false").lower()
+    if wish not in {"", "0", "1", "true", "false"}:
+        raise InvalidInputError(f"{name} is true or false.", field=name)
+    return wish in {"1", "true"}
+
+
+def zipped(name: str, made: dict[str, Any]) -> HttpResponse:
+    """A zip that a worker made."""
+    return download(made["zip"], "application/zip", f"{name}.zip")
+
+
+def packaged(made: dict[str, Any]) -> HttpResponse:
+    """A package that a worker made; it knows its name."""
+    return zipped(made["name"], made)
+
+
+class File(APIView):
+    """One file as it is."""
+
+    @extend_schema(
+        operation_id="download_file",
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
+        """The bytes of a current file."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return file_response(queries.current_file(project, names.file_path(path)))
+
+
+def file_response(file: queries.StoredFile) -> HttpResponse:
+    """A stored file with its revision in the ETag."""
+    response = download(file.data, "application/octet-stream", file.path.rpartition("/")[2])
+    response.headers["ETag"] = f'"{file.sha256}"'
+    response.headers["X-Revision"] = str(file.revision)
+    return response
+
+
+class Xml(APIView):
+    """The tree as XML."""
+
+    @extend_schema(
+        operation_id="get_xml",
+        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return checking.answered(
+            self,
+            request,
+            "xml",
+            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
+            files=queries.contents(project),
+            self_contained=flag(request, "self_contained"),
+        )
+
+
+class Export(APIView):
+    """The project folder as a zip."""
+
+    expensive = ("GET",)
+
+    @extend_schema(
+        operation_id="export_project",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The current files as a zip; the same revision gives the same bytes."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
+
+
+class Package(APIView):
+    """The exported package."""
+
+    expensive = ("GET",)
+
+    @extend_schema(
+        operation_id="get_package",
+        parameters=[
+            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
+            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
+        ],
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        if flag(request, "dockerized"):
+            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
+        name = request.query_params.get("name") or None
+        return checking.answered(self, request, "package", packaged, files=files, name=name)
+
+
+class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
+    """A file of the package."""
+
+    path = serializers.CharField()
+    size = serializers.IntegerField()
+
+
+class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
+    """The list of files of a package."""
+
+    name = serializers.CharField()
+    files = PackageFileSerializer(many=True)
+    manifest = serializers.CharField(help_text="package.xml, with the dependencies.")
+    diagnostics = s.DiagnosticSerializer(many=True)
+
+
+class PackagePreview(APIView):
+    """The list of files of an export."""
+
+    @extend_schema(
+        operation_id="preview_package",
+        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
+        responses=PackagePreviewSerializer,
+        tags=["files"],
+    )
+    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The files of the ROS 2 package, before it is downloaded."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        name = request.query_params.get("name") or None
+        files = queries.contents(project)
+        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
+
+
+class UploadSerializer(serializers.Serializer[dict[str, object]]):
+    """A file to import."""
+
+    file = serializers.FileField()
+    repair = serializers.BooleanField(required=False, help_text="Escape bare & and < in attributes of XML.")
+
+
+class RawFile(BaseParser):
+    """A file as the body itself; it is read from the file in which it lies already."""
+
+    media_type = "application/octet-stream"
+
+    def parse(
+        self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
+    ) -> dict[str, str]:
+        """Leaves it where it is."""
+        return {}
+
+
+class Import(APIView):
+    """The way back."""
+
+    parser_classes = (MultiPartParser, RawFile)
+    expensive = ("POST",)
+
+    @extend_schema(
+        operation_id="import_project",
+        parameters=[
+            IDEMPOTENCY_KEY,
+            OpenApiParameter(
+                "filename", str, description="The file's name, where the body is the file itself."
+            ),
+            OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
+        ],
+        request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
+        responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
+        tags=["files"],
+    )
+    def post(self, request: Request) -> HttpResponseBase:
+        """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
+
+        The file may be the body itself, and then as large as the user has room; a form has a request's bound.
+        """
+        user = user_of(request)
+        data, name = _uploaded(request)
+        wants_repair = flag(request, "repair") or request.POST.get("repair") == "true"
+
+        def create(made: dict[str, Any]) -> HttpResponseBase:
+            files: dict[str, bytes] = made["files"]
+            return opened(
+                self,
+                request,
+                lambda: writes.create_project(files, acting_user=user, message="Import"),
+                status=201,
+            )
+
+        def unpacked(done: Future[Upload]) -> HttpResponseBase:
+            upload = done.result()
+            if upload.is_ours:
+                return create({"files": upload.files})
+            return checking.answered(
+                self, request, "opened", create, files=upload.files, name=upload.name, repair=wants_repair
+            )
+
+        work = unpacking.ask(f"user {user.pk}", partial(archive.read_upload, data, name))
+        return Deferred(self, request, work, unpacked)
+
+
+def _uploaded(request: Request) -> tuple[IO[bytes], str]:
+    """The file that came, and its name."""
+    forms = request.FILES
+    if not request.content_type.startswith("multipart/"):
+        body = body_of(request)
+        name = request.query_params.get("filename", "")
+        if not body.read(1):
+            raise InvalidInputError(
+                "No file came with the request.", hint="Send it as the body.", field="file"
+            )
+        body.seek(0)
+        return body, name
+    uploaded = forms.get("file")
+    if uploaded is None or uploaded.file is None:
+        raise InvalidInputError("No file came with the request.", hint="Send it as “file”.", field="file")
+    return uploaded.file, uploaded.name or ""

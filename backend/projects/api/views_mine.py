@@ -1,0 +1,77 @@
+"""A user's data on this server: its size, all of it as a download, and its deletion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from drf_spectacular.types import OpenApiTypes
+from drf_spectacular.utils import extend_schema
+from rest_framework import serializers
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.api.requests import parsed, user_of
+from backend.accounts.api.serializers import DeleteMeSerializer
+from backend.accounts.audit import note
+from backend.accounts.writes import delete_account
+from backend.config.environment import environment
+from backend.core.problems import InvalidInputError, NotFoundError
+from backend.projects.api.views_files import saved_as
+from backend.projects.documents import personal_data
+from backend.projects.storage import usage
+
+if TYPE_CHECKING:
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+
+
+class UsageSerializer(serializers.Serializer[Any]):
+    """Room taken, and room given."""
+
+    projects = serializers.IntegerField()
+    max_projects = serializers.IntegerField()
+    bytes = serializers.IntegerField()
+    max_bytes = serializers.IntegerField()
+
+
+class Usage(APIView):
+    """The space that the user's projects take."""
+
+    @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
+    def get(self, request: Request) -> Response:
+        """Projects and bytes, with their limits."""
+        return Response(usage.usage(user_of(request)))
+
+
+class MyData(APIView):
+    """Everything of one user."""
+
+    expensive = ("GET",)
+
+    @extend_schema(
+        operation_id="export_my_data",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["accounts"],
+    )
+    def get(self, request: Request) -> HttpResponseBase:
+        """The account, its log and its projects, as one zip."""
+        user = user_of(request)
+        note("account.export", actor=user)
+        headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")
+        return personal_data.answer_with_archive(self, request, user, headers)
+
+    @extend_schema(
+        operation_id="delete_my_account",
+        request=DeleteMeSerializer,
+        responses={204: None},
+        tags=["accounts"],
+    )
+    def delete(self, request: Request) -> Response:
+        """Deletes the account with all its projects, for good; the body is `{"username": one's own name}`."""
+        user = user_of(request)
+        if not environment().is_team:
+            raise NotFoundError("There are no accounts on this server.")
+        if parsed(DeleteMeSerializer, request.data)["username"] != user.username:
+            raise InvalidInputError("This is not your name.", hint="Type it as it is.", field="username")
+        delete_account(user)
+        return Response(status=204)

@@ -1,0 +1,169 @@
+"""History of a project, and drafts that are not yet part of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from django.db import transaction
+from drf_spectacular.types import OpenApiTypes
+from drf_spectacular.utils import extend_schema
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.api.requests import if_match, parsed, user_of
+from backend.core.rest.openapi import IF_MATCH
+from backend.projects.api import presentation
+from backend.projects.api import serializers as s
+from backend.projects.api.views import opened
+from backend.projects.api.views_files import file_response
+from backend.projects.documents import checking
+from backend.projects.storage import draft_writes, names, queries, writes
+from backend.projects.storage.access import Need
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from django.http import HttpResponse
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+
+
+class Revisions(APIView):
+    """A project's history."""
+
+    @extend_schema(
+        operation_id="list_revisions",
+        parameters=[s.RevisionListQuerySerializer],
+        responses=s.RevisionListSerializer,
+        tags=["revisions"],
+    )
+    def get(self, request: Request, project_id: UUID) -> Response:
+        """The change sets, the newest first; all, or those that touched one file."""
+        asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        limit = asked["limit"]
+        found = queries.history(project, path=asked["path"], before=asked.get("before"), limit=limit + 1)
+        page = found[:limit]
+        following = page[-1].number if len(found) > limit else None
+        return Response({"items": [presentation.revision(row) for row in page], "next_before": following})
+
+
+class Revision(APIView):
+    """One change set."""
+
+    @extend_schema(
+        operation_id="label_revision",
+        parameters=[IF_MATCH],
+        request=s.LabelSerializer,
+        responses=s.RevisionSerializer,
+        tags=["revisions"],
+    )
+    @transaction.atomic  # with what the answer reads
+    def patch(self, request: Request, project_id: UUID, number: int) -> Response:
+        """Gives a revision a name, or takes it away."""
+        asked = parsed(s.LabelSerializer, request.data)
+        row = writes.label_revision(
+            project_id, number, asked["label"], acting_user=user_of(request), if_match=if_match(request)
+        )
+        return Response(presentation.revision(row), headers={"ETag": queries.revision_etag(row)})
+
+
+class RevisionFile(APIView):
+    """A file as it was."""
+
+    @extend_schema(
+        operation_id="download_old_file",
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        tags=["revisions"],
+    )
+    def get(self, request: Request, project_id: UUID, number: int, path: str) -> HttpResponse:
+        """The bytes of a file as it was after a revision."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return file_response(queries.file_at(project, number, names.file_path(path)))
+
+
+class RevisionDiff(APIView):
+    """The changes of a revision."""
+
+    @extend_schema(
+        operation_id="diff_revision",
+        parameters=[s.DiffQuerySerializer],
+        responses=s.DiffSerializer,
+        tags=["revisions"],
+    )
+    def get(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
+        """Compares a revision with the one before, or with `against` (0 is the empty project)."""
+        asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        newer = queries.files_at(project, number)
+        against = asked.get("against", number - 1)
+        older = queries.files_at(project, against) if against else {}
+        older_texts, newer_texts = queries.differing(older, newer)
+        return checking.answered(
+            self,
+            request,
+            "diff",
+            lambda found: Response({"older": against, "newer": number} | found),
+            older=older_texts,
+            newer=newer_texts,
+        )
+
+
+class RestoreRevision(APIView):
+    """Restores an old revision as a new one."""
+
+    @extend_schema(
+        operation_id="restore_revision",
+        parameters=[IF_MATCH],
+        request=s.RestoreRevisionSerializer,
+        responses=s.ProjectDetailSerializer,
+        tags=["revisions"],
+    )
+    def post(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
+        """Makes a new revision with files as they were."""
+        asked = parsed(s.RestoreRevisionSerializer, request.data)
+        paths = [names.file_path(path, field="paths") for path in asked["paths"]]
+        user, tag = user_of(request), if_match(request)
+        return opened(
+            self,
+            request,
+            lambda: writes.restore_revision(project_id, number, acting_user=user, paths=paths, if_match=tag),
+        )
+
+
+class Drafts(APIView):
+    """Drafts: text that was typed and not saved."""
+
+    @extend_schema(operation_id="list_drafts", responses=s.DraftListSerializer, tags=["drafts"])
+    def get(self, request: Request, project_id: UUID) -> Response:
+        """The user's drafts in this project."""
+        user = user_of(request)
+        rows = queries.drafts(queries.project(project_id, user=user, need=Need.WRITE), user=user)
+        return Response({"items": [presentation.draft(row) for row in rows]})
+
+
+class OneDraft(APIView):
+    """The draft of one file."""
+
+    @extend_schema(
+        operation_id="save_draft",
+        parameters=[IF_MATCH],
+        request=s.SaveDraftSerializer,
+        responses=s.DraftSerializer,
+        tags=["drafts"],
+    )
+    def put(self, request: Request, project_id: UUID, path: str) -> Response:
+        """Keeps a draft; saving the file ends it."""
+        asked = parsed(s.SaveDraftSerializer, request.data)
+        row = draft_writes.save_draft(
+            project_id, path, acting_user=user_of(request), if_match=if_match(request), **asked
+        )
+        return Response(presentation.draft(row), headers={"ETag": queries.draft_etag(row)})
+
+    @extend_schema(
+        operation_id="discard_draft", parameters=[IF_MATCH], responses={204: None}, tags=["drafts"]
+    )
+    def delete(self, request: Request, project_id: UUID, path: str) -> Response:
+        """Forgets a draft."""
+        draft_writes.discard_draft(project_id, path, acting_user=user_of(request), if_match=if_match(request))
+        return Response(status=204)

@@ -1,0 +1,100 @@
+"""Trees as text that is being written; nothing is stored."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from drf_spectacular.utils import extend_schema
+from rest_framework import serializers
+from rest_framework.response import Response
+from rest_framework.views import APIView
+
+from backend.accounts.api.requests import parsed
+from backend.core.limits import LIMITS
+from backend.projects.api import serializers as s
+from backend.projects.documents import checking
+
+if TYPE_CHECKING:
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+
+MAX_TEXT = LIMITS["tree_text_characters"]
+
+
+class WriteTreeSerializer(s.StrictSerializer):
+    """A diagram to be written as XML."""
+
+    diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
+    base = s.TextField(
+        required=False, default="", max_length=MAX_TEXT, help_text="An earlier text, to be patched."
+    )
+    ids = serializers.ListField(
+        child=s.TextField(max_length=LIMITS["name_characters"]),
+        required=False,
+        default=list,
+        max_length=LIMITS["nodes_per_tree"],
+        help_text="The nodes of `base`, in the order of the text.",
+    )
+
+
+class ReadTreeSerializer(s.StrictSerializer):
+    """An edited text."""
+
+    xml = s.TextField(max_length=MAX_TEXT)
+    diagram = s.TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
+
+
+class NodeRangeSerializer(serializers.Serializer[Any]):
+    """Where a node stands in the text; offsets in UTF-16 code units, lines ending in one."""
+
+    node = serializers.CharField()
+    start = serializers.IntegerField()
+    open_end = serializers.IntegerField(help_text="Behind its start tag.")
+    end = serializers.IntegerField()
+
+
+class TreeTextSerializer(serializers.Serializer[Any]):
+    """The XML of one tree."""
+
+    xml = serializers.CharField()
+    ranges = NodeRangeSerializer(many=True)
+
+
+class ReadTreeDoneSerializer(TreeTextSerializer):
+    """The tree that a text stands for."""
+
+    diagram = serializers.CharField(allow_null=True, help_text="null: the text cannot be read.")
+    diagnostics = s.DiagnosticSerializer(many=True)
+
+
+class TreeXml(APIView):
+    """A tree as text; who may read a project may read its trees so."""
+
+    open_to_guests = True
+    guests_post = True
+
+    @extend_schema(
+        operation_id="write_tree_xml",
+        request=WriteTreeSerializer,
+        responses=TreeTextSerializer,
+        tags=["trees"],
+    )
+    def post(self, request: Request) -> HttpResponseBase:
+        """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
+        asked = parsed(WriteTreeSerializer, request.data)
+        return checking.answered(self, request, "write_tree", Response, **asked)
+
+
+class TreeDiagram(APIView):
+    """A text as tree."""
+
+    @extend_schema(
+        operation_id="read_tree_xml",
+        request=ReadTreeSerializer,
+        responses=ReadTreeDoneSerializer,
+        tags=["trees"],
+    )
+    def post(self, request: Request) -> HttpResponseBase:
+        """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
+        asked = parsed(ReadTreeSerializer, request.data)
+        return checking.answered(self, request, "read_tree", Response, **asked)

@@ -1,0 +1,131 @@
+"""Zips from outside, read with suspicion."""
+
+from __future__ import annotations
+
+import stat
+import zipfile
+import zlib
+from pathlib import PurePosixPath
+from typing import IO, TYPE_CHECKING, Final, NamedTuple
+
+from backend.config.environment import environment
+from backend.projects.errors import ArchiveError, QuotaExceededError
+from backend.projects.storage import names
+from backend.projects.storage.manifest import MANIFEST
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_CHUNK: Final = 256 * 1024
+XML_SUFFIXES: Final = (".xml", ".btproj")
+_JUNK: Final = ("__MACOSX/", "__pycache__/")
+
+
+def unpack(data: IO[bytes]) -> dict[str, bytes]:
+    """The files of a zip from outside, by the paths that the project will have.
+
+    What counts is what comes out, not what the headers say: reading stops at the quota. One folder
+    around everything is taken off.
+
+    Raises:
+        ArchiveError: it is no zip, or has entries that are no plain files.
+        InvalidInputError: an entry's path is not acceptable, for one that climbs out of the project.
+        QuotaExceededError: it holds more than a project may.
+    """
+    try:
+        with zipfile.ZipFile(data) as archive:
+            files = dict(_entries(archive))
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        EOFError,
+        NotImplementedError,  # zipfile, of a compression that it does not know
+        RuntimeError,
+        UnicodeError,
+    ) as error:
+        raise ArchiveError(f"This is not a zip that can be read: {error}.", field="file") from error
+    if not files:
+        raise ArchiveError("The zip holds no files.", field="file")
+    return _without_common_folder(files)
+
+
+def _entries(archive: zipfile.ZipFile) -> Iterator[tuple[str, bytes]]:
+    limits = environment()
+    entries = [entry for entry in archive.infolist() if not entry.is_dir() and not _is_junk(entry.filename)]
+    if len(entries) > limits.max_project_files:
+        raise QuotaExceededError(f"The zip holds more than {limits.max_project_files} files.", field="file")
+    left = limits.max_project_bytes
+    seen: set[str] = set()
+    for entry in entries:
+        path = names.file_path(entry.filename, field="file")
+        if path in seen:
+            raise ArchiveError(f"The zip holds “{names.shown(path)}” twice.", field="file")
+        seen.add(path)
+        kind = stat.S_IFMT(entry.external_attr >> 16)
+        if kind not in {0, stat.S_IFREG}:
+            raise ArchiveError(f"“{names.shown(path)}” is a link or a device, not a file.", field="file")
+        if entry.flag_bits & 0x1:
+            raise ArchiveError("The zip is encrypted.", hint="Make one without a password.", field="file")
+        content = _read(archive, entry, min(left, limits.max_file_bytes))
+        left -= len(content)
+        yield path, content
+
+
+def _read(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, limit: int) -> bytes:
+    content = bytearray()
+    with archive.open(entry) as stream:
+        while chunk := stream.read(_CHUNK):
+            content += chunk
+            if len(content) > limit:
+                raise QuotaExceededError(
+                    f"“{names.shown(entry.filename)}” unpacks to more than a project may hold.", field="file"
+                )
+    return bytes(content)
+
+
+def _is_junk(name: str) -> bool:
+    return (
+        names.is_of_tool(name)
+        or name.startswith(_JUNK)
+        or "/__pycache__/" in name
+        or name.rpartition("/")[2] == ".DS_Store"
+    )
+
+
+def _without_common_folder(files: dict[str, bytes]) -> dict[str, bytes]:
+    if MANIFEST in files:
+        return files
+    folder, slash, _ = next(iter(files)).partition("/")
+    if not slash or not all(path.startswith(folder + "/") for path in files):
+        return files
+    return {path.removeprefix(folder + "/"): content for path, content in files.items()}
+
+
+class Upload(NamedTuple):
+    """An imported project.
+
+    Attributes:
+        files: what is in it, by path.
+        is_ours: it is a project; else the translator opens it.
+        name: what a project made of it is called, if it does not say so itself.
+    """
+
+    files: dict[str, bytes]
+    is_ours: bool
+    name: str
+
+
+def read_upload(data: IO[bytes], filename: str) -> Upload:
+    """The files of whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
+
+    Raises:
+        ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.
+    """
+    name = PurePosixPath(filename)
+    if name.suffix.lower() in XML_SUFFIXES:
+        content = data.read(environment().max_file_bytes + 1)
+        if len(content) > environment().max_file_bytes:
+            raise QuotaExceededError(f"“{names.shown(filename)}” is larger than a file may be.", field="file")
+        return Upload({f"import{name.suffix.lower()}": content}, is_ours=False, name=name.stem)
+    files = unpack(data)
+    return Upload(files, MANIFEST in files, name.stem)

@@ -1,0 +1,148 @@
+"""All that is kept of one user, as they may take it away.
+
+A zip with `account.json`, and each project of theirs as the zip that export makes. It is made one project
+after the other, in a file: neither memory nor a thread holds all of it.
+"""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections import deque
+from contextlib import suppress
+from typing import IO, TYPE_CHECKING, Any
+
+from backend.accounts.groups import groups_of
+from backend.accounts.models import AuditEntry
+from backend.core.file_answers import FileAnswer
+from backend.core.scratch import scratch
+from backend.projects.models import ChangeSet, Draft, Project
+from backend.projects.storage import queries
+from backend.workers import zips
+from backend.workers.deferred import Deferred
+from backend.workers.lanes import pool
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+    from uuid import UUID
+
+    from django.http.response import HttpResponseBase
+    from rest_framework.request import Request
+    from rest_framework.views import APIView
+
+    from backend.accounts.models import User
+
+
+def write_archive(user: User, file: IO[bytes]) -> None:
+    """Writes the zip, waiting for each part of it."""
+    packing = _Packing(user, file)
+    while (project := packing.next()) is not None:
+        packing.add(project, zips.pack(queries.contents(project)))
+    packing.end()
+
+
+def answer_with_archive(
+    view: APIView, request: Request, user: User, headers: dict[str, str]
+) -> HttpResponseBase:
+    """Answers with the zip; workers pack the projects, for which no thread waits.
+
+    Raises:
+        AlreadyThereError: one is being made for this user.
+        NoRoomError, BusyError: too many large files are on their way, or too much work waits.
+    """
+    file = scratch().file(key=f"data of {user.pk}")
+    try:
+        answering = _Answering(view, request, user, file, headers)
+    except BaseException:
+        file.close()
+        raise
+    return answering.following()
+
+
+class _Answering:
+    """Packs one project after the other in the pool."""
+
+    def __init__(
+        self, view: APIView, request: Request, user: User, file: IO[bytes], headers: dict[str, str]
+    ) -> None:
+        self._view, self._request, self._user_id = view, request, user.pk
+        self._packing = _Packing(user, file)
+        self._file, self._headers = file, headers
+
+    def following(self) -> HttpResponseBase:
+        try:
+            return self._following()
+        except BaseException:
+            self._packing.give_up()
+            raise
+
+    def _following(self) -> HttpResponseBase:
+        project = self._packing.next()
+        if project is None:
+            self._packing.end()
+            return FileAnswer(self._file, headers=self._headers)
+        work = pool().ask(f"user {self._user_id}", "pack", files=queries.contents(project))
+        return Deferred(self._view, self._request, work, lambda done: self._packed(project, done))
+
+    def _packed(self, project: Project, done: Future[Any]) -> HttpResponseBase:
+        try:
+            self._packing.add(project, done.result()["zip"])
+        except BaseException:
+            self._packing.give_up()
+            raise
+        return self.following()
+
+
+class _Packing:
+    """The zip that is being made."""
+
+    def __init__(self, user: User, file: IO[bytes]) -> None:
+        self._zip, self._file = zipfile.ZipFile(file, "w"), file
+        account = json.dumps(_account(user), ensure_ascii=False, indent=2) + "\n"
+        self._zip.writestr("account.json", account, zipfile.ZIP_DEFLATED)
+        rows = Project.objects.filter(owner=user).order_by("name_key", "id")
+        self._left: deque[UUID] = deque(rows.values_list("id", flat=True))
+
+    def next(self) -> Project | None:
+        """The project that comes now; those that were removed meanwhile are left out."""
+        while self._left:
+            project = Project.objects.filter(id=self._left.popleft()).first()
+            if project is not None:
+                return project
+        return None
+
+    def add(self, project: Project, packed: bytes) -> None:
+        """Adds a project that is packed, and is not made smaller by packing it again."""
+        place = "deleted" if project.deleted_at else "projects"
+        self._zip.writestr(f"{place}/{project.name} ({project.id}).zip", packed)
+
+    def end(self) -> None:
+        """Writes what makes it a zip."""
+        self._zip.close()
+
+    def give_up(self) -> None:
+        """Leaves nothing of it."""
+        with suppress(Exception):  # the disk may be full
+            self._zip.close()
+        self._file.close()
+
+
+def _account(user: User) -> dict[str, Any]:
+    log = AuditEntry.objects.filter(actor=user).values("at", "action", "subject", "address")
+    drafts = Draft.objects.filter(author=user).values("project__name", "path", "content", "updated_at")
+    changes = ChangeSet.objects.filter(author=user).exclude(project__owner=user)
+    document: dict[str, Any] = {
+        "username": user.username,
+        "name": user.get_full_name(),
+        "email": user.email,
+        "joined": user.date_joined,
+        "last_sign_in": user.last_login,
+        "groups": [group.name for group in groups_of(user)],
+        "log": list(log),
+        "drafts": list(drafts),
+        "changes_in_projects_of_others": list(
+            changes.values("project__name", "number", "message", "created_at")
+        ),
+    }
+    plain: dict[str, Any] = json.loads(json.dumps(document, default=str))
+    return plain

@@ -1,0 +1,107 @@
+"""Bounds of the trees of a project: one that is larger already may become smaller, and must not grow.
+
+A save must not wait until diagrams are read. So nodes are counted only where so many bytes could hold
+too many, and where a mark that each node has is found too often.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, Final, NamedTuple
+
+from backend.core.limits import LIMITS
+from backend.projects.errors import QuotaExceededError
+from backend.projects.storage import cache, names
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from backend.projects.storage.changes import Existing, Plan
+
+NODE_BYTES: Final = len('"n":{"type":"A"}')
+"""What a node takes at least."""
+MARK: Final = b'"type"'
+
+
+class _Tree(NamedTuple):
+    path: str
+    sha256: str
+    size: int
+
+
+def require_bounded(current: Mapping[str, Existing], result: Plan) -> None:
+    """Raises QuotaExceededError where a change makes trees grow beyond the limits."""
+    changed = {written.path for written in result.written} | set(result.removed)
+    if not any(_is_diagram(path) for path in changed):
+        return
+    before = [_Tree(e.path, e.sha256, e.size) for e in current.values() if _is_diagram(e.path)]
+    staying = [tree for tree in before if tree.path not in changed]
+    after = staying + [_Tree(w.path, w.sha256, w.size) for w in result.written if _is_diagram(w.path)]
+    _require(len(after), len(before), "trees_per_project", "trees")
+    size, old_size = (sum(tree.size for tree in trees) for trees in (after, before))
+    _require(size, old_size, "diagram_bytes_per_project", "bytes of trees")
+    contents = _Contents({w.sha256: w.content.data for w in result.written if w.content is not None})
+    _require_nodes(before, after, contents)
+
+
+def _require_nodes(before: list[_Tree], after: list[_Tree], contents: _Contents) -> None:
+    olds = {tree.path: tree for tree in before}
+    most = LIMITS["nodes_per_tree"]
+    for tree in after:
+        old = olds.get(tree.path)
+        if (old is None or old.sha256 != tree.sha256) and contents.may_exceed([tree], most):
+            what = f"nodes in “{names.shown(tree.path)}”"
+            _require(contents.nodes([tree]), contents.nodes([old] if old else []), "nodes_per_tree", what)
+    if contents.may_exceed(after, LIMITS["nodes_per_project"]):
+        _require(contents.nodes(after), contents.nodes(before), "nodes_per_project", "nodes")
+
+
+def _require(number: int, before: int, limit: str, what: str) -> None:
+    most = LIMITS[limit]
+    if number > most and number > before:
+        raise QuotaExceededError(
+            f"A project has at most {most:,} {what}; these would be {number:,}.",
+            hint="Split it into several projects, or remove trees that are not used.",
+            field="files",
+        )
+
+
+class _Contents:
+    """The bytes of diagrams, and how many nodes are in them."""
+
+    def __init__(self, written: Mapping[str, bytes]) -> None:
+        self._written = written
+        self._nodes: dict[str, int] = {}
+
+    def may_exceed(self, trees: Sequence[_Tree], most: int) -> bool:
+        """Whether they could have more nodes; says so without reading them."""
+        if sum(tree.size for tree in trees) <= most * NODE_BYTES:
+            return False
+        return sum(self._data(tree).count(MARK) for tree in trees) > most
+
+    def nodes(self, trees: Sequence[_Tree]) -> int:
+        """Returns the number of nodes of the trees."""
+        return sum(self._count(tree) for tree in trees)
+
+    def _count(self, tree: _Tree) -> int:
+        if tree.sha256 not in self._nodes:
+            self._nodes[tree.sha256] = _nodes(self._data(tree))
+        return self._nodes[tree.sha256]
+
+    def _data(self, tree: _Tree) -> bytes:
+        written = self._written.get(tree.sha256)
+        return cache.contents([tree.sha256])[tree.sha256] if written is None else written
+
+
+def _nodes(data: bytes) -> int:
+    """Counts the nodes of a diagram; a file that the translator does not read has none."""
+    try:
+        document: Any = json.loads(data)
+    except (ValueError, RecursionError):
+        return 0
+    nodes = document.get("nodes") if isinstance(document, dict) else None
+    return len(nodes) if isinstance(nodes, dict) else 0
+
+
+def _is_diagram(path: str) -> bool:
+    return path.startswith("trees/") and path.endswith(".json")

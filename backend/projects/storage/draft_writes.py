@@ -1,0 +1,53 @@
+"""Writes to drafts: what a user typed and did not save."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from django.db import transaction
+from django.utils import timezone
+
+from backend.config.environment import environment
+from backend.projects.errors import matches
+from backend.projects.models import Draft
+from backend.projects.storage import names, queries
+from backend.projects.storage.access import Need
+from backend.projects.storage.writes import too_large
+
+if TYPE_CHECKING:
+    from uuid import UUID
+
+    from backend.accounts.models import User
+
+CHANGED = "The draft has changed, in another tab perhaps."
+
+
+@transaction.atomic
+def save_draft(  # noqa: PLR0913 - a draft's columns
+    project_id: UUID, path: str, *, acting_user: User, base_revision: int, content: str, if_match: str = ""
+) -> Draft:
+    """Keeps what a user typed; the newest replaces the one before.
+
+    Raises:
+        PreconditionFailedError: `if_match` is not the ETag of the draft that is there.
+        QuotaExceededError: it is larger than a file may be.
+    """
+    project = queries.project(project_id, user=acting_user, need=Need.WRITE, lock=True)
+    path = names.writable_path(path)
+    if len(content.encode()) > environment().max_file_bytes:
+        raise too_large(path)
+    before = Draft.objects.filter(project=project, author=acting_user, path=path).first()
+    matches(if_match, queries.draft_etag(before), CHANGED)
+    draft = before or Draft(project=project, author=acting_user, path=path)
+    draft.base_revision, draft.content, draft.updated_at = base_revision, content, timezone.now()
+    draft.save()
+    return draft
+
+
+@transaction.atomic
+def discard_draft(project_id: UUID, path: str, *, acting_user: User, if_match: str = "") -> None:
+    """Forgets a draft; there need not be one."""
+    project = queries.project(project_id, user=acting_user, need=Need.WRITE)
+    rows = Draft.objects.filter(project=project, author=acting_user, path=names.file_path(path))
+    matches(if_match, queries.draft_etag(rows.first()) if if_match else "", CHANGED)
+    rows.delete()

@@ -1,0 +1,253 @@
+"""All reads of projects, each in a number of queries that does not grow with the project."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Final, Literal
+
+from django.db.models import F, Max, Q, QuerySet
+from django.db.models.functions import Lower
+
+from backend import __version__
+from backend.core.problems import NotFoundError
+from backend.projects.choices import Role
+from backend.projects.models import ChangeSet, CurrentFile, Draft, FileRevision, Project
+from backend.projects.storage import access, cache, names, rows
+from backend.projects.storage.access import Need
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+    from datetime import datetime
+    from uuid import UUID
+
+    from backend.accounts.models import User
+    from backend.projects.storage.changes import Existing
+
+LARGEST_DRAWN: Final = 256 * 1024
+"""Bytes of a main tree; larger ones make no picture on a card, and would take a list of projects seconds."""
+
+Sort = Literal["name", "-name", "updated_at", "-updated_at", "created_at", "-created_at"]
+Shelf = Literal["current", "archived", "deleted"]
+
+
+@dataclass(frozen=True, slots=True)
+class StoredFile:
+    """A file with its bytes."""
+
+    path: str
+    revision: int
+    sha256: str
+    updated_at: datetime
+    data: bytes = field(repr=False)
+
+    @property
+    def text(self) -> str | None:
+        """The content, when it is text."""
+        return as_text(self.data)
+
+
+def as_text(data: bytes) -> str | None:
+    """Bytes as text, or None when they are not: no UTF-8, or with NUL in it."""
+    if b"\0" in data:
+        return None
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return None
+
+
+def etag(project: Project) -> str:
+    """Changes with every revision, and with what else an opened project shows."""
+    shelf = "archived" if project.archived_at else "current"
+    return f'"{project.revision}-{shelf}-{project.role.label}-{__version__}"'
+
+
+def revision_etag(change: ChangeSet) -> str:
+    """Changes with the label of a revision, which is all that can change of it."""
+    return f'"{change.number}-{hashlib.sha256(change.label.encode()).hexdigest()[:16]}"'
+
+
+def draft_etag(draft: Draft | None) -> str:
+    """Changes with every save of a draft; one that does not exist has a tag, too."""
+    return f'"{draft.updated_at.isoformat()}"' if draft is not None else '"none"'
+
+
+def project(project_id: UUID, *, user: User, need: Need, lock: bool = False) -> Project:
+    """The project, if this user may do this with it; with `lock`, until the end of the transaction.
+
+    Raises:
+        NotFoundError: there is none, or none that this user may know of.
+        RoleTooLowError: the user may see it, but not do this.
+    """
+    found = rows.project(project_id, lock=lock)
+    if found is not None:
+        access.find_role(found, user)
+    return access.gate(found, user=user, need=need)
+
+
+def project_named(name: str, *, user: User) -> Project:
+    """The user's own project of this name."""
+    found = Project.objects.filter(owner=user, name_key=names.key(name), deleted_at=None).first()
+    if found is None:
+        raise NotFoundError(f"There is no project named “{names.shown(name)}”.")
+    return found
+
+
+def deleted_project(project_id: UUID, *, user: User) -> Project:
+    """The project, deleted or not, for its owner; locked until the end of the transaction."""
+    rows = Project.objects.select_related("owner").select_for_update(of=("self",)).filter(id=project_id)
+    found = access.with_role(rows, user).first()
+    if found is not None and found.deleted_at is not None and found.owner_id != user.pk:
+        found = None  # a user who may no longer see it gets the same answer as everybody else
+    return access.gate(found, user=user, need=Need.MANAGE)
+
+
+def projects(
+    *, user: User, search: str = "", sort: Sort = "-updated_at", shelf: Shelf = "current"
+) -> QuerySet[Project]:
+    """The user's projects and those shared with them, with each word of the search in name or description."""
+    if shelf == "deleted":
+        rows = access.with_role(Project.objects.select_related("owner").filter(owner=user), user).exclude(
+            deleted_at=None
+        )
+    else:
+        rows = access.visible(Project.objects.all(), user)
+        rows = rows.filter(deleted_at=None, archived_at__isnull=shelf == "current")
+    rows = rows.select_related("owner")
+    for word in search.split()[:10]:
+        rows = rows.filter(Q(name_key__contains=names.key(word)) | Q(description__icontains=word))
+    backwards, column = sort.startswith("-"), sort.removeprefix("-")
+    order = Lower("name") if column == "name" else F(column)
+    return rows.order_by(order.desc() if backwards else order.asc(), "id")
+
+
+def page(rows: QuerySet[Project], start: int, end: int) -> tuple[list[Project], int]:
+    """Some of them, each with the user's role; and how many there are."""
+    found = list(rows[start:end])
+    for row in found:
+        row.role = Role(row.rank)  # type: ignore[attr-defined]
+    is_last = len(found) < end - start and (found or start == 0)
+    return found, start + len(found) if is_last else rows.count()
+
+
+def root_diagrams(found: Iterable[Project]) -> dict[UUID, dict[str, Any]]:
+    """The main tree of each project, where it can be read."""
+    blobs = rows.root_trees([project.id for project in found], LARGEST_DRAWN)
+    data = cache.contents(blobs.values())
+    diagrams = {project_id: root_diagram(data.get(sha256, b"")) for project_id, sha256 in blobs.items()}
+    return {project_id: diagram for project_id, diagram in diagrams.items() if diagram is not None}
+
+
+def root_diagram(data: bytes) -> dict[str, Any] | None:
+    """A tree as JSON, where it can be read, and is such as fits on a card."""
+    if len(data) > LARGEST_DRAWN:
+        return None
+    try:
+        diagram = json.loads(data)
+    except (ValueError, RecursionError):
+        return None
+    return diagram if isinstance(diagram, dict) else None
+
+
+def existing_files(project: Project) -> dict[str, Existing]:
+    """The current files without their bytes; those that the write left which `project` comes from."""
+    if project.now is not None:
+        return dict(project.now)
+    return cache.files(project) or rows.existing(project)
+
+
+def current_files(project: Project, paths: Sequence[str] | None = None) -> dict[str, StoredFile]:
+    """The current files (all, or these) with their bytes, in the order of their paths: one query or two."""
+    rows = CurrentFile.objects.filter(project=project)
+    if paths is not None:
+        rows = rows.filter(path__in=paths)
+    fields = list(rows.order_by("path").values_list("path", "revision", "blob_id", "updated_at"))
+    data = cache.contents(row[2] for row in fields)
+    return {row[0]: StoredFile(*row, data=data[row[2]]) for row in fields}
+
+
+def contents(project: Project) -> dict[str, bytes]:
+    """The bytes of the current files, as the translator takes them."""
+    files = existing_files(project)
+    data = cache.contents(file.sha256 for file in files.values())
+    return {path: data[files[path].sha256] for path in sorted(files)}
+
+
+def change_set(project: Project, number: int) -> ChangeSet:
+    """One revision of the project."""
+    found = ChangeSet.objects.filter(project=project, number=number).first()
+    if found is None:
+        raise NotFoundError(f"The project has no revision {number}.")
+    return found
+
+
+def history(
+    project: Project, *, path: str = "", before: int | None = None, limit: int = 100
+) -> list[ChangeSet]:
+    """Change sets, the newest first, with their files; all, or those that touched one path."""
+    rows = ChangeSet.objects.filter(project=project).select_related("author").prefetch_related("files")
+    if path:
+        rows = rows.filter(files__path=path)
+    if before is not None:
+        rows = rows.filter(number__lt=before)
+    return list(rows.order_by("-number")[:limit])
+
+
+def files_at(project: Project, number: int, paths: Sequence[str] | None = None) -> Mapping[str, StoredFile]:
+    """The files as they were after change set `number`."""
+    change_set(project, number)
+    rows = FileRevision.objects.filter(change__project=project, change__number__lte=number)
+    if paths is not None:
+        rows = rows.filter(path__in=paths)
+    newest = rows.values("path").annotate(newest=Max("change__number")).values_list("path", "newest")
+    wanted = dict(newest)
+    found = (
+        FileRevision.objects.filter(
+            change__project=project,
+            change__number__in=set(wanted.values()),
+            path__in=wanted,
+            blob__isnull=False,
+        )
+        .order_by("path")
+        .values_list("path", "change__number", "blob_id", "change__created_at", "blob__data")
+    )
+    return {row[0]: StoredFile(*row[:4], data=bytes(row[4])) for row in found if wanted[row[0]] == row[1]}
+
+
+def differing(
+    older: Mapping[str, StoredFile], newer: Mapping[str, StoredFile]
+) -> tuple[dict[str, str | None], dict[str, str | None]]:
+    """The files that are not the same in both, as text; None stands for what is no text."""
+    paths = [
+        path
+        for path in {*older, *newer}
+        if path not in older or path not in newer or older[path].sha256 != newer[path].sha256
+    ]
+    return _texts(older, paths), _texts(newer, paths)
+
+
+def _texts(files: Mapping[str, StoredFile], paths: Iterable[str]) -> dict[str, str | None]:
+    return {path: files[path].text for path in sorted(paths) if path in files}
+
+
+def file_at(project: Project, number: int, path: str) -> StoredFile:
+    """One file as it was after change set `number`."""
+    file = files_at(project, number, [path]).get(path)
+    if file is None:
+        raise NotFoundError(f"Revision {number} has no file “{names.shown(path)}”.")
+    return file
+
+
+def drafts(project: Project, *, user: User) -> list[Draft]:
+    """Returns the drafts of this user: text that was typed and not saved."""
+    return list(Draft.objects.filter(project=project, author=user).order_by("path"))
+
+
+def current_file(project: Project, path: str) -> StoredFile:
+    """One current file with its bytes."""
+    file = current_files(project, [path]).get(path)
+    if file is None:
+        raise NotFoundError(f"The project has no file “{names.shown(path)}”.")
+    return file

@@ -1,0 +1,58 @@
+"""Measures the space that users take."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from django.db.models import Count, Q, Sum
+
+from backend.accounts.models import User
+from backend.config.environment import environment
+from backend.projects.errors import QuotaExceededError
+from backend.projects.models import Project
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+
+def usage_of_all() -> Iterable[Any]:
+    """Every account with `kept` projects that take `used` bytes, the largest first."""
+    current = Q(projects__deleted_at=None)
+    rows = User.objects.annotate(
+        kept=Count("projects", filter=current), used=Sum("projects__size", filter=current)
+    )
+    return sorted(rows, key=lambda row: -(row.used or 0))
+
+
+def room_for_archive(user: User) -> int:
+    """Returns the largest size in bytes of an archive that this user may import.
+
+    Raises:
+        QuotaExceededError: they may not have another project, or no more bytes.
+    """
+    used = usage(user)
+    if used["projects"] >= used["max_projects"]:
+        raise QuotaExceededError(
+            f"You have {used['projects']} projects, and more are not allowed.",
+            hint="Delete some that you no longer need.",
+        )
+    room = used["max_bytes"] - used["bytes"]
+    if room <= 0:
+        raise QuotaExceededError(
+            f"Your projects take all of the {used['max_bytes']:,} bytes that you may have.",
+            hint="Delete projects that you no longer need.",
+        )
+    return room
+
+
+def usage(user: User) -> dict[str, int]:
+    """The space that one user takes, and may take."""
+    limits = environment()
+    rows = Project.objects.filter(owner=user, deleted_at=None)
+    found = rows.aggregate(kept=Count("id"), used=Sum("size"))
+    return {
+        "projects": found["kept"],
+        "max_projects": limits.max_user_projects if user.max_projects is None else user.max_projects,
+        "bytes": found["used"] or 0,
+        "max_bytes": limits.max_user_bytes if user.max_bytes is None else user.max_bytes,
+    }

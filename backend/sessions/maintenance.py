@@ -1,0 +1,207 @@
+"""Maintains sessions every few seconds: marks the dead, ends the idle, starts the waiting.
+
+Those that are alive and do not answer are the business of `backend.sessions.watch`.
+
+Of several web servers, and of several workers of one, the one that has the lease does so for all
+(`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
+viewers of each session through it, it notes itself, and it notifies its own browsers.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import itertools
+import json
+import logging
+import time
+from collections import defaultdict
+from datetime import timedelta
+from typing import TYPE_CHECKING, Final
+
+from asgiref.sync import sync_to_async
+from django.db import Error
+from django.db.models import Q
+from django.utils import timezone
+
+from backend.config.environment import environment
+from backend.projects.api.open_pages import pages
+from backend.sessions import drain, writes
+from backend.sessions.choices import SessionState
+from backend.sessions.lease import CARE, holder, is_alone
+from backend.sessions.models import Session
+from backend.sessions.watch import watchmen
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Mapping
+    from uuid import UUID
+
+    from asgiref.typing import ASGISendCallable
+
+log = logging.getLogger(__name__)
+
+EVERY_S: Final = 5.0
+LEASE_S: Final = 3 * EVERY_S
+"""After so long without a sign of life from the server with the lease, another one takes over."""
+ROUNDS_TO_ORPHANS: Final = 12
+WARNING: Final = timedelta(minutes=5)
+
+
+class Attendance:
+    """The viewers of each session through this server, and the time of their last message."""
+
+    def __init__(self) -> None:
+        self._used: dict[UUID, float] = {}
+        self._browsers: dict[UUID, set[ASGISendCallable]] = defaultdict(set)
+        self._warned: set[UUID] = set()
+        self._told: dict[ASGISendCallable, str] = {}
+
+    def join(self, session_id: UUID, send: ASGISendCallable) -> None:
+        """A browser opened its control socket."""
+        self._browsers[session_id].add(send)
+        self.use(session_id)
+
+    def leave(self, session_id: UUID, send: ASGISendCallable) -> None:
+        """It has gone."""
+        self._browsers[session_id].discard(send)
+        self._told.pop(send, None)
+        if not self._browsers[session_id]:
+            self._browsers.pop(session_id)
+
+    def use(self, session_id: UUID) -> None:
+        """A browser told its session something."""
+        self._used[session_id] = time.monotonic()
+        self._warned.discard(session_id)
+
+    def take_used(self) -> dict[UUID, float]:
+        """For how many seconds each has not been used, of those used since the last call."""
+        used, self._used = self._used, {}
+        now = time.monotonic()
+        return {session_id: now - at for session_id, at in used.items()}
+
+    async def tell(self, text: str) -> None:
+        """Writes a line about the server into every console, once for each text."""
+        for send in [send for browsers in self._browsers.values() for send in browsers]:
+            if text and self._told.get(send) != text:
+                await say(send, "log", {"source": "manager", "level": "warning", "text": text})
+            self._told[send] = text
+
+    def keep_warned(self, soon: Container[UUID]) -> None:
+        """Forgets that those were warned that were used again, here or through another server."""
+        self._warned = {session_id for session_id in self._warned if session_id in soon}
+
+    async def warn(self, session_id: UUID, text: str) -> None:
+        """Writes a line into the console of every viewer, once until the session is used again."""
+        if session_id in self._warned:
+            return
+        self._warned.add(session_id)
+        data = {"source": "manager", "level": "warning", "text": text}
+        for send in list(self._browsers.get(session_id, ())):
+            await say(send, "log", data)
+
+
+attendance: Final = Attendance()
+
+
+async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) -> None:
+    """Sends a message to a browser in the manager's format."""
+    message = {"id": "", "command": command, "data": data, "seq": 0, "t": 0}
+    try:
+        await send({"type": "websocket.send", "text": json.dumps(message), "bytes": None})
+    except (OSError, RuntimeError) as error:  # it has gone
+        log.debug("a browser was not told: %s", error)
+
+
+def begin() -> None:
+    """Before a server's first request: what a killed one left is ended, unless other servers see to it."""
+    if is_alone():
+        writes.end_orphans()
+
+
+async def care_for_ever() -> None:
+    """Runs until it is cancelled; a step that fails is tried again."""
+    rounds = itertools.count()
+    try:
+        while True:
+            try:
+                await _one_round(is_for_orphans=next(rounds) % ROUNDS_TO_ORPHANS == 0)
+            except Exception:
+                log.exception("the sessions were not looked after")
+            await asyncio.sleep(EVERY_S)
+    finally:
+        await sync_to_async(_give_back)()
+
+
+async def _one_round(*, is_for_orphans: bool) -> None:
+    is_ours = await sync_to_async(holder.hold)(CARE, LEASE_S)
+    watchmen.keep_to(await sync_to_async(ready_sessions)(), all_of_them=is_ours)
+    await sync_to_async(note_used)(attendance.take_used())
+    if is_ours:
+        await sync_to_async(maintain)(is_for_orphans=is_for_orphans and not is_alone())
+    soon = await sync_to_async(ending_soon)()
+    text = await sync_to_async(drain.text)()
+    await pages.tell(text)
+    await attendance.tell(text)
+    attendance.keep_warned(soon)
+    for session_id, minutes in soon.items():
+        await attendance.warn(
+            session_id, f"Nobody uses this session. It ends in {minutes} min; do something to keep it."
+        )
+
+
+def _give_back() -> None:
+    """Another server need not wait for the lease of one that ends."""
+    try:
+        holder.give_back(CARE)
+    except Error as error:
+        log.debug("the lease runs out by itself: %s", error)
+
+
+def note_used(used: Mapping[UUID, float]) -> None:
+    """Stores when sessions were last used through this server, unless they were used since through another.
+
+    Args:
+        used: for how many seconds each has not been used.
+    """
+    now = timezone.now()
+    for session_id, seconds in used.items():
+        at = now - timedelta(seconds=seconds)
+        Session.objects.filter(Q(used_at=None) | Q(used_at__lt=at), id=session_id).update(used_at=at)
+
+
+def maintain(*, is_for_orphans: bool = False) -> None:
+    """One round for all servers."""
+    if is_for_orphans:
+        writes.end_orphans()
+    for session in ready_sessions():
+        writes.refresh(session)
+    end_idle()
+    writes.start_queued()
+
+
+def ready_sessions() -> list[Session]:
+    """Those whose executors are to answer."""
+    return list(Session.objects.filter(state=SessionState.READY))
+
+
+def end_idle() -> None:
+    """Ends what nobody used for too long."""
+    for session, left in _unused():
+        if left <= timedelta(0):
+            log.info("session %s is idle and is ended", session.id)
+            writes.end_session(session, "It was ended since nobody used it.")
+
+
+def ending_soon() -> dict[UUID, int]:
+    """Returns the sessions that end soon since nobody uses them, with the minutes left."""
+    soon = {session.id: left for session, left in _unused() if left > timedelta(0)}
+    return {session_id: max(1, round(left.total_seconds() / 60)) for session_id, left in soon.items()}
+
+
+def _unused() -> list[tuple[Session, timedelta]]:
+    """Sessions that have been unused for long, and for how much longer they may be."""
+    limit = timedelta(minutes=environment().session_idle_minutes)
+    if not limit:
+        return []
+    now = timezone.now()
+    rows = Session.objects.filter(state=SessionState.READY, used_at__lt=now - limit + WARNING)
+    return [(session, limit - (now - (session.used_at or now))) for session in rows]

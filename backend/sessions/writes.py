@@ -1,0 +1,383 @@
+"""All writes to sessions. Launching is slow, so a thread of its own does it and stores the outcome."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+import logging
+import os
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from datetime import timedelta
+from functools import lru_cache
+from threading import Lock
+from typing import TYPE_CHECKING, Any, Final
+
+from django.conf import settings
+from django.db import IntegrityError, OperationalError, connection, transaction
+from django.utils import timezone
+
+from backend.config.environment import environment
+from backend.core.locks import lock_number, transaction_lock
+from backend.core.problems import NotFoundError, StudioError
+from backend.projects.storage import queries as projects
+from backend.projects.storage.access import Need
+from backend.sessions import drain, queries
+from backend.sessions.choices import SessionState
+from backend.sessions.errors import HostFullError, LaunchError
+from backend.sessions.launchers.base import Launcher, Spec
+from backend.sessions.launchers.docker import DockerLauncher
+from backend.sessions.launchers.process import ProcessLauncher
+from backend.sessions.models import LIVE_STATES, RUNNING_STATES, Session
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from uuid import UUID
+
+    from backend.accounts.models import User
+
+log = logging.getLogger(__name__)
+
+# Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
+ROS_DOMAINS: Final = range(1, 102)
+DOMAIN_ATTEMPTS: Final = 3
+# What hangs does not end when it is asked to.
+HUNG_STOP_TIMEOUT_S: Final = 1.0
+PLACES: Final = "places of sessions"
+"""The lock of those who count the places and take one."""
+_launches: Final[dict[UUID, Future[None]]] = {}
+_launches_lock: Final = Lock()
+
+
+@lru_cache(maxsize=1)
+def launcher() -> Launcher:
+    """The launcher of this server; it lives as long as the process."""
+    settings = environment()
+    if settings.launcher == "docker":
+        return DockerLauncher(settings.keeper_folder)
+    return ProcessLauncher(settings.data_dir / "logs")
+
+
+@lru_cache(maxsize=1)
+def _workers() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(max_workers=4, thread_name_prefix="session")
+
+
+def manager_token(session: Session) -> str:
+    """The secret between relay and manager; derived, so that it is stored nowhere."""
+    return hmac.new(
+        settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
+    ).hexdigest()
+
+
+def start_session(project_id: UUID, *, acting_user: User) -> Session:
+    """Starts an executor for the project, or returns the one that runs; it may wait, or still be starting.
+
+    Raises:
+        HostFullError: there is no free ROS domain.
+        DrainingError: the server is about to be upgraded.
+    """
+    project = projects.project(project_id, user=acting_user, need=Need.RUN)
+    running = queries.live_session(project_id, user=acting_user)
+    if running is not None and refresh(running).state in LIVE_STATES:
+        return running
+    drain.require_open()
+    for attempt in range(DOMAIN_ATTEMPTS):
+        try:
+            with transaction.atomic():
+                transaction_lock(PLACES)
+                has_place = places_left(LIVE_STATES) > 0
+                session = Session.objects.create(
+                    project=project,
+                    user=acting_user,
+                    launcher=launcher().name,
+                    state=SessionState.STARTING if has_place else SessionState.QUEUED,
+                    ros_domain_id=_free_domain() if has_place else None,
+                    created_at=timezone.now(),
+                )
+            break
+        except IntegrityError:
+            # Another request was faster: its session is the one, or only its domain is taken.
+            running = queries.live_session(project_id, user=acting_user)
+            if running is not None:
+                return running
+            if attempt == DOMAIN_ATTEMPTS - 1:
+                raise
+    if session.state == SessionState.STARTING:
+        _submit(session)
+    return session
+
+
+def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
+    """Returns how many more executors may run; those in `states` have a place, or wait for one."""
+    limit = environment().max_sessions
+    taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
+    return limit - taken if limit else len(ROS_DOMAINS)
+
+
+def start_queued() -> int:
+    """Starts sessions that wait, the oldest first, while there are places; returns how many.
+
+    Several web servers may do so at once: each session is taken by one of them.
+    """
+    if drain.current() is not None:
+        return 0
+    waiting = Session.objects.filter(state=SessionState.QUEUED).order_by("created_at")
+    started = 0
+    for session in waiting[: max(0, places_left())]:
+        if _takes_place(session):
+            _submit(session)
+            started += 1
+    return started
+
+
+def _takes_place(session: Session) -> bool:
+    """Gives a place to a session that waits; False when there is none, or another server was faster."""
+    with suppress(IntegrityError, HostFullError), transaction.atomic():
+        transaction_lock(PLACES)
+        if places_left() > 0:
+            place = {"state": SessionState.STARTING, "ros_domain_id": _free_domain()}
+            return _moved(session, SessionState.QUEUED, **place)
+    return False
+
+
+def _submit(session: Session) -> None:
+    with _launches_lock:
+        _launches[session.id] = _workers().submit(_launch, session)
+
+
+def refresh(session: Session) -> Session:
+    """Notes when a session's executor has died."""
+    if session.state == SessionState.READY:
+        status = launcher().poll(session.launcher_state)
+        if status is not None:
+            launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+            why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
+            died = f"The executor ended by itself (status {status}).{why}" if status else ""
+            _look_again(session)
+            died = session.error or died  # who ended it has said why
+            state = SessionState.FAILED if died else SessionState.ENDED
+            if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
+                _look_again(session)  # it did not end by itself: somebody ended it
+    return session
+
+
+def end_session(session: Session, why: str = "") -> Session:
+    """Ends the executor and everything that it started; ending twice is no error."""
+    with _launches_lock:
+        launch = _launches.pop(session.id, None)
+    if launch is not None and not launch.cancel():
+        launch.result()
+    _look_again(session)  # it may have started since it was looked up
+    ended = {"state": SessionState.ENDED, "error": why, "ended_at": timezone.now()}
+    if launch is None and _moved(session, SessionState.STARTING, **ended):
+        _await_launch(session)
+        return session
+    _look_again(session)
+    if session.launcher_state:
+        launcher().stop(session.launcher_state, timeout_s=environment().session_stop_timeout_s)
+    if session.state in LIVE_STATES:
+        _finish(session, SessionState.ENDED, why)
+    return session
+
+
+def _await_launch(session: Session) -> None:
+    """Waits until the web server that starts this session's executor has ended it again, or has itself ended.
+
+    It sees that the session has ended when the executor is there. While it works it holds a lock of the
+    database, which goes with its connection.
+    """
+    # In a transaction of the caller nobody sees the end of the session yet.
+    if connection.vendor == "postgresql" and not connection.in_atomic_block:
+        longest_s = 2 * environment().session_start_timeout_s
+        try:
+            with transaction.atomic(), connection.cursor() as cursor:
+                cursor.execute("SELECT set_config('lock_timeout', %s, true)", [f"{longest_s:.0f}s"])
+                transaction_lock(_launch_lock(session.id))
+        except OperationalError:
+            log.warning("session %s: the server that starts it does not come to an end", session.id)
+    if launcher().survives_server:  # what a server started that was killed is there still
+        state = launcher().state_of(str(session.id))
+        launcher().stop(state, timeout_s=environment().session_stop_timeout_s)
+
+
+def _launch_lock(session_id: UUID) -> str:
+    return f"launch {session_id}"
+
+
+def fail_session(session_id: UUID, why: str) -> None:
+    """Ends an executor that does not answer, and fails its session with the reason."""
+    try:
+        ready = Session.objects.filter(id=session_id, state=SessionState.READY)
+        session = ready.first()
+        # Others see its end before we do, and give this reason for it.
+        if session is None or not ready.update(error=why):
+            return
+        log.warning("session %s: %s", session.id, why)
+        launcher().stop(session.launcher_state, timeout_s=HUNG_STOP_TIMEOUT_S)
+        _moved(session, SessionState.READY, state=SessionState.FAILED, error=why, ended_at=timezone.now())
+    finally:
+        connection.close()
+
+
+def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
+    """Ends the sessions of a project that was deleted."""
+    for session in Session.objects.filter(project_id=project_id, state__in=LIVE_STATES):
+        end_session(session)
+
+
+def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
+    """Ends the sessions of an account that is about to be deleted."""
+    for session in Session.objects.filter(user=user, state__in=LIVE_STATES):
+        end_session(session)
+
+
+def require_right(session: Session) -> None:
+    """Raises a StudioError when a session's user may no longer run its project.
+
+    Raises:
+        NotFoundError: the account is closed, or has no role in the project any more.
+    """
+    if not session.user.is_active:
+        raise NotFoundError("The account is deactivated.")
+    projects.project(session.project_id, user=session.user, need=Need.RUN)
+
+
+def end_sessions_without_right(
+    sender: object, *, user_id: int | None, project_id: UUID | None, **_: object
+) -> None:
+    """Ends the sessions of those who may no longer run what they run."""
+    rows = Session.objects.filter(state__in=LIVE_STATES).select_related("user")
+    if user_id is not None:
+        rows = rows.filter(user=user_id)
+    if project_id is not None:
+        rows = rows.filter(project_id=project_id)
+    for session in rows:
+        try:
+            require_right(session)
+        except StudioError:
+            _workers().submit(_end_and_disconnect, session, "You may no longer run this project.")
+
+
+def end_all_sessions() -> None:
+    """Ends every session that is not to outlive the server; for its last moments.
+
+    In containers they could, and for a team they do. Nothing of one user's IDE continues after its end.
+    """
+    if launcher().survives_server and environment().is_team:
+        return
+    live = queries.live_sessions()
+    with ThreadPoolExecutor(max_workers=max(1, len(live))) as pool:
+        list(pool.map(_end_and_disconnect, live))
+
+
+def _end_and_disconnect(session: Session, why: str = "") -> None:
+    try:
+        end_session(session, why)
+    finally:
+        connection.close()
+
+
+def end_orphans() -> None:
+    """Ends what a server that was killed left behind; called before the first session starts.
+
+    Of several servers, the one that looks after sessions does so every minute.
+
+    Where executors outlive the server, those that run continue. This ends executors that the database
+    does not know as running, and sessions whose start neither this server nor the one before it finished.
+    """
+    timeout_s = environment().session_stop_timeout_s
+    survives = launcher().survives_server
+    for session in queries.live_sessions():
+        if session.state == SessionState.QUEUED and survives:
+            continue
+        if session.state == SessionState.STARTING and survives and not _is_overdue(session):
+            continue
+        if not survives or not session.launcher_state or launcher().poll(session.launcher_state) is not None:
+            state = session.launcher_state or launcher().state_of(str(session.id))
+            if state:
+                launcher().stop(state, timeout_s=timeout_s)
+            _finish(session, SessionState.ENDED, "The server was restarted.")
+    running = set(launcher().running())  # first, since another server may start one at this moment
+    known = {str(session.id) for session in queries.live_sessions()}
+    for orphan in running - known:
+        log.warning("the executor %s belongs to no session and is ended", orphan)
+        launcher().stop(launcher().state_of(orphan), timeout_s=timeout_s)
+
+
+def _is_overdue(session: Session) -> bool:
+    """Whether nobody can still be starting it; another web server may be."""
+    longest = timedelta(seconds=2 * environment().session_start_timeout_s)
+    return timezone.now() - session.created_at > longest
+
+
+def _launch(session: Session) -> None:
+    limits = environment()
+    spec = Spec(
+        session_id=str(session.id),
+        token=manager_token(session),
+        ros_domain_id=session.ros_domain_id or 0,
+        start_timeout_s=limits.session_start_timeout_s,
+        stop_timeout_s=limits.session_stop_timeout_s,
+    )
+    try:
+        if not _begins(session):
+            return
+        started = launcher().start(spec)
+    except HostFullError as error:
+        # The host knows better than our count. The session keeps its turn.
+        log.info("session %s waits: %s", session.id, error.detail)
+        _moved(session, SessionState.STARTING, state=SessionState.QUEUED, ros_domain_id=None)
+    except LaunchError as error:
+        log.warning("session %s: %s", session.id, error.detail)
+        _finish(session, SessionState.FAILED, "\n".join(filter(None, (error.detail, error.hint))))
+    except Exception:
+        log.exception("session %s", session.id)
+        _finish(session, SessionState.FAILED, "The launcher failed; the server's log has the details.")
+    else:
+        where = {"address": started.address, "launcher_state": started.state}
+        ready = {"state": SessionState.READY, "used_at": timezone.now(), **where}
+        if not _moved(session, SessionState.STARTING, **ready):
+            launcher().stop(started.state, timeout_s=limits.session_stop_timeout_s)
+    finally:
+        with _launches_lock:
+            _launches.pop(session.id, None)
+        connection.close()
+
+
+def _begins(session: Session) -> bool:
+    """Locks the launch until this thread's connection closes; False when the session was ended before."""
+    if connection.vendor == "postgresql":
+        with connection.cursor() as cursor:
+            cursor.execute("SELECT pg_advisory_lock(%s)", [lock_number(_launch_lock(session.id))])
+    return Session.objects.filter(id=session.id, state=SessionState.STARTING).exists()
+
+
+def _look_again(session: Session) -> None:
+    with suppress(Session.DoesNotExist):  # it has gone with its project or user
+        session.refresh_from_db()
+
+
+def _moved(session: Session, before: SessionState, **fields: Any) -> bool:
+    """Changes a session that is still in the state `before`; False when somebody has ended it meanwhile."""
+    if Session.objects.filter(id=session.id, state=before).update(**fields) == 0:
+        return False
+    for name, value in fields.items():
+        setattr(session, name, value)
+    return True
+
+
+def _finish(session: Session, state: SessionState, error: str = "") -> None:
+    session.state, session.error, session.ended_at = state, error, timezone.now()
+    session.save(update_fields=["state", "error", "ended_at"])
+
+
+def _free_domain() -> int:
+    taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
+    # Where to begin differs among servers on one host, so that their first sessions do not meet.
+    offset = os.getpid() % len(ROS_DOMAINS)
+    candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
+    free: int | None = next((domain for domain in candidates if domain not in taken), None)
+    if free is None:
+        raise HostFullError("Every ROS domain of this host is in use.", hint="End a session and try again.")
+    return free

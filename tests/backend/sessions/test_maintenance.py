@@ -1,0 +1,131 @@
+"""The queue of a full server, and the end of what nobody uses."""
+
+from __future__ import annotations
+
+import json
+from datetime import timedelta
+
+import pytest
+from django.utils import timezone
+
+from backend.config.environment import environment
+from backend.sessions import maintenance, writes
+from backend.sessions.models import Session
+from tests.backend.sessions.test_sessions import launched
+
+pytestmark = pytest.mark.django_db(transaction=True)
+
+
+@pytest.fixture
+def settings_of(monkeypatch):
+    """Changes settings of the environment for a test."""
+
+    def change(**changes):
+        changed = environment().model_copy(update=changes)
+        for module in (writes, maintenance):
+            monkeypatch.setattr(module, "environment", lambda: changed)
+
+    return change
+
+
+@pytest.fixture
+def start(api):
+    """Starts a session of a new project."""
+
+    def make(name):
+        project = api.post("projects", {"name": name}, expect=201)["id"]
+        return api.post(f"projects/{project}/session")
+
+    return make
+
+
+def test_who_finds_no_place_waits_in_turn(api, start, fake_manager, settings_of):
+    fake_manager("echo")
+    settings_of(max_sessions=1)
+    first, second, third = start("One"), start("Two"), start("Three")
+    assert [one["state"] for one in (second, third)] == ["queued", "queued"]
+    assert [one["position"] for one in (first, second, third)] == [None, 1, 2]
+    launched(first["id"])
+    assert writes.start_queued() == 0
+    api.delete(f"sessions/{first['id']}")
+    assert writes.start_queued() == 1
+    launched(second["id"])
+    assert api.get(f"sessions/{second['id']}")["state"] == "ready"
+    assert api.get(f"sessions/{third['id']}")["position"] == 1
+    api.delete(f"sessions/{third['id']}")
+    api.delete(f"sessions/{second['id']}")
+    assert writes.start_queued() == 0
+
+
+def test_a_place_that_the_host_denies_is_waited_for(api, start, fake_manager, settings_of, monkeypatch):
+    launcher = fake_manager("echo")
+
+    def full(spec):
+        raise writes.HostFullError("All places are taken.")
+
+    monkeypatch.setattr(launcher, "start", full)
+    started = start("One")
+    launched(started["id"])
+    assert api.get(f"sessions/{started['id']}")["state"] == "queued"
+    monkeypatch.undo()
+    monkeypatch.setattr(writes, "launcher", lambda: launcher)
+    assert writes.start_queued() == 1
+    launched(started["id"])
+    assert api.get(f"sessions/{started['id']}")["state"] == "ready"
+    api.delete(f"sessions/{started['id']}")
+
+
+async def warned(session_id):
+    """What a browser that looks at a session is told."""
+    told = []
+
+    async def send(message):
+        told.append(json.loads(message["text"]))
+
+    attendance = maintenance.Attendance()
+    attendance.join(session_id, send)
+    await attendance.warn(session_id, "It ends in 4 min.")
+    await attendance.warn(session_id, "It ends in 3 min.")
+    attendance.keep_warned([session_id])
+    await attendance.warn(session_id, "It ends in 2 min.")
+    attendance.use(session_id)
+    await attendance.warn(session_id, "It ends in 5 min.")
+    attendance.keep_warned([])  # it was used through another server
+    await attendance.warn(session_id, "It ends in 4 min again.")
+    attendance.leave(session_id, send)
+    await attendance.warn(session_id, "Nobody hears this.")
+    return [message["data"]["text"] for message in told]
+
+
+async def test_browsers_are_warned_once_until_the_session_is_used():
+    assert await warned("s1") == ["It ends in 4 min.", "It ends in 5 min.", "It ends in 4 min again."]
+
+
+def test_the_idle_are_told_and_then_ended(api, start, fake_manager, settings_of):
+    fake_manager("echo")
+    settings_of(session_idle_minutes=30)
+    started = start("One")
+    launched(started["id"])
+    session = Session.objects.get()
+    now = timezone.now()
+    assert maintenance.ending_soon() == {}
+    Session.objects.update(used_at=now - timedelta(minutes=27))
+    maintenance.maintain()
+    assert maintenance.ending_soon() == {session.id: 3}
+    maintenance.note_used({session.id: 60.0})
+    assert maintenance.ending_soon() == {}
+    maintenance.note_used({session.id: 27 * 60.0})  # through another server, and longer ago
+    assert maintenance.ending_soon() == {}
+    Session.objects.update(used_at=now - timedelta(minutes=31))
+    maintenance.maintain()
+    ended = api.get(f"sessions/{started['id']}")
+    assert (ended["state"], ended["error"]) == ("ended", "It was ended since nobody used it.")
+
+
+def test_the_dead_are_noted_without_anyone_asking(api, start, fake_manager):
+    launcher = fake_manager("echo")
+    started = start("One")
+    launched(started["id"])
+    launcher.stop(Session.objects.get().launcher_state, timeout_s=5)
+    maintenance.maintain()
+    assert Session.objects.get().state in {"failed", "ended"}

@@ -46,7 +46,14 @@ def stack(tmp_path_factory):
     with engine(folder) as running:
         if not BUILT:
             build_images(running, TAG)
-        made = Stack(running, folder, TAG, BT_STUDIO_MAX_SESSIONS="4", BT_STUDIO_PROXY_HOPS="0")
+        made = Stack(
+            running,
+            folder,
+            TAG,
+            BT_STUDIO_MAX_SESSIONS="4",
+            BT_STUDIO_PROXY_HOPS="0",
+            BT_STUDIO_RESERVED_CPUS="1",
+        )
         try:
             made.up()
             yield made

@@ -9,6 +9,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from backend.sessions.keeper.processors import of_containers
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -93,6 +95,7 @@ class Plan:
         stack: tells the containers of this keeper from those of another.
         grace_s: how long a session lives without clients.
         tools_grace_s: how long a user's tools stay when no editor is open.
+        processors: the numbers of the processors on which containers run; without any, Docker's choice.
     """
 
     image: str
@@ -102,6 +105,7 @@ class Plan:
     limits: Limits = Limits()
     tools_grace_s: float = 600
     tools_limits: Limits = TOOLS_LIMITS
+    processors: tuple[int, ...] = ()
 
     def container_name(self, session_id: str) -> str:
         """The name of a session's container."""
@@ -157,8 +161,9 @@ class Plan:
                 "Memory": memory,
                 "MemorySwap": memory,
                 "CpuShares": CPU_SHARES,
+                "CpusetCpus": ",".join(map(str, self.processors)),
                 # Docker refuses to give more than the machine has.
-                "NanoCpus": int(min(limits.cpus, os.cpu_count() or 1) * 1e9),
+                "NanoCpus": int(min(limits.cpus, len(self.processors) or os.cpu_count() or 1) * 1e9),
                 "PidsLimit": int(limits.pids),
                 "OomScoreAdj": 500,
                 "ShmSize": int(limits.shm_mb * MEBIBYTE),
@@ -192,6 +197,7 @@ def read_plan(environment: Mapping[str, str] = os.environ, *, gate_source: str, 
         limits=Limits().overridden(environment),
         tools_grace_s=_seconds(environment, "BT_STUDIO_TOOLS_GRACE_S", 600),
         tools_limits=TOOLS_LIMITS.overridden(environment, TOOLS_PREFIX),
+        processors=of_containers(environment),
     )
 
 

@@ -13,7 +13,7 @@ from translator.reference import FOLDER, GROUPS, pages
 
 OWN = Path(translator.__file__).parent
 # Only the web server reports this: a project could not be checked at all.
-CHECKING = OWN.parent / "backend" / "projects" / "checking.py"
+CHECKING = OWN.parent / "backend" / "projects" / "documents" / "checking.py"
 SOURCES = {path: path.read_text() for path in (*OWN.rglob("*.py"), CHECKING)}
 USED = set(re.findall(r'"(BT\d{4})"', "".join(SOURCES.values())))
 

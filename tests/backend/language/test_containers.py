@@ -21,7 +21,7 @@ pytestmark = pytest.mark.django_db(transaction=True)
 def keeper():
     """The real keeper, with an engine whose containers are children of this process."""
     with tempfile.TemporaryDirectory() as folder:
-        made = Host(Path(folder), "tools", 1)
+        made = Host(Path(folder), "tools", 1, patience_s=60)
         yield made
         made.close()
 

@@ -195,7 +195,7 @@ def shares_a_project_and_gives_it_away(ada: Someone, bob: Someone, guest: Someon
     run = guest.page.get_by_role("button", name="Run", exact=True).first
     expect(run).to_have_attribute("aria-disabled", "true")
     run.hover()
-    expect(guest.page.get_by_role("tooltip")).to_contain_text("takes an account")
+    expect(guest.page.get_by_role("tooltip")).to_contain_text("needs an account")
     ada.press("button", "Make bob the owner")
     ada.can_be_used("sharing")
     ada.press("button", "Keep it")

@@ -194,7 +194,7 @@ def test_long_lists_are_searched_sorted_and_paged(shared_studio: Studio) -> None
     search.fill("Robot 07")
     expect(cards(studio)).to_have_count(12)
     search.fill("nothing like it")
-    expect(studio.page.get_by_text("No project is called")).to_be_visible()
+    expect(studio.page.get_by_text("No project has the name")).to_be_visible()
     for scheme in ("light", "dark"):
         search.fill("Robot 00")
         expect(cards(studio)).to_have_count(11)

@@ -434,7 +434,7 @@ def a_second_tab_views_and_takes_over(studio: Studio) -> None:
     expect(second.at("pause")).to_be_disabled()
     expect(second.at("sim-speed")).to_be_disabled()
     second.at("run").hover()
-    expect(second.page.get_by_role("tooltip")).to_contain_text("another window drives")
+    expect(second.page.get_by_role("tooltip")).to_contain_text("another window controls")
     second.at("looking-on").get_by_role("button", name="Take over").click()
     expect(second.at("looking-on")).to_have_count(0)
     second.at("pause").click()

@@ -68,7 +68,7 @@ def settings_are_kept(studio: Studio) -> None:
     page.keyboard.press("Control+Comma")
     form = studio.at("settings")
     name = form.get_by_role("textbox", name="Name")
-    for wrong, reason in (("", "needs a name"), ("a/b", "no path"), ("x" * 101, "at most 100")):
+    for wrong, reason in (("", "needs a name"), ("a/b", "not a path"), ("x" * 101, "at most 100")):
         name.fill(wrong)
         expect(form).to_contain_text(reason)
         expect(form.get_by_role("button", name="Save")).to_be_disabled()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 import numpy as np
 
+from executor.child_messages import Frame
 from executor.messages import Camera, Poses
 from executor.stream.outbox import PACE_S, StreamOutbox
 from executor.stream.pose_codec import pack, unpack
@@ -31,11 +32,11 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
         waiting = it._server._streams[client.id]
         client.stream.transport.pause_reading()
         for number in range(FRAMES):
-            it._on_frame({"client": client.id, "stream": "camera", "data": picture(number)})
+            it._on_frame(Frame(client.id, "camera", picture(number)))
             # Object 7 moves all the time, object 3 only once, in the middle.
-            it._on_frame({"client": client.id, "stream": "poses", "data": pose_of(number, 7)})
+            it._on_frame(Frame(client.id, "poses", pose_of(number, 7)))
             if number == FRAMES // 2:
-                it._on_frame({"client": client.id, "stream": "poses", "data": pose_of(number, 3)})
+                it._on_frame(Frame(client.id, "poses", pose_of(number, 3)))
         held = sum(len(data) for data in waiting._frames.values())
         assert len(waiting._frames) <= 2
         assert held < 70_000

@@ -18,7 +18,7 @@ PING, PONG, TEXT, MORE = 9, 10, 1, 0
 
 @pytest.fixture(scope="module")
 def notices(tmp_path_factory):
-    """Where a project's news is told, the headers that open it, and the server."""
+    """The address of a project's notices, the headers that open it, and the server."""
     with serving(tmp_path_factory.mktemp("served")) as served:
         made = requests.post(
             f"{served.base}/api/v1/projects", json={"name": "P"}, headers=served.headers, timeout=60

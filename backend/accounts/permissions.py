@@ -14,8 +14,8 @@ from rest_framework.throttling import SimpleRateThrottle
 
 from backend.accounts.audit import client_address
 from backend.accounts.models import User
-from backend.accounts.sign_in.attempts import network_of
 from backend.config.environment import environment
+from backend.core.clients import network_of
 from backend.core.problems import StudioError
 
 if TYPE_CHECKING:

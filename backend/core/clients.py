@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from ipaddress import ip_address
+from ipaddress import IPv6Address, IPv6Network, ip_address
 from typing import TYPE_CHECKING, Final
 
 from backend.config.environment import environment
@@ -39,6 +39,21 @@ def address_of(connection: str | None, headers: Mapping[str, str]) -> str | None
         return str(ip_address(address))
     except ValueError:
         return None
+
+
+def network_of(address: str | None) -> str:
+    """Returns what counts as one address: for IPv6 the /64, since a machine can use all addresses in it."""
+    if not address:
+        return "?"
+    found = ip_address(address)
+    if isinstance(found, IPv6Address):
+        return str(IPv6Network((found, 64), strict=False).network_address)
+    return str(found)
+
+
+def stranger(address: str | None) -> str:
+    """Names the owner of what clients use that are not known yet: all of one address together."""
+    return f"address {network_of(address)}"
 
 
 def is_on_this_machine(connection: str | None, headers: Mapping[str, str]) -> bool:

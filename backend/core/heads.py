@@ -1,6 +1,7 @@
 """Bounds what a connection may cost before its request is known: the time and the size of a request's head.
 
-uvicorn waits without end for a head that comes byte by byte, and keeps all of it in memory.
+uvicorn waits without end for a head that comes byte by byte, and keeps all of it in memory. Connections of an
+owner who used more than their share of the event loop are not read for a while.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from uvicorn.protocols.http.httptools_impl import HttpToolsProtocol
 
+from backend.core.connection_costs import COSTS, ConnectionCosts
 from backend.core.problems import MEDIA_TYPE, problem
 from backend.core.websocket import read_at_most
 
@@ -32,23 +34,53 @@ class PatientProtocol(HttpToolsProtocol):
         self._head_timer: asyncio.TimerHandle | None = None
         self._head_bytes = 0
         self._in_head = False
+        self._costs = ConnectionCosts(None)
+        self._rest: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Begins to wait for the first head."""
         super().connection_made(transport)
-        read_at_most(transport, READ_HEAD_BYTES)
-        self._wait_for_head()
+        self._costs = ConnectionCosts(self.client[0] if self.client else None)
+        with self._costs.booked():
+            read_at_most(transport, READ_HEAD_BYTES)
+            self._wait_for_head()
+        self._rest_if_due()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Waits no longer."""
         self._stop_waiting()
+        if self._rest is not None:
+            self._rest.cancel()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
+        """Books what the bytes cost."""
+        with self._costs.booked():
+            self._received(data)
+        self._rest_if_due()
+
+    def _rest_if_due(self) -> None:
+        """Reads no further head for a while; a body that has begun is cheap, and its sender is known."""
+        is_between = self._in_head or self._is_idle()
+        if is_between and self._is_ours() and (rest_s := self._costs.rest_s()):
+            self.transport.pause_reading()
+            if self._rest is not None:
+                self._rest.cancel()
+            self._rest = self.loop.call_later(rest_s, self._end_rest)
+
+    def _end_rest(self) -> None:
+        if self._is_ours() and not self.flow.read_paused:
+            self.transport.resume_reading()
+
+    def _is_ours(self) -> bool:
+        """Whether the connection is open, and no websocket has taken it over."""
+        return not self.transport.is_closing() and self.transport.get_protocol() is self
+
+    def _received(self, data: bytes) -> None:
         """Counts what comes outside of bodies; between two requests that may be empty lines without end."""
         before = self._in_head or self._is_idle()
         super().data_received(data)
-        if self.transport.is_closing() or self.transport.get_protocol() is not self:
+        if not self._is_ours():
             self._stop_waiting()
             return
         if not (self._in_head or self._is_idle()):
@@ -71,6 +103,7 @@ class PatientProtocol(HttpToolsProtocol):
         self._stop_waiting()
         read_at_most(self.transport, READ_BODY_BYTES)
         super().on_headers_complete()
+        self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
 
     def on_message_complete(self) -> None:
         """The next thing that comes is a head."""

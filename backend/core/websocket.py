@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING, Any, Final
 
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+
+from backend.core.connection_costs import COSTS, ConnectionCosts
 
 if TYPE_CHECKING:
     from asyncio import BaseTransport, TimerHandle
@@ -17,11 +18,6 @@ if TYPE_CHECKING:
 READ_BYTES: Final = 4 << 10
 READ_LITTLE_BYTES: Final = 1 << 10
 """The same of a client who is not accepted yet, or who has nothing to say."""
-COSTLY_S: Final = 0.001
-"""Processor time for one read that is worth a rest: frames that say something take a tenth of it."""
-SHARE: Final = 0.01
-"""Of the event loop's time, for a client whose reads are costly."""
-LONGEST_REST_S: Final = 2.0
 LARGEST_MESSAGE: Final = 64 << 20
 SMALL_BYTES: Final = 4 << 10
 """The largest message from a client who is not accepted yet, or who has nothing to say."""
@@ -39,7 +35,7 @@ def read_at_most(transport: Any, size: int) -> None:
 
 
 class PatientSocket(WebSocketsSansIOProtocol):
-    """Reads little at a time, rests after reads that were costly, and bounds what costs its client nothing.
+    """Reads little at a time, rests when its owner has used their share, bounds what costs nothing.
 
     All frames in what is read are parsed at once. In the 256 KiB that asyncio reads there can be thousands,
     for which every other socket would wait.
@@ -52,6 +48,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         super().__init__(*args, **kwargs)
         self._idle_frames, self._since = 0, 0.0
         self._rest: TimerHandle | None = None
+        self._costs = ConnectionCosts(None)
 
     @property
     def read_paused(self) -> bool:
@@ -66,6 +63,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         """Called by uvicorn."""
         read_at_most(transport, READ_LITTLE_BYTES)
         super().connection_made(transport)
+        self._costs = ConnectionCosts(self.client[0] if self.client else None)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Called by asyncio; a rest ends."""
@@ -74,14 +72,13 @@ class PatientSocket(WebSocketsSansIOProtocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Called by asyncio. The clock is the thread's: waiting for other threads costs others nothing."""
-        began_s = time.thread_time()
-        super().data_received(data)
-        spent_s = time.thread_time() - began_s
-        if spent_s > COSTLY_S and not self.transport.is_closing():
+        """Called by asyncio."""
+        with self._costs.booked():
+            super().data_received(data)
+        if (rest_s := self._costs.rest_s()) and not self.transport.is_closing():
             self._is_resting = True
             self.transport.pause_reading()
-            self._rest = self.loop.call_later(min(spent_s / SHARE, LONGEST_REST_S), self._end_rest)
+            self._rest = self.loop.call_later(rest_s, self._end_rest)
 
     def _end_rest(self) -> None:
         self._is_resting = False
@@ -93,6 +90,7 @@ class PatientSocket(WebSocketsSansIOProtocol):
         """A client who is not known yet sends little."""
         self.conn.max_message_size = SMALL_BYTES
         super().handle_connect(event)
+        self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
 
     async def send(self, message: ASGISendEvent) -> None:
         """An accepted one sends what its route takes."""

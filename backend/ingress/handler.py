@@ -9,6 +9,7 @@ from __future__ import annotations
 import asyncio
 import contextvars
 import os
+import time
 from contextlib import asynccontextmanager, suppress
 from functools import partial
 from typing import IO, TYPE_CHECKING, Any, Final, NamedTuple
@@ -20,6 +21,7 @@ from django.middleware.http import ConditionalGetMiddleware
 from django.urls import set_script_prefix
 
 from backend.config.environment import environment
+from backend.core.connection_costs import known
 from backend.core.file_answers import PART, FileAnswer
 from backend.core.problems import problem, problem_response
 from backend.core.processes.siblings import siblings
@@ -28,6 +30,7 @@ from backend.core.scratch import scratch
 from backend.ingress.bodies import BODY, PATIENCE_S, SLOWEST, Bodies, BodyRefusedError, ClientLeftError
 from backend.ingress.middleware import secured
 from backend.ingress.owners import owner_of
+from backend.ingress.turns import turns
 from backend.workers.deferred import Deferred
 
 if TYPE_CHECKING:
@@ -49,6 +52,8 @@ HASHING: Final = ("/accounts/", "/admin/")
 """Where passwords come, each of which takes a processor a third of a second."""
 MOST_WAITING: Final = 600
 RETRY_S: Final = 30
+LOOP_S: Final = 0.0005
+"""Of the event loop's time, for one request: so much was measured."""
 LINGER_S: Final = 10.0
 LINGER_BYTES: Final = 64 * 1024 * 1024
 """For how long, and how much of a body, is thrown away that was refused."""
@@ -89,6 +94,8 @@ class ThreadedHandler(ASGIHandler):
     async def __call__(self, scope: HTTPScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:  # type: ignore[override]
         """Reads the request, has a thread answer it, and sends the answer."""
         owner = owner_of(scope)
+        known(scope, owner)
+        turns.spend(owner, LOOP_S)
         try:
             async with self._bodies.read(scope, receive, owner) as body:
                 # What a request sets for itself (language, address) must not stay with the thread.
@@ -138,8 +145,15 @@ class ThreadedHandler(ASGIHandler):
     async def _answered(
         self, work: Callable[[], Answer | Unfinished], owner: str | None
     ) -> Answer | Unfinished:
-        answer: Answer | Unfinished = await self.threads.run(asyncio.get_running_loop(), work, owner)
-        return answer
+        loop = asyncio.get_running_loop()
+        answer: Answer | Unfinished
+        if owner is None:
+            answer, _ = await self.threads.run(loop, partial(_timed, work))
+            return answer
+        async with turns.turn(owner):
+            answer, used_s = await self.threads.run(loop, partial(_timed, work), owner)
+            turns.spend(owner, used_s)
+            return answer
 
     def _answer(self, scope: HTTPScope, body: IO[bytes]) -> Answer | Unfinished:
         set_script_prefix(get_script_prefix(scope))
@@ -167,6 +181,12 @@ class ThreadedHandler(ASGIHandler):
             response.close()
             return Answer(response.status_code, _headers(response), b"", file)
         return _closed(response)
+
+
+def _timed(work: Callable[[], Answer | Unfinished]) -> tuple[Answer | Unfinished, float]:
+    """Works, and returns the processor time that it took, in seconds."""
+    began_s = time.thread_time()
+    return work(), time.thread_time() - began_s
 
 
 async def _ended(work: Future[Any]) -> None:

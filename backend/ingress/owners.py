@@ -9,8 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from backend.accounts.identity import last_seen
-from backend.accounts.sign_in.attempts import network_of
-from backend.core.clients import address_of
+from backend.core.clients import address_of, stranger
 from backend.core.scopes import cookies_of, headers_of
 
 if TYPE_CHECKING:
@@ -24,4 +23,4 @@ def owner_of(scope: HTTPScope | WebSocketScope) -> str:
     if user is not None:
         return f"user {user}"
     client = scope.get("client")
-    return f"address {network_of(address_of(client[0] if client else None, headers))}"
+    return stranger(address_of(client[0] if client else None, headers))

@@ -22,10 +22,12 @@ from backend.accounts import rights
 from backend.accounts.identity import identify
 from backend.config.environment import environment
 from backend.core import guard
+from backend.core.connection_costs import known
 from backend.core.problems import StudioError
 from backend.core.scopes import cookies_of, facts_of, headers_of
 from backend.core.websocket import MOST_BYTES, SMALL_BYTES
 from backend.ingress.owners import owner_of
+from backend.ingress.turns import turns
 
 if TYPE_CHECKING:
     from asgiref.typing import ASGIReceiveCallable, ASGISendCallable, WebSocketScope
@@ -43,6 +45,8 @@ OF_A_USER: Final = 100
 """Sockets that one user may have open: each page has up to four."""
 OF_AN_ADDRESS: Final = 500
 """The same of all guests, and of all whom the server has not seen before, behind one address."""
+HANDSHAKE_S: Final = 0.002
+"""Of the event loop's time, for a socket that opens: so much was measured."""
 AT_THE_DOOR: Final = 2
 """Of these, how many are asked at a time who they are; the others wait."""
 
@@ -119,12 +123,15 @@ async def serve(
     """Serves a socket whose path is one of these; all others are refused."""
     await receive()  # websocket.connect
     found = _route(routes, scope["path"])
-    async with _crowd.place(owner_of(scope)) as door:
+    owner = owner_of(scope)
+    known(scope, owner)
+    async with _crowd.place(owner) as door:
         # Whether this user may see what the path names is for the handler to ask.
         user = None
         if found is not None and door is not None and refusal(scope) is None:
-            async with door:
+            async with door, turns.turn(owner):
                 user = await _user(scope)
+                turns.spend(owner, HANDSHAKE_S)
         if found is None or user is None:
             # A close before the accept makes the server answer the handshake with 403.
             await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": ""})

@@ -26,6 +26,8 @@ PER_OWNER: Final = 1
 """Jobs of one owner at work in each of the two pools."""
 NICENESS: Final = 10
 """Of large work: answers to requests, and the small work they wait for, come first."""
+TOO_LONG_KEPT_S: Final = 60.0
+"""Large work that took too long is not tried again so soon; small work only met a busy machine."""
 SMALL_WAITING: Final = 16
 LARGE_WAITING: Final = 4
 """Jobs that may wait, for each process. Small ones take milliseconds: waiting is better than an error."""
@@ -72,10 +74,12 @@ def make_lanes() -> Lanes:
     """Pools with the limits of this server."""
     mode = environment().mode
     small = _pool(SMALL_WORKERS[mode], SMALL_WAITING)
-    return Lanes(small, _pool(LARGE_WORKERS[mode], LARGE_WAITING, niceness=NICENESS))
+    return Lanes(
+        small, _pool(LARGE_WORKERS[mode], LARGE_WAITING, niceness=NICENESS, too_long_kept_s=TOO_LONG_KEPT_S)
+    )
 
 
-def _pool(workers: int, waiting: int, *, niceness: int = 0) -> Pool:
+def _pool(workers: int, waiting: int, *, niceness: int = 0, too_long_kept_s: float = 0.0) -> Pool:
     return Pool(
         Limits(
             workers=workers,
@@ -84,5 +88,6 @@ def _pool(workers: int, waiting: int, *, niceness: int = 0) -> Pool:
             deadline_s=environment().work_deadline_s,
             memory_bytes=MEMORY_BYTES,
             niceness=niceness,
+            too_long_kept_s=too_long_kept_s,
         )
     )

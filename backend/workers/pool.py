@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 from collections import OrderedDict
 from concurrent.futures import Future
 from contextlib import suppress
@@ -28,6 +29,7 @@ log = logging.getLogger(__name__)
 
 KEPT_BYTES: Final = 64 << 20
 LARGEST_KEPT_BYTES: Final = 8 << 20
+MOST_TOO_LONG: Final = 1000
 SMALLER: Final = "Make the project smaller: split it, or remove what it does not need."
 
 
@@ -42,6 +44,7 @@ class Limits:
         deadline_s: how long one job may be at work.
         memory_bytes: what one worker may allocate.
         niceness: by how much its processes give way to others, as of `nice`.
+        too_long_kept_s: for how long an equal job is refused at once after one that took too long.
     """
 
     workers: int
@@ -50,6 +53,7 @@ class Limits:
     deadline_s: float
     memory_bytes: int
     niceness: int = 0
+    too_long_kept_s: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -68,6 +72,7 @@ class Pool:
         self._queue: FairQueue[_Job] = FairQueue(room=limits.waiting, per_owner=limits.per_owner)
         self._going: dict[bytes, Future[Any]] = {}
         self._kept = _Kept()
+        self._too_long: OrderedDict[bytes, float] = OrderedDict()
         self._workers: list[_Worker] = []
         self._idle = 0
         self._is_closed = False
@@ -102,6 +107,10 @@ class Pool:
         with self._changed:
             if (kept := self._kept.get(key)) is not None:
                 future.set_result(msgspec.msgpack.decode(kept)["result"])
+                return future
+            if time.monotonic() - self._too_long.get(key, float("-inf")) < self._limits.too_long_kept_s:
+                # An equal job just took too long, and would again, for as long.
+                future.set_exception(_too_long(self._limits))
                 return future
             if (going := self._going.get(key)) is not None:
                 return going
@@ -154,6 +163,10 @@ class Pool:
             self._going.pop(job.key, None)
             if error is None and isinstance(answer, bytearray):
                 self._kept.put(job.key, answer)
+            if isinstance(error, TookTooLongError):
+                self._too_long[job.key] = time.monotonic()
+                while len(self._too_long) > MOST_TOO_LONG:
+                    self._too_long.popitem(last=False)
             self._changed.notify()  # another job of this owner may begin
         if error is None:
             job.future.set_result(result)
@@ -164,6 +177,10 @@ class Pool:
     def limits(self) -> Limits:
         """The limits of this pool."""
         return self._limits
+
+
+def _too_long(limits: Limits) -> TookTooLongError:
+    return TookTooLongError(f"The work took more than {limits.deadline_s:g} s and was ended.", hint=SMALLER)
 
 
 def _opened(answer: bytearray | Exception) -> tuple[Any, Exception | None]:
@@ -225,9 +242,7 @@ class _Worker:
             return frames.receive(connection)
         except TimeoutError:
             self._end()
-            raise TookTooLongError(
-                f"The work took more than {limits.deadline_s:g} s and was ended.", hint=SMALLER
-            ) from None
+            raise _too_long(limits) from None
         except frames.FrameError:
             reason = self._end()
             log.warning("a worker %s", reason)

@@ -12,12 +12,13 @@ from __future__ import annotations
 import hashlib
 import secrets
 from dataclasses import dataclass
-from ipaddress import IPv6Address, IPv6Network, ip_address
 from typing import TYPE_CHECKING, Any, Final, NamedTuple
 
 from django.conf import settings
 from django.core.cache import cache
 from django.core.signing import BadSignature, TimestampSigner
+
+from backend.core.clients import network_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -67,16 +68,6 @@ def bounds(account: int | str, address: str | None, browser: Browser | None) -> 
         Bound(f"account {account}", 50, 60 * MINUTE_S),
         Bound(f"address {place}", 300, 10 * MINUTE_S),
     )
-
-
-def network_of(address: str | None) -> str:
-    """Returns what counts as one address: for IPv6 the /64, since a machine can use all addresses in it."""
-    if not address:
-        return "?"
-    found = ip_address(address)
-    if isinstance(found, IPv6Address):
-        return str(IPv6Network((found, 64), strict=False).network_address)
-    return str(found)
 
 
 class Attempt:

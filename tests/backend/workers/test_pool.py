@@ -22,13 +22,16 @@ PATIENCE_S = 60
 def make_pool():
     made = []
 
-    def make(*, workers=2, per_owner=2, waiting=8, deadline_s=PATIENCE_S, memory_bytes=1 << 30):
+    def make(
+        *, workers=2, per_owner=2, waiting=8, deadline_s=PATIENCE_S, memory_bytes=1 << 30, too_long_kept_s=0.0
+    ):
         limits = Limits(
             workers=workers,
             per_owner=per_owner,
             waiting=waiting,
             deadline_s=deadline_s,
             memory_bytes=memory_bytes,
+            too_long_kept_s=too_long_kept_s,
         )
         made.append(Pool(limits))
         return made[-1]
@@ -89,6 +92,17 @@ def test_work_that_takes_too_long_is_ended_and_the_next_is_done(make_pool):
     os.kill(pids(pool)[0], signal.SIGSTOP)
     with pytest.raises(TookTooLongError, match="more than 3 s"):
         pack(pool, 2).result(PATIENCE_S)
+    assert pack(pool, 3).result(PATIENCE_S)["zip"]
+    assert pack(pool, 2).result(PATIENCE_S)["zip"]
+
+
+def test_work_that_took_too_long_is_refused_at_once_for_a_while(make_pool):
+    pool = make_pool(workers=1, deadline_s=3, too_long_kept_s=PATIENCE_S)
+    pack(pool, 1).result(PATIENCE_S)
+    os.kill(pids(pool)[0], signal.SIGSTOP)
+    for _ in range(2):  # the second meets no process that is stopped
+        with pytest.raises(TookTooLongError, match="more than 3 s"):
+            pack(pool, 2).result(PATIENCE_S)
     assert pack(pool, 3).result(PATIENCE_S)["zip"]
 
 

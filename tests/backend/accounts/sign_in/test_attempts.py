@@ -14,10 +14,10 @@ from django.test import Client
 
 from backend.accounts.models import AuditEntry, User
 from backend.accounts.sign_in import attempts
-from backend.accounts.sign_in.attempts import Attempt, Browser, bounds, network_of
+from backend.accounts.sign_in.attempts import Attempt, Browser, bounds
 from backend.accounts.writes import create_account
 from backend.core import clients
-from backend.core.clients import address_of, is_on_this_machine
+from backend.core.clients import address_of, is_on_this_machine, network_of
 from backend.ingress.handler import ThreadedHandler
 from tests.backend.accounts.conftest import PASSWORD, PUBLIC, Person
 from tests.backend.ingress.test_handler import body

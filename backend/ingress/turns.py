@@ -1,0 +1,60 @@
+"""Requests of an owner who has used more than their share wait for their turn, one behind the other."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING, Final
+
+from backend.config.environment import environment
+from backend.core.processes.budgets import budgets
+
+if TYPE_CHECKING:
+    from collections.abc import AsyncIterator
+
+    from backend.core.processes.budgets import Budgets
+
+
+class Turns:
+    """Lets requests begin. On a server of one user all begin at once.
+
+    Args:
+        budgets: what owners have used.
+    """
+
+    def __init__(self, budgets: Budgets) -> None:
+        self._budgets = budgets
+        self._queues: dict[str, _Queue] = {}
+
+    @asynccontextmanager
+    async def turn(self, owner: str) -> AsyncIterator[None]:
+        """Waits until the owner may continue. One request at a time, while the owner is over their share."""
+        if not environment().is_team or (owner not in self._queues and not self._budgets.rest_s(owner)):
+            yield
+            return
+        queue = self._queues.setdefault(owner, _Queue())
+        queue.waiting += 1
+        try:
+            async with queue.lock:
+                # Once: frames of the same owner may prolong the rest for ever.
+                await asyncio.sleep(self._budgets.rest_s(owner))
+                yield
+        finally:
+            queue.waiting -= 1
+            if not queue.waiting:
+                del self._queues[owner]
+
+    def spend(self, owner: str, used_s: float) -> None:
+        """Books processor time, in seconds."""
+        if environment().is_team:
+            self._budgets.spend(owner, used_s)
+
+
+class _Queue:
+    def __init__(self) -> None:
+        self.lock = asyncio.Lock()
+        self.waiting = 0
+
+
+turns: Final = Turns(budgets)
+"""Those of this process, for requests and for sockets."""

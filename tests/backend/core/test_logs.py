@@ -1,0 +1,63 @@
+"""What is written into the log, and what is left out."""
+
+from __future__ import annotations
+
+import logging
+
+import pytest
+
+from backend.core.logs import MOST_ALIKE, PERIOD_S, Flood
+
+
+class Clock:
+    now_s = 100.0
+
+    def __call__(self):
+        return self.now_s
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+@pytest.fixture
+def written(clock):
+    """A logger and the lines that it wrote."""
+    lines = []
+
+    class Kept(logging.Handler):
+        def emit(self, record):
+            lines.append(record.getMessage())
+
+    handler, logger = Kept(), logging.getLogger("tests.flood")
+    logger.handlers.clear()
+    handler.addFilter(Flood(clock))
+    logger.addHandler(handler)
+    return logger, lines
+
+
+def test_lines_of_one_kind_are_written_so_many_times_in_a_period(written):
+    logger, lines = written
+    for number in range(MOST_ALIKE + 30):
+        logger.warning("invalid request %d", number)
+        logger.warning("another kind")
+    assert lines.count("another kind") == MOST_ALIKE
+    assert [line for line in lines if "invalid" in line][-1] == f"invalid request {MOST_ALIKE - 1}"
+
+
+def test_the_next_period_begins_with_how_many_were_dropped(written, clock):
+    logger, lines = written
+    for number in range(MOST_ALIKE + 30):
+        logger.warning("invalid request %d", number)
+    clock.now_s += PERIOD_S
+    logger.warning("invalid request %d", 99)
+    logger.warning("invalid request %d", 100)
+    assert lines[-2:] == ["invalid request 99 (30 more of these came before)", "invalid request 100"]
+
+
+def test_no_error_is_dropped(written):
+    logger, lines = written
+    for _ in range(MOST_ALIKE + 30):
+        logger.error("a fault")
+    assert len(lines) == MOST_ALIKE + 30

@@ -1,4 +1,4 @@
-"""The parent of several web workers: it holds the port, starts them, and replaces each that ends or hangs.
+"""The parent of several web workers and their pool: it holds the port, and replaces each that ends or hangs.
 
 It answers no request itself and runs no user's work, so there is little that could end it. Workers are
 programs of their own (a fork of a process with threads is no safe place to be) which inherit the listening
@@ -40,6 +40,7 @@ FIRST_PAUSE_S: Final = 0.5
 LONGEST_PAUSE_S: Final = 30.0
 FUTILE: Final = 5
 """After so many starts in a row that came to nothing, of every worker, the server ends."""
+POOL_PAGE: Final = "pool.numbers"
 STOP_S: Final = 20.0
 """How long workers may take to end that were asked to."""
 ENDING: Final = (signal.SIGTERM, signal.SIGINT)
@@ -51,7 +52,7 @@ class Child:
     Args:
         name: what it is called in the log.
         command: what starts it.
-        sign: its page of numbers, or the file that is there once it answers.
+        page: its page of numbers.
         descriptors: what it inherits.
     """
 
@@ -59,13 +60,12 @@ class Child:
         self,
         name: str,
         command: Sequence[str],
-        sign: memoryview[float] | Path,
+        page: memoryview[float],
         descriptors: Sequence[int] = (),
     ) -> None:
         self.name = name
         self._command, self._descriptors = command, descriptors
-        self._page = sign if isinstance(sign, memoryview) else None
-        self._file = sign if isinstance(sign, Path) else None
+        self._page = page
         self._process: subprocess.Popen[bytes] | None = None
         self._since_s = self._due_s = 0.0
         self._beat = (0.0, 0.0)
@@ -76,18 +76,13 @@ class Child:
     @property
     def has_started(self) -> bool:
         """Whether it answers, or did until it hung."""
-        if self._process is None:
-            return False
-        if self._page is not None:
-            return bool(self._page[STARTED])
-        return self._file is not None and self._file.exists()
+        return self._process is not None and bool(self._page[STARTED])
 
     def start_if_due(self, now_s: float) -> None:
         """Starts it, unless it runs or its pause is not over."""
         if self._process is not None or now_s < self._due_s:
             return
-        if self._page is not None:
-            self._page[STARTED] = self._page[STUCK] = self._page[BEAT] = 0
+        self._page[STARTED] = self._page[STUCK] = self._page[BEAT] = 0
         self._process = subprocess.Popen(
             self._command,
             cwd=REPOSITORY,
@@ -114,7 +109,7 @@ class Child:
         Args:
             passed_s: since the last look; of a longer time the parent itself was not awake.
         """
-        if self._process is None or self._page is None or not self._page[STARTED] or self._is_given_up:
+        if self._process is None or not self._page[STARTED] or self._is_given_up:
             return False
         beat, silent_s = self._beat
         silent_s = 0.0 if self._page[BEAT] != beat else silent_s + min(passed_s, TICK_S)
@@ -148,8 +143,7 @@ class Child:
     def _forget(self) -> None:
         self.close_input()
         self._process = None
-        if self._page is not None:
-            self._page[STARTED] = 0
+        self._page[STARTED] = 0
 
 
 def _pause_s(failures: int) -> float:
@@ -188,8 +182,10 @@ class Parent:
 
     @staticmethod
     def _make_pool(folder: Path) -> Child:
+        path = folder / POOL_PAGE
+        page = make_page(path)
         command = [sys.executable, "-m", "backend.workers.service", "--socket", str(folder / POOL)]
-        return Child("pool of processes", command, folder / POOL)
+        return Child("pool of processes", [*command, "--page", str(path)], page)
 
     def _worker(self, folder: Path, number: int) -> Child:
         command = [sys.executable, "-m", "backend.config.web_worker", "--fd", str(self._listener.fileno())]

@@ -7,6 +7,7 @@ which everybody waits.
 from __future__ import annotations
 
 import time
+from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final
 
@@ -19,10 +20,13 @@ if TYPE_CHECKING:
 
 COSTS: Final = "bt_studio.connection_costs"
 """The `ConnectionCosts` in the scope of a request or a socket."""
+MOST_UNFINISHED: Final = 128 << 20
+"""Bytes of messages that are not whole yet, of all sockets of one owner: twice the largest message."""
+_unfinished: Final[Counter[str]] = Counter()
 
 
 class ConnectionCosts:
-    """What one connection costs, and for whom.
+    """The costs of one connection, and who pays them.
 
     Args:
         address: the other end's.
@@ -35,6 +39,7 @@ class ConnectionCosts:
         settings = environment()
         self._is_on = settings.is_team
         self.owner = None if settings.proxy_hops else stranger(address_of(address, {}))
+        self._held = 0
 
     @contextmanager
     def booked(self) -> Iterator[None]:
@@ -50,9 +55,31 @@ class ConnectionCosts:
         """For how many seconds nothing more may be read from this connection."""
         return budgets.rest_s(self.owner) if self._is_on and self.owner is not None else 0.0
 
+    def hold(self, size: int) -> bool:
+        """Counts bytes of a message that is not whole yet; False if its owner has too many of them."""
+        if not self._is_on or self.owner is None:
+            return True
+        self._held += size
+        _unfinished[self.owner] += size
+        return _unfinished[self.owner] <= MOST_UNFINISHED
+
+    def release(self) -> None:
+        """The message is whole, or will never be."""
+        if self.owner is None or not self._held:
+            return
+        _unfinished[self.owner] -= self._held
+        self._held = 0
+        if not _unfinished[self.owner]:
+            del _unfinished[self.owner]
+
+    def belong_to(self, owner: str) -> None:
+        """Books for this owner from now on."""
+        self.release()
+        self.owner = owner
+
 
 def known(scope: Any, owner: str) -> None:
-    """Has the owner of a request or a socket pay for its connection from now on."""
+    """Books the connection of a request or a socket for its owner from now on."""
     costs = scope.get(COSTS)
     if costs is not None:
-        costs.owner = owner
+        costs.belong_to(owner)

@@ -27,6 +27,7 @@ IDLE_FRAMES: Final = 100
 """Frames a second that may come and say nothing: pings, pongs, and tiny parts of a message."""
 TINY: Final = 256
 POLICY_VIOLATION: Final = 1008
+TOO_BIG: Final = 1009
 
 
 def read_at_most(transport: Any, size: int) -> None:
@@ -69,10 +70,15 @@ class PatientSocket(WebSocketsSansIOProtocol):
         """Called by asyncio; a rest ends."""
         if self._rest is not None:
             self._rest.cancel()
+        self._costs.release()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
         """Called by asyncio."""
+        if not self._costs.hold(len(data)) and self.handshake_complete and not self.close_sent:
+            self.conn.fail(TOO_BIG, "too many large messages at once")
+            self.handle_parser_exception()
+            return
         with self._costs.booked():
             super().data_received(data)
         if (rest_s := self._costs.rest_s()) and not self.transport.is_closing():
@@ -90,7 +96,13 @@ class PatientSocket(WebSocketsSansIOProtocol):
         """A client who is not known yet sends little."""
         self.conn.max_message_size = SMALL_BYTES
         super().handle_connect(event)
-        self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
+        if self.handshake_initiated and not self.handshake_complete:
+            self.scope[COSTS] = self._costs  # type: ignore[typeddict-unknown-key]
+
+    def send_receive_event_to_app(self) -> None:
+        """Called by uvicorn: a message is whole."""
+        self._costs.release()
+        super().send_receive_event_to_app()
 
     async def send(self, message: ASGISendEvent) -> None:
         """An accepted one sends what its route takes."""

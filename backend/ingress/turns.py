@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Turns:
-    """Lets requests begin. On a server of one user all begin at once.
+    """Begins requests. On a server of one user all begin at once.
 
     Args:
         budgets: what owners have used.
@@ -36,7 +36,7 @@ class Turns:
         queue.waiting += 1
         try:
             async with queue.lock:
-                # Once: frames of the same owner may prolong the rest for ever.
+                # Once: frames of the same owner may prolong the rest without end.
                 await asyncio.sleep(self._budgets.rest_s(owner))
                 yield
         finally:

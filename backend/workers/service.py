@@ -12,6 +12,7 @@ import os
 import signal
 import socket
 import threading
+import time
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
@@ -22,6 +23,8 @@ import msgspec
 from backend.config.environment import environment
 from backend.core.logs import set_up
 from backend.core.problems import StudioError
+from backend.core.processes.numbers import BEAT, STARTED, read_page
+from backend.core.processes.siblings import BEAT_EVERY_S
 from backend.workers import frames
 from backend.workers.lanes import make_lanes
 
@@ -42,12 +45,24 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Works until the parent ends."""
     parser = argparse.ArgumentParser(prog="python -m backend.workers.service", description=__doc__)
     parser.add_argument("--socket", type=Path, required=True, help="where web workers ask")
+    parser.add_argument("--page", type=Path, required=True, help="where it reports that it is alive")
     options = parser.parse_args(arguments)
     set_up(environment().log_level, environment().log_style)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)  # the end of its input comes when nobody asks any more
-    threading.Thread(target=serve, args=(listening(options.socket), make_lanes()), daemon=True).start()
+    lanes = make_lanes()
+    threading.Thread(target=serve, args=(listening(options.socket), lanes), daemon=True).start()
+    threading.Thread(target=beat, args=(lanes, read_page(options.page)), daemon=True).start()
     while os.read(STDIN, 1):
         pass
+
+
+def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
+    """Reports to the parent without end that the pool answers; `waiting` takes the locks of every question."""
+    while True:
+        _ = pool.waiting
+        page[BEAT] = time.monotonic()
+        page[STARTED] = 1
+        time.sleep(BEAT_EVERY_S)
 
 
 def listening(path: Path) -> socket.socket:

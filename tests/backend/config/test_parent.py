@@ -15,7 +15,7 @@ from backend.config.server import ServeError
 from backend.core.processes.siblings import PAGE
 
 WORKER = """
-    import mmap, os, struct, sys, time
+    import mmap, os, struct, sys, threading, time
     folder, own = sys.argv[1:3]
     page = mmap.mmap(os.open(f"{folder}/worker-{own}.numbers", os.O_RDWR), 2048)
     life = os.open(f"{folder}/lives", os.O_WRONLY | os.O_CREAT | os.O_APPEND)
@@ -31,11 +31,17 @@ WORKER = """
 """
 
 
-class Small(parent.Parent):
-    """A parent of workers that do what a few lines say."""
+# The pool ends when its input does.
+ENDS = "threading.Thread(target=lambda: (sys.stdin.read(), os._exit(0)), daemon=True).start()\n"
+POOL = "9"
 
-    def __init__(self, *lines, until=""):
+
+class Small(parent.Parent):
+    """A parent of workers, and a pool, that do what a few lines say."""
+
+    def __init__(self, *lines, until="", pool="serve()"):
         self.ready, self.log, self._lines, self._until = 0, "", lines, until
+        self._pool_lines = ENDS + pool
         with socket.socket() as listener:
             super().__init__(listener, len(lines), on_ready=self._note_ready)
             self._fd = listener
@@ -44,14 +50,16 @@ class Small(parent.Parent):
         self.ready += 1
 
     def _make_pool(self, folder):
-        return parent.Child("pool", [sys.executable, "-c", "input()"], folder)
+        return self._child(folder, POOL, "pool", self._pool_lines)
 
     def _worker(self, folder, number):
+        return self._child(folder, number, f"web worker {number}", self._lines[number])
+
+    def _child(self, folder, number, name, lines):
         self.folder = folder
         page = parent.make_page(folder / PAGE.format(number))
-        script = textwrap.dedent(WORKER) + textwrap.dedent(self._lines[number])
-        command = [sys.executable, "-S", "-c", script, str(folder), str(number)]
-        return parent.Child(f"web worker {number}", command, page)
+        script = textwrap.dedent(WORKER) + textwrap.dedent(lines)
+        return parent.Child(name, [sys.executable, "-S", "-c", script, str(folder), str(number)], page)
 
     def _look(self, now_s, passed_s):
         super()._look(now_s, passed_s)
@@ -83,6 +91,14 @@ def test_who_hangs_is_replaced(monkeypatch, caplog, how):
     family.run()
     assert family.log.count("0") == 1
     assert "the web worker 1 hangs and is replaced" in caplog.text
+
+
+def test_a_pool_that_hangs_is_replaced(monkeypatch, caplog):
+    monkeypatch.setattr(parent, "HUNG_S", 3.0)
+    family = Small("serve()", until="099", pool="put(0, 1)\nif lives < 2:\n    time.sleep(1000)\nserve()")
+    family.run()
+    assert (family.ready, family.log.count("0")) == (1, 1)
+    assert "the pool hangs and is replaced" in caplog.text
 
 
 def test_a_worker_that_cannot_start_ends_the_start(caplog):

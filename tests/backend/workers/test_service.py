@@ -5,10 +5,12 @@ from __future__ import annotations
 import socket
 import tempfile
 import threading
+import time
 from pathlib import Path
 
 import pytest
 
+from backend.core.processes.numbers import BEAT, STARTED, make_page
 from backend.workers import service
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 from backend.workers.pool import Limits, Pool
@@ -80,3 +82,13 @@ def test_without_a_pool_the_server_is_busy_until_there_is_another(served, tmp_pa
     with pytest.raises(BusyError, match="started again"):
         asker.ask("someone", "report", files=FILES)
     assert asker.waiting == 0
+
+
+def test_the_pool_reports_that_it_can_be_asked(served, tmp_path):
+    page = make_page(tmp_path / "page")
+    threading.Thread(target=service.beat, args=(served().pool, page), daemon=True).start()
+    deadline_s = time.monotonic() + PATIENCE_S
+    while not page[STARTED]:
+        assert time.monotonic() < deadline_s
+        time.sleep(0.01)
+    assert page[BEAT] <= time.monotonic()

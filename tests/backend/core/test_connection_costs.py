@@ -1,0 +1,168 @@
+"""Connections of an owner over their share are read later; unfinished messages of one owner are bounded."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import struct
+
+import pytest
+import uvicorn
+
+from backend.core import connection_costs
+from backend.core.connection_costs import ConnectionCosts, known
+from backend.core.heads import PatientProtocol
+from backend.core.processes.budgets import BURST_S, LONGEST_REST_S, SHARE, Budgets
+from backend.core.websocket import MOST_BYTES, PatientSocket
+from tests.hostile.wire import frame
+
+REQUEST = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"
+HANDSHAKE = (
+    b"GET /%d HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    b"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+)
+
+
+class Clock:
+    now_s = 100.0
+
+    def __call__(self):
+        return self.now_s
+
+
+class Settings:
+    is_team, proxy_hops = True, 0
+
+
+@pytest.fixture
+def budgets(monkeypatch):
+    made = Budgets(clock=Clock())
+    monkeypatch.setattr(connection_costs, "budgets", made)
+    monkeypatch.setattr(connection_costs, "environment", lambda: Settings)
+    monkeypatch.setattr(Settings, "proxy_hops", 0)
+    made.spend("somebody else", 0.001)
+    return made
+
+
+async def application(scope, receive, send):
+    """Answers requests, and takes messages of any size from sockets; their path is their owner."""
+    if scope["type"] == "websocket":
+        known(scope, scope["path"])
+        await receive()
+        await send({"type": "websocket.accept", MOST_BYTES: 1 << 20})
+        while (await receive())["type"] == "websocket.receive":
+            pass
+        return
+    await receive()
+    await send({"type": "http.response.start", "status": 200, "headers": [(b"content-length", b"2")]})
+    await send({"type": "http.response.body", "body": b"ok"})
+
+
+@contextlib.asynccontextmanager
+async def listening():
+    config = uvicorn.Config(
+        application, http=PatientProtocol, ws=PatientSocket, lifespan="off", log_config=None
+    )
+    config.load()
+    server = uvicorn.Server(config)
+    made = await asyncio.get_running_loop().create_server(
+        lambda: PatientProtocol(config=config, server_state=server.server_state, app_state={}), "127.0.0.1"
+    )
+    writers = []
+
+    async def connect():
+        reader, writer = await asyncio.open_connection(*made.sockets[0].getsockname())
+        writers.append(writer)
+        return reader, writer
+
+    async with made:
+        yield connect
+        for writer in writers:
+            writer.transport.abort()
+            with contextlib.suppress(OSError):
+                await writer.wait_closed()
+        while tasks := server.server_state.tasks:
+            await asyncio.wait(tasks)
+
+
+async def answered(reader):
+    async with asyncio.timeout(60):
+        return (await reader.readuntil(b"\r\n\r\n")).startswith(b"HTTP/1.1 200")
+
+
+async def test_a_connection_of_an_address_over_its_share_is_read_after_its_rest(budgets):
+    loop = asyncio.get_running_loop()
+    async with listening() as connect:
+        reader, writer = await connect()
+        writer.write(REQUEST)
+        assert await answered(reader)
+        budgets.spend("address 127.0.0.1", BURST_S + 0.3 * SHARE)
+        began_s = loop.time()
+        reader, writer = await connect()
+        writer.write(REQUEST)
+        assert await answered(reader)
+        assert loop.time() - began_s >= 0.29
+
+
+async def test_a_proxy_s_connections_are_read_whoever_used_what(budgets, monkeypatch):
+    monkeypatch.setattr(Settings, "proxy_hops", 1)
+    budgets.spend("address 127.0.0.1", 100.0)
+    assert ConnectionCosts("127.0.0.1").rest_s() == 0.0
+
+
+def test_a_connection_is_booked_for_its_owner_once_known(budgets):
+    costs = ConnectionCosts("127.0.0.1")
+    known({connection_costs.COSTS: costs}, "user 7")
+    budgets.spend("user 7", 100.0)
+    assert costs.rest_s() == pytest.approx(LONGEST_REST_S)
+    assert ConnectionCosts("127.0.0.1").rest_s() == 0.0
+
+
+async def open_socket(connect, owner):
+    reader, writer = await connect()
+    writer.write(HANDSHAKE % owner)
+    async with asyncio.timeout(60):
+        assert (await reader.readuntil(b"\r\n\r\n")).startswith(b"HTTP/1.1 101")
+    return reader, writer
+
+
+async def close_code(reader):
+    async with asyncio.timeout(60):
+        first, length = await reader.readexactly(2)
+        assert first & 15 == 8
+        return struct.unpack("!H", (await reader.readexactly(length))[:2])[0]
+
+
+@pytest.mark.usefixtures("budgets")
+async def test_unfinished_messages_of_one_owner_are_bounded_together(monkeypatch):
+    monkeypatch.setattr(connection_costs, "MOST_UNFINISHED", 100_000)
+    part = frame(bytes(60_000), opcode=2, is_last=False)
+    async with listening() as connect:
+        other, _ = await open_socket(connect, 2)
+        first, writing = await open_socket(connect, 1)
+        writing.write(part)
+        second, more = await open_socket(connect, 1)
+        more.write(part)
+        done, _ = await asyncio.wait(
+            [asyncio.ensure_future(close_code(reader)) for reader in (first, second)],
+            return_when=asyncio.FIRST_COMPLETED,
+        )
+        assert {task.result() for task in done} == {1009}
+        assert not other.at_eof()
+        _, again = await open_socket(connect, 2)
+        again.write(part)
+        await again.drain()
+
+
+@pytest.mark.usefixtures("budgets")
+async def test_whole_messages_count_no_longer(monkeypatch):
+    monkeypatch.setattr(connection_costs, "MOST_UNFINISHED", 100_000)
+    async with listening() as connect:
+        reader, writer = await open_socket(connect, 1)
+        for _ in range(5):
+            writer.write(frame(bytes(60_000), opcode=2))
+            await writer.drain()
+        writer.write(frame(b"", opcode=9))
+        async with asyncio.timeout(60):
+            assert (await reader.readexactly(1))[0] & 15 == 10  # a pong: the socket lives
+    assert not connection_costs._unfinished

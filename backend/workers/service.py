@@ -57,7 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
-    """Reports to the parent without end that the pool answers; `waiting` takes the locks of every question."""
+    """Reports without end that the pool answers; `waiting` takes the locks of every question."""
     while True:
         _ = pool.waiting
         page[BEAT] = time.monotonic()

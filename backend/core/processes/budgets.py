@@ -26,7 +26,7 @@ MOST_OWNERS: Final = 10_000
 
 
 class Budgets:
-    """The processor time that owners have used, and how long each must rest. Only the event loop's thread uses it.
+    """The processor time that owners have used, and how long each must rest. The event loop's thread uses it.
 
     Args:
         share: of a processor, for one owner.

@@ -48,6 +48,7 @@ lint: ## style, types, the direction of imports and the list of words, in Python
 	@$(BIN)/mypy
 	@$(BIN)/lint-imports
 	@$(BIN)/python -m tests.tools.words && $(BIN)/python -m tests.tools.mirror
+	@$(BIN)/python -m tests.tools.sleeps && $(BIN)/python -m tests.tools.seams
 	@cd frontend && npm run --silent lint
 
 format: ## rewrites the sources in the project's style

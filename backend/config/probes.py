@@ -123,7 +123,7 @@ async def _answer(scope: HTTPScope, threads: Threads) -> tuple[int, str, str]:
         return _health(_late("has answered", least_s(STUCK, threads.stuck_for_s()), NOT_LIVE_S))
     if scope["path"] == READY:
         late = _late("has been free", least_s(FULL, threads.full_for_s()), NOT_READY_S)
-        return _health(late or await sync_to_async(_trouble)())
+        return _health(late or await sync_to_async(trouble)())
     if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
     return 200, "text/plain; version=0.0.4; charset=utf-8", await sync_to_async(_metrics)()
@@ -160,7 +160,8 @@ def _may_measure(scope: HTTPScope, headers: Mapping[str, str]) -> bool:
     return client is not None and is_on_this_machine(client[0], headers)
 
 
-def _trouble() -> str:
+def trouble() -> str:
+    """Returns why the database cannot be used; empty if it can."""
     from django.db import Error, connection  # noqa: PLC0415 - Django must be set up first
 
     try:

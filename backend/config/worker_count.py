@@ -49,7 +49,7 @@ def workers_of(settings: Environment) -> int:
     """
     if not settings.may_be_several or settings.workers == 1:
         return 1
-    most = max(1, (_connections(settings.database_url.get_secret_value()) - SPARE) // CONNECTIONS)
+    most = max(1, (admitted_connections(settings.database_url.get_secret_value()) - SPARE) // CONNECTIONS)
     if settings.workers > most:
         raise ServeError(
             f"{settings.workers} workers may need {settings.workers * CONNECTIONS + SPARE} connections to "
@@ -59,7 +59,7 @@ def workers_of(settings: Environment) -> int:
     return settings.workers or min(max(1, cores() - 1), most)
 
 
-def _connections(url: str) -> int:
+def admitted_connections(url: str) -> int:
     """Returns the number of connections that the database admits."""
     import psycopg  # noqa: PLC0415 - localhost does without
 

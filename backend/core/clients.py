@@ -70,7 +70,7 @@ class _Proxies:
     """Logs once that there is a proxy that the settings do not name."""
 
     def __init__(self) -> None:
-        self._is_said = False
+        self.is_said = False
 
     def at_start(self) -> None:
         """Warns at the start where https is set and no proxy is."""
@@ -80,11 +80,11 @@ class _Proxies:
 
     def see(self, headers: Mapping[str, str]) -> None:
         """Warns at the first request with a header of a proxy."""
-        if self._is_said or environment().proxy_hops or not environment().is_team:
+        if self.is_said or environment().proxy_hops or not environment().is_team:
             return
         name = next((name for name in FORWARDED if name in headers), None)
         if name is not None:
-            self._is_said = True
+            self.is_said = True
             log.warning(_UNBELIEVED, name)
 
 

@@ -278,10 +278,11 @@ class _Reading:
         data, self._pending = self._pending, bytearray()
         if self._file is None:
             self._file = await self._bodies.write(self._bodies.scratch.file)
-        await self._bodies.write(partial(_write, self._file, data))
+        await self._bodies.write(partial(write_all, self._file, data))
 
 
-def _write(file: IO[bytes], data: bytes | bytearray) -> None:
+def write_all(file: IO[bytes], data: bytes | bytearray) -> None:
+    """Writes all of the data: one call of an unbuffered file may write a part."""
     view = memoryview(data)
     while view:
         view = view[file.write(view) :]

@@ -77,9 +77,13 @@ class Unfinished(NamedTuple):
 
 
 class ThreadedHandler(ASGIHandler):
-    """Django as an ASGI application for HTTP alone."""
+    """Django as an ASGI application for HTTP alone.
 
-    def __init__(self, upload: Upload | None = None) -> None:
+    Args:
+        hashing: how many passwords are hashed at once; by default as many as suit the machine.
+    """
+
+    def __init__(self, upload: Upload | None = None, *, hashing: int | None = None) -> None:
         BaseHandler.__init__(self)  # ASGIHandler would load the middleware for the event loop
         self.load_middleware(is_async=False)
         family = siblings.family
@@ -87,7 +91,8 @@ class ThreadedHandler(ASGIHandler):
         threads = THREADS_OF_SEVERAL if family else THREADS[environment().mode]
         share = threads // OWNERS_SHARE if environment().is_team else None
         self.threads = Threads(threads, "http", per_owner=share)
-        self._hashing = asyncio.Semaphore(max(1 if family else 2, (os.cpu_count() or 1) // (2 * size)))
+        share_of_processors = max(1 if family else 2, (os.cpu_count() or 1) // (2 * size))
+        self._hashing = asyncio.Semaphore(hashing or share_of_processors)
         self._waiting, self._most_waiting = 0, MOST_WAITING // size
         self._bodies = Bodies(self.threads, upload, scratch())
 

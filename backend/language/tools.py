@@ -33,7 +33,8 @@ ANSWER_S: Final = 15.0
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
 _MAX_BYTES: Final = 16 << 20
-_paths: Final[dict[str, str]] = {}
+paths: Final[dict[str, str]] = {}
+"""Where the tools listen that were opened, by their ids."""
 
 
 def tools_id(user: User) -> str:
@@ -48,10 +49,10 @@ def token(made_id: str) -> str:
 
 def _path(made_id: str, *, is_known_good: bool) -> str:
     """Where the tools listen; the launcher is asked unless they were there a moment ago."""
-    if not is_known_good or made_id not in _paths:
+    if not is_known_good or made_id not in paths:
         limit_s = environment().session_start_timeout_s
-        _paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
-    return _paths[made_id]
+        paths[made_id] = launcher().open_tools(made_id, token(made_id), timeout_s=limit_s)
+    return paths[made_id]
 
 
 def _options(made_id: str) -> dict[str, Any]:

@@ -59,7 +59,8 @@ def launcher() -> Launcher:
 
 
 @lru_cache(maxsize=1)
-def _workers() -> ThreadPoolExecutor:
+def workers() -> ThreadPoolExecutor:
+    """The threads in which executors start and end; they live as long as the process."""
     return ThreadPoolExecutor(max_workers=4, thread_name_prefix="session")
 
 
@@ -143,7 +144,7 @@ def _takes_place(session: Session) -> bool:
 
 def _submit(session: Session) -> None:
     with _launches_lock:
-        _launches[session.id] = _workers().submit(_launch, session)
+        _launches[session.id] = workers().submit(_launch, session)
 
 
 def refresh(session: Session) -> Session:
@@ -256,7 +257,7 @@ def end_sessions_without_right(
         try:
             require_right(session)
         except StudioError:
-            _workers().submit(_end_and_disconnect, session, "You may no longer run this project.")
+            workers().submit(_end_and_disconnect, session, "You may no longer run this project.")
 
 
 def end_all_sessions() -> None:

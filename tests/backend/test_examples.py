@@ -19,7 +19,7 @@ from tests.backend.story import Story, play
 
 @pytest.fixture
 def told(person, stranger, monkeypatch):  # noqa: F811
-    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     # A team's server checks Python in containers.
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)
     teacher, student = person("tina", is_teacher=True), person("ben")

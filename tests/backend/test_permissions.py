@@ -166,7 +166,7 @@ def world(person, monkeypatch):  # noqa: F811
         ros_domain_id=7,
         created_at=project.created_at,
     )
-    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     invitation = invitations.invite(acting_user=teacher, group=group, days=1, max_uses=1)
     values = {
         "project_id": project.id,

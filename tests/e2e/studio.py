@@ -134,7 +134,7 @@ class Studio:
         seen: set[str] = set()
         for _ in range(int(seconds * 20)):
             seen.add(self.status(node))
-            self.page.wait_for_timeout(50)
+            self.page.wait_for_timeout(50)  # the pace is the test: what shows in these seconds is collected
         return seen
 
     def stat(self, name: str) -> float:

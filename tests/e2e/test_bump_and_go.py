@@ -60,13 +60,13 @@ def test_pause_step_stop_and_end(studio: Studio) -> None:
     studio.expect_state("paused")
     frozen = still(observer, studio)
     ticks = len(observer.of("tick"))
-    studio.page.wait_for_timeout(1500)
+    studio.page.wait_for_timeout(1500)  # the time is the test: nothing may move in it
     assert still(observer, studio) == frozen, "the world is paused"
     assert len(observer.of("tick")) == ticks, "the tree is paused"
 
     studio.at("step").click()
     wait_until(lambda: len(observer.of("tick")) == ticks + 1, "one tick is made")
-    studio.page.wait_for_timeout(500)
+    studio.page.wait_for_timeout(500)  # the time is the test: no second tick may come
     assert len(observer.of("tick")) == ticks + 1
     assert observer.sim_time() == pytest.approx(frozen + 0.05, abs=0.02), "a step is one period of 20 Hz"
 
@@ -151,6 +151,7 @@ def turns(observer: Observer) -> int:
 
 def still(observer: Observer, studio: Studio) -> float:
     """Returns the simulated time once no message is on its way any more."""
+    # No message says that none is on its way: 500 ms are ten periods of the world's poses.
     studio.page.wait_for_timeout(500)
     return observer.sim_time()
 

@@ -189,7 +189,7 @@ def looks_from_above(view: Locator) -> None:
     def is_settled() -> bool:
         view.press("t")
         before = view.screenshot()
-        view.page.wait_for_timeout(500)
+        view.page.wait_for_timeout(500)  # a mesh that arrives later would change the picture
         view.press("t")
         return view.screenshot() == before
 

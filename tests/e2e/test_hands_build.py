@@ -100,6 +100,7 @@ def run_is_led_by_keys(studio: Studio, observer: Observer) -> None:
     expect(block(studio, "ReactiveSequence")).to_have_attribute("data-status", "RUNNING")
     keys.press("F6")
     studio.expect_state("paused")
+    # No message says that none is on its way: ticks that were made before the pause may still arrive.
     studio.page.wait_for_timeout(500)
     ticks = len(observer.of("tick"))
     keys.press("F10")

@@ -101,6 +101,6 @@ def pictures(studio: Studio, name: str) -> None:
     """Stores a picture in each theme."""
     studio.picture(f"run-{name}-light")
     studio.at("theme-toggle").click()
-    studio.page.wait_for_timeout(400)
+    studio.page.wait_for_timeout(400)  # the theme fades in; the picture is for people
     studio.picture(f"run-{name}-dark")
     studio.at("theme-toggle").click()

@@ -16,7 +16,7 @@ node = Node("navigator")
 def reach(handle):
     position = handle.request.pose.pose.position
     handle.publish_feedback(NavigateToPose.Feedback(distance_remaining=position.x))
-    time.sleep(0.2)
+    time.sleep(0.2)  # a goal takes a while: several ticks see it running
     if position.x < 0:
         handle.abort()
     else:

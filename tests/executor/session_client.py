@@ -49,7 +49,7 @@ class SessionClient:
         self.frames = []
         self._changed = asyncio.Condition()
         self._requests = 0
-        self._headers = {"Authorization": f"Bearer {TOKEN}"}
+        self.headers = {"Authorization": f"Bearer {TOKEN}"}
         self._tasks = []
 
     async def open(self, *, client=None, stream=True):
@@ -63,7 +63,7 @@ class SessionClient:
         return self
 
     def _connect(self, path):
-        headers = self._headers
+        headers = self.headers
         return connect(
             f"ws://127.0.0.1:{self.port}{path}",
             additional_headers=headers,

@@ -65,7 +65,7 @@ def leave_daemon():
         os.setsid()
         if os.fork() == 0:
             while True:
-                time.sleep(1)
+                time.sleep(1)  # it lives until it is killed
         os._exit(0)
 
 
@@ -73,7 +73,7 @@ def fork_many():
     for _ in range(100):
         if os.fork() == 0:
             while True:
-                time.sleep(1)
+                time.sleep(1)  # it lives until it is killed
 
 
 def leak():
@@ -94,6 +94,10 @@ def write_much():
             file.write(b"x" * 1_000_000)
 
 
+def hang():
+    time.sleep(3600)  # it does nothing until it is killed
+
+
 def die(code):
     sys.stderr.write("last words\n")
     sys.stderr.flush()
@@ -112,20 +116,20 @@ def main():
         "good": lambda: obey(channel, pulse),
         "dies_at_start": lambda: die(3),
         "dies_when_started": lambda: obey(channel, pulse, on_start=lambda: die(4)),
-        "never_ready": lambda: time.sleep(3600),
+        "never_ready": hang,
         "floods": lambda: obey(channel, pulse, on_start=flood),
         "daemon": lambda: obey(channel, pulse, on_start=leave_daemon),
         "forks": lambda: obey(channel, pulse, on_start=fork_many),
         "leaks": lambda: obey(channel, pulse, on_start=leak),
         "burns": lambda: obey(channel, pulse, on_start=burn),
         "writes": lambda: obey(channel, pulse, on_start=write_much),
-        "closes_pipe": lambda: (channel.close(), time.sleep(3600)),
-        "talks_rubbish": lambda: (os.write(arguments.channel_fd, b"\xff" * 100), time.sleep(3600)),
+        "closes_pipe": lambda: (channel.close(), hang()),
+        "talks_rubbish": lambda: (os.write(arguments.channel_fd, b"\xff" * 100), hang()),
     }
     if arguments.habit == "ignores_signals":
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1, signal.SIGHUP):
             signal.signal(number, signal.SIG_IGN)
-        time.sleep(3600)
+        hang()
     try:
         habits[arguments.habit]()
     except ChannelClosed:

@@ -49,7 +49,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
     def start(self, name):
         container = self.containers[name]
         container["State"] = {"Running": True, "ExitCode": 0, "OOMKilled": False, "FinishedAt": ""}
-        threading.Thread(target=self._run, args=(name, container), daemon=True).start()
+        threading.Thread(target=self.run, args=(name, container), daemon=True).start()
 
     def end(self, name, status, *, out_of_memory=False, at=None):
         finished = datetime.fromtimestamp(at or time.time(), UTC).isoformat()
@@ -61,7 +61,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
                     "Running": False, "ExitCode": status, "OOMKilled": out_of_memory, "FinishedAt": finished,
                 }  # fmt: skip
 
-    def _run(self, name, container):
+    def run(self, name, container):
         kind, command = container["Image"], container["Cmd"]
         environment = dict(entry.split("=", 1) for entry in container["Env"])
         session = command[command.index("--session") + 1]

@@ -81,12 +81,12 @@ def main() -> None:
     if kind == "failing":
         sys.exit(3)
     if kind == "never":
-        time.sleep(3600)
+        time.sleep(3600)  # it does nothing until it is killed
     if kind == "slow":
-        time.sleep(1)
+        time.sleep(1)  # a start that takes a while
     if kind == "mute":
         os.write(ready_fd, b"hello\n")
-        time.sleep(3600)
+        time.sleep(3600)  # it does nothing until it is killed
     if kind == "stubborn":
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         subprocess.Popen(["sleep", "3600"], start_new_session=True)

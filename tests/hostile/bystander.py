@@ -58,7 +58,7 @@ class Bystander:
             *([self._look_at_session] if self._session else []),
         ):
             step()
-            time.sleep(pause_s)
+            time.sleep(pause_s)  # the pace of a person
 
     def _look_at_session(self) -> None:
         found = json.loads(self._ask("session", "GET", f"sessions/{self._session}"))

@@ -224,7 +224,7 @@ async def sockets(site: Site, note: Counter[str]) -> None:
             status, _ = await entered.__aenter__()
             held.append(entered)
             note[status] += 1
-        await asyncio.sleep(DRIP_S)
+        await asyncio.sleep(DRIP_S)  # the attack is to hold them for so long
     finally:
         for entered in held:
             await entered.__aexit__(None, None, None)

@@ -36,7 +36,7 @@ class ToolsKeeper:
         self._docker = docker
         self._gate = gate
         self._plan = plan
-        self._max_tools = max_tools
+        self.max_tools = max_tools
         self._opening: set[str] = set()
         self._changed = threading.Condition()
 
@@ -53,8 +53,8 @@ class ToolsKeeper:
             if self._runs(name):
                 return {"socket": str(self._gate.path(tools_id))}
             others = {one["tools"] for one in self._list() if one["running"]} | self._opening
-            if len(others) >= self._max_tools:
-                raise KeeperError(429, "host_full", f"All {self._max_tools} places for editors are taken.")
+            if len(others) >= self.max_tools:
+                raise KeeperError(429, "host_full", f"All {self.max_tools} places for editors are taken.")
             self._opening.add(tools_id)
         try:
             self._clear(tools_id)

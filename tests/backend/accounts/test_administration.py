@@ -41,7 +41,7 @@ def test_an_administrator_deletes_an_account_as_its_user_would(person):
 
 
 def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkeypatch):
-    monkeypatch.setattr(session_writes, "_workers", type("Idle", (), {"submit": lambda *_: None}))
+    monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     ada, olga = person("ada", is_admin=True), person("olga")
     running, waiting = project_of(olga), project_of(olga, "Later")
     olga.post(f"projects/{running}/session")

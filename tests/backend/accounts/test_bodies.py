@@ -172,19 +172,19 @@ def test_a_disk_without_room_is_told(settings_of, monkeypatch, tmp_path):
     def full(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(bodies, "_write", full)
+    monkeypatch.setattr(bodies, "write_all", full)
     assert refused(parts(12), head(transfer_encoding="chunked"))[:2] == (507, "disk_full")
 
 
 def test_large_bodies_are_written_by_threads_and_leave_nothing(monkeypatch, settings_of, tmp_path):
     settings_of(data_dir=tmp_path)
-    writers, write = set(), bodies._write
+    writers, write = set(), bodies.write_all
 
     def noting(*arguments):
         writers.add(threading.current_thread().name)
         return write(*arguments)
 
-    monkeypatch.setattr(bodies, "_write", noting)
+    monkeypatch.setattr(bodies, "write_all", noting)
     handling = ThreadedHandler()
     lengths = []
 

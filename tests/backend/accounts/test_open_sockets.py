@@ -128,7 +128,7 @@ def test_signing_out_or_being_deactivated_ends_what_is_open(person):
 def test_a_robot_does_not_outlive_the_right_to_run_it(person, monkeypatch):
     ended = []
     workers = type("Now", (), {"submit": lambda _, call, session, why="": ended.append((session.user, why))})
-    monkeypatch.setattr(session_writes, "_workers", workers)
+    monkeypatch.setattr(session_writes, "workers", workers)
     owner, friend = person("olga"), person("fred")
     one = shared_project(owner, name="fred", role="viewer")
     Session.objects.bulk_create(

@@ -87,7 +87,7 @@ async def test_probes_have_the_headers_of_every_answer():
 
 
 async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch):
-    monkeypatch.setattr(probes, "_trouble", lambda: "The database does not answer: OperationalError.")
+    monkeypatch.setattr(probes, "trouble", lambda: "The database does not answer: OperationalError.")
     status, body = await ask(probes.READY)
     assert status == 503
     assert "database" in json.loads(body)["detail"]

@@ -51,13 +51,13 @@ def folder_of(worker):
 
 def made_to_wait(docker):
     """Makes executors of a fake engine come to the gate when they may: when this event is set."""
-    may_run, run = threading.Event(), docker._run
+    may_run, run = threading.Event(), docker.run
 
     def run_when_it_may(name, container):
         assert may_run.wait(TIMEOUT_S)
         run(name, container)
 
-    docker._run = run_when_it_may
+    docker.run = run_when_it_may
     may_run.set()
     return may_run
 

@@ -18,7 +18,7 @@ def machine(monkeypatch, settings_of):
     def make(cores, connections=100, **changes):
         settings_of(**(WHOLE | {"launcher": "docker"} | changes))
         monkeypatch.setattr(worker_count, "cores", lambda: cores)
-        monkeypatch.setattr(worker_count, "_connections", lambda _: connections)
+        monkeypatch.setattr(worker_count, "admitted_connections", lambda _: connections)
         return environment()
 
     return make

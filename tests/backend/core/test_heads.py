@@ -66,7 +66,7 @@ async def test_bytes_now_and_then_do_not_make_it_wait_longer(monkeypatch):
         async def drip():
             for piece in [b"GET / HTTP/1.1\r\n", *[b"X: 1\r\n"] * 500]:
                 writer.write(piece)
-                await asyncio.sleep(0.1)
+                await asyncio.sleep(0.1)  # the pace is the test: a byte now and then
 
         dripping = asyncio.create_task(drip())
         began = time.monotonic()
@@ -87,9 +87,9 @@ async def test_the_next_request_has_its_own_time_and_empty_lines_are_none(monkey
         for _ in range(3):
             writer.write(REQUEST)
             await answered(reader)
-            await asyncio.sleep(0.3)
+            await asyncio.sleep(0.3)  # the time is the test: three of these are longer than HEAD_S
         writer.write(REQUEST[:-2])
-        await asyncio.sleep(0.1)
+        await asyncio.sleep(0.1)  # the time is the test: the head arrives in two pieces
         writer.write(b"\r\n")
         await answered(reader)
         writer.write(b"\r\n")  # it ends the wait for the next request, and begins none
@@ -102,7 +102,7 @@ async def test_a_long_body_is_no_head(monkeypatch):
         writer.write(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 200000\r\n\r\n")
         for _ in range(4):
             writer.write(b"x" * 50_000)
-            await asyncio.sleep(0.2)
+            await asyncio.sleep(0.2)  # the time is the test: the body takes longer than HEAD_S
         await answered(reader)
 
 

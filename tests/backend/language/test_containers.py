@@ -32,7 +32,7 @@ def contained(host, keeper, limits, monkeypatch):
     limits(launcher="docker", keeper_folder=keeper.folder)
     monkeypatch.setattr(writes, "launcher", lambda: keeper.launcher)
     monkeypatch.setattr(tools, "launcher", lambda: keeper.launcher)
-    monkeypatch.setattr(tools, "_paths", {})
+    monkeypatch.setattr(tools, "paths", {})
     return host
 
 
@@ -69,7 +69,7 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
 
 
 def test_without_a_place_or_a_keeper_it_is_said(contained, keeper, with_actions, api):
-    keeper.tools._max_tools = 0
+    keeper.tools.max_tools = 0
     with opened(contained, f"/ws/projects/{with_actions}/language") as page:
         assert page.ended() == consumers.UNAVAILABLE
     problem = api.post("python/lint", {"source": "x"}, expect=503)

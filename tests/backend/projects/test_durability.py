@@ -67,9 +67,10 @@ class Storm:
 
 def reached(ask, address, **options):
     """An answer; where the database is out of reach for a while (503), it is asked for again."""
-    for _ in range(100):
+    deadline = time.monotonic() + TIMEOUT_S
+    while True:
         answer = ask(address, **{"timeout": TIMEOUT_S} | options)
-        if answer.status_code != 503:
+        if answer.status_code != 503 or time.monotonic() > deadline:
             break
         log.warning("%s: %s", address, answer.text)
         time.sleep(0.2)

@@ -40,8 +40,8 @@ def launcher_of(tmp_path):
     """Makes launchers, and ends what a failed test leaves behind."""
     made = []
 
-    def make(kind):
-        launcher = ProcessLauncher(tmp_path / "logs", (sys.executable, str(FAKE), kind))
+    def make(kind, program=sys.executable):
+        launcher = ProcessLauncher(tmp_path / "logs", (program, str(FAKE), kind))
         made.append(launcher)
         return launcher
 

@@ -104,8 +104,7 @@ def test_a_manager_that_does_not_want_to_end_is_killed_with_its_children(launche
 
 
 def test_a_program_that_cannot_be_started_is_told(launcher_of, tmp_path):
-    launcher = launcher_of("echo")
-    launcher._command = (str(tmp_path / "missing"),)
+    launcher = launcher_of("echo", program=str(tmp_path / "missing"))
     with pytest.raises(LaunchError, match="could not be started"):
         launcher.start(spec())
 

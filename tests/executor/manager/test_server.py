@@ -158,7 +158,7 @@ async def test_random_frames_are_all_answered(monkeypatch):
 async def test_without_the_token_access_is_refused(header):
     async with manager() as it:
         client = SessionClient(it.port)
-        client._headers = {"Authorization": header} if header else {}
+        client.headers = {"Authorization": header} if header else {}
         with pytest.raises(InvalidStatus) as caught:
             await client.open()
         assert caught.value.response.status_code == 401

@@ -210,7 +210,9 @@ def test_a_joint_moves_to_its_target_and_tf_follows(context: Context) -> None:
 
         rig.listen(TFMessage, "/tf")
     publisher = rig.listener.create_publisher(Float64, "/camera/pan/command", 10)
+    end_s = time.monotonic() + 30
     while not publisher.get_subscription_count():
+        assert time.monotonic() < end_s, "the world does not listen"
         time.sleep(0.01)
     publisher.publish(Float64(data=0.7))
     publisher.publish(Float64(data=math.nan))

@@ -211,7 +211,7 @@ def test_guests_cannot_escape_their_count_with_a_header(person, settings_of):
 
 
 def test_a_proxy_that_the_settings_do_not_know_is_told_once(team, settings_of, monkeypatch, caplog):
-    monkeypatch.setattr(clients.proxies, "_is_said", False)
+    monkeypatch.setattr(clients.proxies, "is_said", False)
     with caplog.at_level(logging.WARNING, "backend.core.clients"):
         browser = Person()
         browser.page("/accounts/login/")
@@ -237,8 +237,7 @@ def test_a_proxy_that_the_settings_do_not_know_is_told_once(team, settings_of, m
 
 
 def test_hashing_passwords_leaves_threads_to_the_others(monkeypatch):
-    handling = ThreadedHandler()
-    handling._hashing = asyncio.Semaphore(2)
+    handling = ThreadedHandler(hashing=2)
     let_go, hashing = threading.Event(), threading.Semaphore(0)
     most, lock, inside = [0], threading.Lock(), [0]
 

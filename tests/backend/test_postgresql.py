@@ -11,10 +11,19 @@ import requests
 
 from tests.backend.services import postgresql, redis
 from tests.backend.serving import REPOSITORY, TIMEOUT_S, serving
+from tests.budget import count
 
 PASSWORD = "Correct-horse-9"
-# Storage, permissions, concurrency, accounts. The kill storm starts servers of its own, on SQLite.
-SUITE = (
+# What rests on the database itself: storage, locks, what is kept after a commit, shares, numbers of queries.
+PART = (
+    "tests/backend/projects/storage",
+    "tests/backend/projects/test_concurrency.py",
+    "tests/backend/projects/test_after_commit_writes.py",
+    "tests/backend/accounts/test_sharing.py",
+    "tests/backend/test_query_budgets.py",
+)
+# All of storage, permissions, concurrency, accounts. The kill storm starts servers of its own, on SQLite.
+WHOLE = (
     "tests/backend/projects",
     "tests/backend/accounts",
     "tests/backend/test_permissions.py",
@@ -27,7 +36,7 @@ SUITE = (
 def test_the_suite_passes_on_postgresql_and_redis():
     with postgresql(fsync="off", synchronous_commit="off") as database_url, redis() as redis_url:
         services = {"BT_STUDIO_DATABASE_URL": database_url, "BT_STUDIO_REDIS_URL": redis_url}
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *SUITE]
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(WHOLE if count("backend_on_postgresql") else PART)]
         run = subprocess.run(
             command, cwd=REPOSITORY, env=os.environ | services, capture_output=True, text=True, check=False
         )

@@ -22,6 +22,7 @@ pytestmark = [pytest.mark.e2e, pytest.mark.simulation, pytest.mark.timeout(600)]
 WATCHED_S = 60.0
 
 
+@pytest.mark.long_walk
 def test_the_robot_keeps_the_person_in_sight(studio: Studio) -> None:
     studio.new_from("visual_follow_person")
     studio.run()

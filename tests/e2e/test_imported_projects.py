@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 from playwright.sync_api import expect
 
+from tests.budget import count
 from tests.e2e.server import wait_until
 from tests.e2e.test_hands_projects import drop, zipped
 from tests.fakes.jderobot_projects import write_follower, write_wanderer
@@ -22,7 +23,7 @@ FAR_M = 1.5
 UNIVERSES = {write_wanderer: "Walled room", write_follower: "Person in green"}
 
 
-@pytest.mark.parametrize("write", UNIVERSES, ids=lambda write: write.__name__)
+@pytest.mark.parametrize("write", list(UNIVERSES)[: count("e2e_imported_projects")], ids=lambda w: w.__name__)
 def test_an_imported_project_drives_in_the_universe_that_its_topics_ask_for(
     studio: Studio, tmp_path: Path, write
 ) -> None:

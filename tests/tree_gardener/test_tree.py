@@ -10,6 +10,7 @@ import py_trees
 import pytest
 from py_trees.common import Status as PyTreesStatus
 
+from tests.budget import count
 from tests.tree_gardener.trees import LEAVES, document, leaf, load, recording, subtree
 from tree_gardener import LoadError, ManualClock, Status, TickError, Tree
 
@@ -165,16 +166,18 @@ def deep_document(depth: int, inner: str) -> str:
     return f'<root main_tree_to_execute="T0">{trees}{subtree(f"T{depth}", inner)}</root>'
 
 
-def test_ten_thousand_levels_of_subtrees_run_observe_hook_and_halt() -> None:
+def test_thousands_of_levels_of_subtrees_run_observe_hook_and_halt() -> None:
+    levels = count("engine_levels")
+    assert levels > 2 * sys.getrecursionlimit()
     before = sys.getrecursionlimit()
-    tree = Tree.from_xml(deep_document(10_000, "<Running/>"), LEAVES)
-    assert tree.depth == 10_001
+    tree = Tree.from_xml(deep_document(levels, "<Running/>"), LEAVES)
+    assert tree.depth == levels + 1
     assert tree.tick_exactly_once() is Status.RUNNING
     changes: list[Any] = []
     tree.observe(changes.append)
     tree.add_hook(before=lambda node: None)
     assert tree.tick_once() is Status.RUNNING
-    assert len(changes[0].changed) == 10_001
+    assert len(changes[0].changed) == levels + 1
     tree.halt()
     assert all(node.status is Status.IDLE for node in tree.nodes)
     assert sys.getrecursionlimit() == before

@@ -36,7 +36,15 @@ WHOLE = (
 def test_the_suite_passes_on_postgresql_and_redis():
     with postgresql(fsync="off", synchronous_commit="off") as database_url, redis() as redis_url:
         services = {"BT_STUDIO_DATABASE_URL": database_url, "BT_STUDIO_REDIS_URL": redis_url}
-        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(WHOLE if count("backend_on_postgresql") else PART)]
+        command = [
+            sys.executable,
+            "-m",
+            "pytest",
+            "-q",
+            "-p",
+            "no:cacheprovider",
+            *(WHOLE if count("backend_on_postgresql") else PART),
+        ]
         run = subprocess.run(
             command, cwd=REPOSITORY, env=os.environ | services, capture_output=True, text=True, check=False
         )

@@ -189,9 +189,7 @@ WAYS = [
 
 
 @pytest.mark.simulation
-@pytest.mark.parametrize(
-    ("how", "body"), WAYS[: count("hangs_cli")]
-)
+@pytest.mark.parametrize(("how", "body"), WAYS[: count("hangs_cli")])
 def test_a_run_whose_action_hangs_ends_and_says_where(tmp_path, how, body):
     project = tmp_path / "project"
     shutil.copytree(EXAMPLE, project)

@@ -1,8 +1,8 @@
 """Lists modules without a test file of their own: `python -m tests.tools.mirror`.
 
 The test file of `backend/projects/storage/names.py` is `tests/backend/projects/storage/test_names.py`,
-that of `src/model/layout.ts` is `src/model/layout.test.ts`. It must import its module, or a package that
-exports it, and assert something.
+that of `src/model/layout.ts` is `src/model/layout.test.ts`. It must import its module, or something of it
+that a package exports, and assert something. A Python module that only declares needs none.
 
 `unmirrored.txt` lists the modules that have none. The list only shrinks: a module that has its test file now
 must leave it (`--write`), and a new module without one fails. After a move, `--write` renames the entries,
@@ -25,12 +25,18 @@ PAGE: Final = "frontend/src"
 # Tables and entry points without a rule of their own.
 LEFT_OUT: Final = {"__init__", "__main__", "apps", "urls", "manage", "index", "main"}
 FOLDERS_LEFT_OUT: Final = {"migrations", "behaviours", "setup", "generated", "locales", "test"}
+# What an expression without logic consists of.
+PLAIN: Final = (
+    *(ast.Constant, ast.Name, ast.Attribute, ast.Tuple, ast.List, ast.Dict, ast.JoinedStr),
+    *(ast.FormattedValue, ast.expr_context),
+)
 ASSERTS: Final = re.compile(r"\bassert\b|\bexpect\(|pytest\.(?:raises|warns)")
 
 
 def python_modules() -> list[Path]:
     """Returns the Python modules that need a test file."""
-    return [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py")) if _counts(path)]
+    paths = [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
+    return [path for path in paths if _counts(path) and not is_declaration(path)]
 
 
 def page_modules() -> list[Path]:
@@ -45,6 +51,27 @@ def _counts(path: Path) -> bool:
     return path.stem not in LEFT_OUT and not FOLDERS_LEFT_OUT & set(parts)
 
 
+def is_declaration(path: Path) -> bool:
+    """Whether a Python module only declares: constants, records, protocols, tables, but no logic to test."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
+    loops = any(isinstance(node, ast.For | ast.While | ast.With | ast.Try) for node in tree.body)
+    return not loops and all(_is_plain(statement) for function in functions for statement in function.body)
+
+
+def _is_plain(statement: ast.stmt) -> bool:
+    """Whether a statement of a function only stores or hands out what is given."""
+    match statement:
+        case ast.Pass() | ast.Expr(ast.Constant()) | ast.Expr(ast.Call(ast.Attribute(attr="__init__"))):
+            return True
+        case ast.Raise(ast.Name("NotImplementedError") | ast.Call(ast.Name("NotImplementedError"))):
+            return True
+        case ast.Assign(value=value) | ast.AnnAssign(value=value) | ast.Return(value=value):
+            return value is None or all(isinstance(node, PLAIN) for node in ast.walk(value))
+        case _:
+            return False
+
+
 def is_mirrored(path: Path) -> bool:
     """Whether the module has a test file that imports it and asserts."""
     if path.suffix != ".py":
@@ -52,7 +79,7 @@ def is_mirrored(path: Path) -> bool:
         return any(test.is_file() and _imports_script(test, path.stem) for test in tests)
     relative = path.relative_to(ROOT)
     test = ROOT / "tests" / relative.with_name(f"test_{path.stem.strip('_')}.py")
-    return test.is_file() and _imports_python(test, ".".join(relative.with_suffix("").parts))
+    return test.is_file() and _imports_python(test, path)
 
 
 def _imports_script(test: Path, stem: str) -> bool:
@@ -60,18 +87,38 @@ def _imports_script(test: Path, stem: str) -> bool:
     return bool(ASSERTS.search(text)) and re.search(rf"from '[^']*/{re.escape(stem)}'", text) is not None
 
 
-def _imports_python(test: Path, module: str) -> bool:
+def _imports_python(test: Path, module: Path) -> bool:
     text = test.read_text(encoding="utf-8")
-    parts = module.split(".")
-    ways = {".".join(parts[:count]) for count in range(1, len(parts) + 1)}
-    imported = {name for node in ast.walk(ast.parse(text)) for name in _imported_by(node)}
-    return bool(ASSERTS.search(text)) and bool(ways & imported)
+    tree = ast.parse(text)
+    name = ".".join(module.relative_to(ROOT).with_suffix("").parts)
+    return bool(ASSERTS.search(text)) and any(_brings(node, name, module) for node in ast.walk(tree))
 
 
-def _imported_by(node: ast.AST) -> list[str]:
+def _brings(node: ast.AST, module: str, file: Path) -> bool:
+    """Whether a statement imports a module, something of it, or what a package above exports of it."""
     if isinstance(node, ast.Import):
-        return [alias.name for alias in node.names]
-    return [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+        return any(alias.name == module for alias in node.names)
+    if isinstance(node, ast.ImportFrom) and node.module:
+        package, _, stem = module.rpartition(".")
+        names = {alias.name for alias in node.names}
+        is_above = module.startswith(f"{node.module}.")
+        return (
+            node.module == module
+            or (node.module == package and stem in names)
+            or (is_above and bool(names & _defined(file)))
+        )
+    return False
+
+
+def _defined(file: Path) -> set[str]:
+    found: set[str] = set()
+    for node in ast.parse(file.read_text(encoding="utf-8")).body if file.is_file() else []:
+        if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            found.add(node.name)
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            found |= {target.id for target in targets if isinstance(target, ast.Name)}
+    return found
 
 
 def unmirrored() -> list[str]:

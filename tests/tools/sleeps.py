@@ -6,7 +6,8 @@ A sleep is allowed if
 * it is in a loop that ends at a deadline: the loop reads a clock, or stands in `asyncio.timeout(…)`;
 * a comment on its line, or on the line before, says why real time must pass.
 
-Benchmarks are left out: they measure over spans of real time. `--list` prints the sleeps of the last kind, with their reasons.
+`--list` prints the sleeps of the last kind, with their reasons. Benchmarks are left out: they measure over
+spans of real time.
 """
 
 from __future__ import annotations

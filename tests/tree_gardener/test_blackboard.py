@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -11,7 +10,7 @@ from hypothesis import strategies as st
 
 from tree_gardener import PortError
 from tree_gardener.blackboard import EMPTY, Blackboard
-from tree_gardener.values import ANY, BY_NAME, DOUBLE, INT, STRING
+from tree_gardener.values import ANY, DOUBLE, INT, STRING
 
 NAMES = st.sampled_from(["a", "b", "c", "_p"])
 GLOBALS = st.sampled_from(["@a", "@b"])
@@ -154,15 +153,3 @@ def test_empty_says_so() -> None:
     assert board.create("x", INT).type_name == "empty"
     assert repr(EMPTY) == "EMPTY"
     assert not EMPTY
-
-
-@pytest.mark.parametrize(
-    ("kind", "value", "expected"),
-    [
-        *(("bool", 2.5, True), ("int", True, 1), ("double", "2.5", 2.5), ("string", True, "1")),
-        *(("string", float("inf"), "inf"), ("status", "SUCCESS", None), ("list[int]", (1, 2), (1, 2))),
-    ],
-)
-def test_conversions(kind: str, value: Any, expected: Any) -> None:
-    found = BY_NAME[kind].convert(value)
-    assert found == expected or (expected is None and found.name == value)

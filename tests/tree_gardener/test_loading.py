@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import py_trees
 import pytest
 from py_trees.common import Status as PyTreesStatus
 
-from tests.tree_gardener.trees import LEAVES, Failing, Succeeding, document, load, subtree
+from tests.tree_gardener.trees import LEAVES, Failing, document, load, subtree
 from tree_gardener import LoadError, Port, Status, Tree, get_input
-from tree_gardener.document import parse_document
-from tree_gardener.node import Control, Decorator
-from tree_gardener.status import SUCCESS
 
 
 class Drive(py_trees.behaviour.Behaviour):
@@ -122,89 +119,6 @@ def test_mutual_recursion_is_named() -> None:
 def test_an_integer_constant_does_not_fit_a_string_port() -> None:
     body = subtree("B", '<Drive goal="{k}"/>')
     assert problems('<SubTree ID="B" k="5"/>', body)[0][0] == "TG306"
-
-
-@pytest.mark.parametrize(
-    ("text", "code"),
-    [
-        ("<!DOCTYPE root []><root/>", "TG103"),
-        ("<root>&unknown;</root>", "TG102"),
-        ("<root/><root/>", "TG102"),
-        ("<root a='<'/>", "TG102"),
-        ("<root>" + "<a>" * 2000 + "</a>" * 2000 + "</root>", "TG101"),
-        ("   ", "TG102"),
-    ],
-)
-def test_xml_from_outside_is_read_strictly(text: str, code: str) -> None:
-    with pytest.raises(LoadError) as refused:
-        parse_document(text)
-    assert refused.value.diagnostics[0].code == code
-
-
-def test_columns_count_characters() -> None:
-    with pytest.raises(LoadError) as refused:
-        Tree.from_xml(document('<Sequence name="größe"><Nope/></Sequence>').replace("<root", "\n<root"))
-    problem = refused.value.diagnostics[0]
-    line = document('<Sequence name="größe"><Nope/></Sequence>')
-    assert (problem.line, problem.column) == (2, line.index("<Nope") + 1)
-
-
-class NeedsMore(py_trees.behaviour.Behaviour):
-    def __init__(self, name: str, more: int) -> None:
-        super().__init__(name)
-
-    def update(self) -> PyTreesStatus:
-        return PyTreesStatus.SUCCESS
-
-
-@pytest.mark.parametrize(
-    ("name", "cls", "message"),
-    [
-        ("Sequence", Succeeding, "name of a built-in node"),
-        ("X", "text", "is not a class"),
-        ("X", int, "not derived from"),
-        ("X", py_trees.composites.Sequence, "py_trees composite"),
-        ("X", type("X", (Succeeding,), {"NODE_KIND": "Decorator"}), "NODE_KIND"),
-        ("X", NeedsMore, "cannot be made"),
-    ],
-)
-def test_classes_that_cannot_be_nodes_are_refused(name: str, cls: Any, message: str) -> None:
-    with pytest.raises(LoadError, match=message):
-        Tree.from_xml(document(f"<{name}/>" if name == "X" else "<Succeeding/>"), {**LEAVES, name: cls})
-
-
-class Both(Control):
-    """Ticks all its children and succeeds."""
-
-    __slots__ = ()
-
-    def execute(self) -> Status:
-        self.start()
-        for tick in self.ticks:
-            tick()
-        return self.finish(SUCCESS)
-
-
-class Twice(Decorator):
-    """Ticks its child twice."""
-
-    __slots__ = ()
-    INPUT_PORTS: ClassVar = {"times": Port(int, default=2)}
-
-    def execute(self) -> Status:
-        self.start()
-        for _ in range(self.get("times")):
-            self.tick_child()
-            self.reset()
-        return self.finish(SUCCESS)
-
-
-def test_nodes_of_ones_own_are_derived_from_the_engines() -> None:
-    nodes = {"Both": Both, "Twice": Twice}
-    tree = load("<Both><Twice times='3'><Failing/></Twice><Script code='x := 1'/></Both>", nodes=nodes)
-    assert tree.tick_once() is Status.SUCCESS
-    assert tree.blackboard["x"] == 1
-    assert [node.kind for node in tree.nodes[:2]] == ["Control", "Decorator"]
 
 
 class Open(py_trees.behaviour.Behaviour):

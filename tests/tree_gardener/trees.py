@@ -86,3 +86,8 @@ def load(body: str, *more: str, nodes: dict[str, Any] | None = None, **options: 
 def leaf(tree: Tree, path: str) -> Any:
     """The behaviour of the action with this path."""
     return next(node.behaviour for node in tree.nodes if node.path == path)
+
+
+def letters(tree: Tree, ticks: int) -> str:
+    """The results of the next ticks, a letter each; K is SKIPPED."""
+    return "".join(tree.tick_exactly_once().letter for _ in range(ticks))

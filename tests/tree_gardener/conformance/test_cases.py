@@ -12,7 +12,7 @@ from tree_gardener import LoadError, Tree
 from tree_gardener.conformance import DEVIATIONS, run_case, run_file
 from tree_gardener.conformance.leaves import Trace, leaves
 
-CASES = Path(__file__).parents[1] / "conformance"
+CASES = Path(__file__).parents[2] / "conformance"
 FILES = {
     "accepts.jsonl": 8,
     "added.jsonl": 982,

@@ -12,34 +12,12 @@ from hypothesis import strategies as st
 
 from tree_gardener.blackboard import EMPTY, Blackboard
 from tree_gardener.errors import ScriptError
-from tree_gardener.script import Environment, compile_script, names_read, names_written, parse
+from tree_gardener.script import Environment, compile_script
 from tree_gardener.values import ANY, BOOL, INT, STRING
 
 
 def run(text: str, board: Blackboard | None = None) -> Any:
     return compile_script(text).run(Environment(board if board is not None else Blackboard(), {"RED": 5}))
-
-
-@pytest.mark.parametrize(
-    ("text", "span", "message"),
-    [
-        ("x := ", (5, 5), "a value is expected at the end"),
-        ("x := 3foo", (5, 9), "'3foo' is not a number"),
-        ("x := 5 % 2", (7, 8), "'%' has no meaning"),
-        ("x := (1", (7, 7), "')' is missing"),
-        ("x ? 1", (5, 5), "':' is missing"),
-        ("x == == 1", (5, 7), "a value is expected before '=='"),
-        ("'open", (0, 1), "has no meaning"),
-        ("", (0, 0), "empty"),
-        ("(" * 200, (100, 101), "nested too deeply"),
-        ("-" * 200 + "1", (200, 201), "nested too deeply"),
-    ],
-)
-def test_errors_of_syntax_have_a_span(text: str, span: tuple[int, int], message: str) -> None:
-    with pytest.raises(ScriptError) as refused:
-        parse(text)
-    assert refused.value.span == span
-    assert message in refused.value.message
 
 
 @pytest.mark.parametrize(
@@ -65,13 +43,6 @@ def test_errors_of_syntax_have_a_span(text: str, span: tuple[int, int], message:
 def test_errors_of_evaluation_say_what(text: str, message: str) -> None:
     with pytest.raises(ScriptError, match=message):
         run(text)
-
-
-def test_names_are_distinguished() -> None:
-    program = parse("a := b + 1; c += d; e = (f := 2)")
-    assert [name.name for name in names_written(program)] == ["a", "c", "e", "f"]
-    assert [name.name for name in names_read(program)] == ["b", "c", "d", "e"]
-    assert names_written(program)[1].span == (12, 13)
 
 
 def test_values_keep_the_kind_of_their_entry() -> None:
@@ -130,19 +101,6 @@ def test_arithmetic_is_that_of_doubles(case: tuple[str, float]) -> None:
     text, expected = case
     found = float(run(text))
     assert found == expected or (math.isnan(found) and math.isnan(expected))
-
-
-@given(st.text(alphabet="ab1.'()+-*/&|^=<>!~?:;@ \n%", max_size=30))
-@settings(max_examples=300)
-def test_any_text_parses_or_is_refused_inside_of_it(text: str) -> None:
-    try:
-        program = parse(text)
-    except ScriptError as error:
-        start, end = error.span
-        assert 0 <= start <= end <= len(text)
-    else:
-        for statement in program.statements:
-            assert 0 <= statement.span[0] < statement.span[1] <= len(text)
 
 
 @given(st.text(alphabet="ab1.'()+-*&=<>!?:; ", max_size=25))

@@ -1,0 +1,74 @@
+"""What the application reports of its tree."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from executor import child_messages
+from executor.application.locate import Place
+from executor.application.report import SAME_FAULT_INTERVAL_S, Reporter, describe_tree
+from tests.tree_gardener.trees import load
+from tree_gardener import LoadError, Status, TickError, Tree
+
+
+class Desk:
+    """A reporter with a clock of its own."""
+
+    def __init__(self) -> None:
+        self.now_s = 0.0
+        self.sent: list[Any] = []
+        self.reporter = Reporter(self.sent.append, lambda: 1.5, clock=lambda: self.now_s)
+
+    def of(self, kind: type) -> list[Any]:
+        return [message for message in self.sent if isinstance(message, kind)]
+
+
+def test_the_nodes_of_a_tree_are_in_preorder() -> None:
+    tree = load("<Sequence><Succeeding/><Failing name='b'/></Sequence>")
+    assert [(node.uid, node.parent, node.type) for node in describe_tree(tree)] == [
+        *((1, 0, "Sequence"), (2, 1, "Succeeding"), (3, 1, "Failing"))
+    ]
+
+
+def test_ticks_and_written_entries_are_reported() -> None:
+    desk = Desk()
+    tree = load("<Sequence><Script code='a := 1'/><Running/></Sequence>")
+    tree.observe(desk.reporter.ticked)
+    tree.tick_exactly_once()
+    [tick] = desk.of(child_messages.Tick)
+    assert (tick.n, tick.t) == (1, 1.5)
+    assert (1, "RUNNING") in tick.changed
+    [board] = desk.of(child_messages.Blackboard)
+    assert [(entry.key, entry.value) for entry in board.entries] == [("a", 1)]
+
+
+def test_the_same_exception_is_reported_once_a_second() -> None:
+    desk = Desk()
+    with pytest.raises(TickError) as raised:
+        load("<Raising/>").tick_exactly_once()
+    for _ in range(3):
+        desk.reporter.raised(raised.value)
+    assert len(desk.of(child_messages.Fault)) == 1
+    desk.now_s += SAME_FAULT_INTERVAL_S
+    desk.reporter.raised(raised.value)
+    assert len(desk.of(child_messages.Fault)) == 2
+
+
+def test_what_cannot_be_loaded_is_reported_with_its_hint() -> None:
+    desk = Desk()
+    with pytest.raises(LoadError) as refused:
+        Tree.from_xml("<root>")
+    desk.reporter.not_loaded(refused.value, Place())
+    [fault] = desk.of(child_messages.Fault)
+    assert (fault.kind, bool(fault.hint)) == ("load", True)
+    desk.reporter.not_loaded(SystemExit(3), Place())
+    assert "sys.exit(3)" in desk.of(child_messages.Fault)[-1].message
+
+
+def test_the_end_names_the_result() -> None:
+    desk = Desk()
+    desk.reporter.ended(Status.SUCCESS)
+    [finished] = desk.of(child_messages.Finished)
+    assert (finished.status, finished.reason) == ("SUCCESS", "root_finished")

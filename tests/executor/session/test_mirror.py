@@ -1,0 +1,40 @@
+"""The state that a late client gets."""
+
+from __future__ import annotations
+
+from executor.messages import Blackboard, BlackboardEntry, Fault, StateChanged, Tick, Tree, TreeNode
+from executor.session.ladder import State
+from executor.session.mirror import FAULTS, Mirror
+
+NODE = TreeNode(uid=1, parent=0, type="A", kind="action", name="", path="A::1", node_id="", tree_id="T")
+
+
+def entry(key: str, value: object, *, removed: bool = False) -> Blackboard:
+    return Blackboard([BlackboardEntry("", key, "int", value, False, removed)])
+
+
+def test_events_add_up_to_the_snapshot() -> None:
+    mirror = Mirror()
+    mirror.begin_run(20.0)
+    for event in (
+        StateChanged(State.PAUSED.value),
+        Tree([NODE]),
+        Tick(n=1, t=0.0, changed=[(1, "RUNNING")], flashed=[], duration_ms=2.0),
+        entry("a", 1),
+        entry("b", 2),
+        entry("a", None, removed=True),
+    ):
+        mirror.apply(event)
+    snapshot = mirror.snapshot()
+    assert (snapshot.state, snapshot.statuses) == (State.PAUSED.value, [(1, "RUNNING")])
+    assert [item.key for item in snapshot.blackboard] == ["b"]
+    assert mirror.tick_load() == (2.0, 50.0)
+
+
+def test_a_new_run_begins_empty_and_faults_are_bounded() -> None:
+    mirror = Mirror()
+    for number in range(FAULTS + 5):
+        mirror.apply(Fault("process", str(number)))
+    assert len(mirror.snapshot().faults) == FAULTS
+    mirror.begin_run(10.0)
+    assert mirror.snapshot().faults == []

@@ -1,0 +1,28 @@
+"""Commands of clients that a child answers."""
+
+from __future__ import annotations
+
+from executor.session.questions import ANSWER_S, Questions
+
+WORLD = ("world", 1)
+
+
+def test_a_question_is_answered_once() -> None:
+    questions = Questions()
+    token = questions.add("c", "r", ("world", 1), 0.0, topic="/scan")
+    assert questions.asker(token) == "c"
+    found = questions.answered(token)
+    assert found is not None
+    assert (found.request, found.topic) == ("r", "/scan")
+    assert questions.answered(token) is None
+    assert questions.asker(None) is None
+
+
+def test_it_expires_or_goes_with_its_child() -> None:
+    questions = Questions()
+    questions.add("c", "r1", ("world", 1), 0.0)
+    questions.add("c", "r2", ("application", 2), 1.0)
+    assert questions.deadline_s == ANSWER_S
+    assert [found.request for found in questions.expired(ANSWER_S)] == ["r1"]
+    assert [found.request for found in questions.orphaned(("application", 2))] == ["r2"]
+    assert questions.deadline_s is None

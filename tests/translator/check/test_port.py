@@ -1,0 +1,45 @@
+"""Values of ports."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.translator.check.finding import LEAF, find, is_found_at_its_place
+from translator.check.port import check_ports
+
+CASES = {
+    "missing port": ("BT0201", {"n1": {"type": "Delay", "children": ["a"]}, "a": LEAF}, "n1"),
+    "unknown port": ("BT0202", {"n1": {"type": "Act", "ports": {"sped": "1"}}}, "n1"),
+    "brace open": ("BT0203", {"n1": {"type": "Act", "ports": {"speed": "{x"}}}, "n1"),
+    "brace open on an open action": ("BT0203", {"n1": {"type": "Open", "ports": {"any": "{x"}}}, "n1"),
+    "no number": ("BT0204", {"n1": {"type": "Act", "ports": {"speed": "fast"}}}, "n1"),
+    "no integer": ("BT0204", {"n1": {"type": "Act", "ports": {"count": "many"}}}, "n1"),
+    "integer too large": ("BT0212", {"n1": {"type": "Act", "ports": {"count": "99999999999"}}}, "n1"),
+    "number too large": ("BT0212", {"n1": {"type": "Act", "ports": {"speed": "1e400"}}}, "n1"),
+    "watching no entry": ("BT0201", {"n1": {"type": "WasEntryUpdated", "ports": {"entry": ""}}}, "n1"),
+    "no boolean": ("BT0204", {"n1": {"type": "Act", "ports": {"flag": "perhaps"}}}, "n1"),
+    "literal output": ("BT0205", {"n1": {"type": "Act", "ports": {"result": "5"}}}, "n1"),
+    "read in part": ("BT0206", {"n1": {"type": "Act", "ports": {"count": "12abc"}}}, "n1"),
+    "empty key": ("BT0207", {"n1": {"type": "Act", "ports": {"speed": "{}"}}}, "n1"),
+    "bad key": ("BT0208", {"n1": {"type": "Act", "ports": {"speed": "{a}{b}"}}}, "n1"),
+    "bad port name": ("BT0209", {"n1": {"type": "Open", "ports": {"1st": "x"}}}, "n1"),
+    "two types": (
+        "BT0210",
+        {
+            "n1": {"type": "Sequence", "children": ["a", "b"]},
+            "a": {"type": "Act", "ports": {"result": "{k}"}},
+            "b": {"type": "Act", "ports": {"count": "{k}"}},
+        },
+        "b",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_finding_and_its_place(make_project, name):
+    is_found_at_its_place(check_ports, make_project, CASES[name])
+
+
+def test_the_nearest_name_of_a_port_is_suggested(make_project):
+    project = make_project({"n1": {"type": "Act", "ports": {"sped": "1"}}})
+    assert "speed" in find(check_ports, project, "BT0202").hint

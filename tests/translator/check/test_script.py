@@ -1,0 +1,22 @@
+"""Scripts in ports and conditions."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.translator.check.finding import LEAF, is_found_at_its_place
+from translator.check.script import check_scripts
+
+CASES = {
+    "blank script": ("BT0301", {"n1": {"type": "Script", "ports": {"code": " "}}}, "n1"),
+    "no condition": ("BT0301", {"n1": {"type": "ScriptCondition", "ports": {"code": ""}}}, "n1"),
+    "script beyond 64 bits": ("BT0304", {"n1": {"type": "Script", "ports": {"code": f"x := {2**63}"}}}, "n1"),
+    "empty condition": ("BT0301", {"n1": {**LEAF, "conditions": {"_skipIf": " "}}}, "n1"),
+    "bad script": ("BT0302", {"n1": {"type": "Script", "ports": {"code": "x := "}}}, "n1"),
+    "bad condition": ("BT0302", {"n1": {**LEAF, "conditions": {"_skipIf": "x =="}}}, "n1"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_finding_and_its_place(make_project, name):
+    is_found_at_its_place(check_scripts, make_project, CASES[name])

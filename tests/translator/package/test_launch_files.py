@@ -1,0 +1,65 @@
+"""The launch files of a project in its package."""
+
+from __future__ import annotations
+
+import pytest
+
+from translator.package.launch_files import (
+    as_program,
+    companions,
+    dependencies_of,
+    in_package,
+    launch_files,
+    programs,
+)
+
+FILES = {
+    "launch/a.launch.yaml": b"launch:\n- node: {exec: launch/talker.py, name: t}\n",
+    "launch/b.launch.xml": b'<launch><node pkg="nav2_map_server" exec="map_server"/></launch>',
+    "launch/talker.py": b"print(1)\n",
+    "launch/sub/talker.py": b"#!/bin/sh\n",
+    "launch/map.yaml": b"{}",
+    "actions/Go.py": b"",
+}
+
+
+def test_launch_files_programs_and_what_lies_beside_them() -> None:
+    assert launch_files(FILES) == ["launch/a.launch.yaml", "launch/b.launch.xml"]
+    assert programs(FILES) == {"launch/sub/talker.py": "sub_talker.py", "launch/talker.py": "talker.py"}
+    assert companions(FILES) == ["launch/map.yaml"]
+    assert dependencies_of(FILES) == {"launch_yaml", "launch_xml", "nav2_map_server"}
+
+
+RENAMED = b"- node: {pkg: mine, exec: talker.py}\n"
+
+
+@pytest.mark.parametrize(
+    ("path", "raw", "expected"),
+    [
+        (
+            "launch/a.launch.yaml",
+            b"- node: {exec: launch/talker.py}\n",
+            b"- node: {pkg: mine, exec: talker.py}\n",
+        ),
+        ("launch/a.launch.yaml", b"- node: {exec: talker.py}\n", RENAMED),
+        ("launch/a.launch.yaml", b"- node: {pkg: other, exec: x}\n", b"- node: {pkg: other, exec: x}\n"),
+        (
+            "launch/b.launch.xml",
+            b'<launch><node exec="$(dirname)/talker.py"/></launch>',
+            b'<launch><node pkg="mine" exec="talker.py"/></launch>',
+        ),
+    ],
+)
+def test_a_program_is_named_as_an_executable_of_the_package(path: str, raw: bytes, expected: bytes) -> None:
+    assert in_package(path, raw, "mine", programs(FILES)) == (expected, [])
+
+
+def test_a_name_that_is_not_understood_is_reported_with_its_place() -> None:
+    raw = b"x = 1\nNode(executable='launch/talker.py')\n"
+    _, [found] = in_package("launch/c.launch.py", raw, "mine", programs(FILES))
+    assert (found.code, found.place.line) == ("BT0911", 2)
+
+
+def test_a_program_begins_with_its_interpreter() -> None:
+    assert as_program(b"print(1)\n").startswith(b"#!/usr/bin/env python3\n")
+    assert as_program(FILES["launch/sub/talker.py"]) == b"#!/bin/sh\n"

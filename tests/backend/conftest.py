@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import threading
+from typing import Any
 
 import pytest
 from django.conf import settings
@@ -30,7 +31,9 @@ class Api:
 
     def call(self, method, path, body=None, *, expect=200, **headers):
         address = path if path.startswith("/") else f"/api/v1/{path}"
-        data = {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
+        data: dict[str, Any] = (
+            {} if body is None else {"data": json.dumps(body), "content_type": "application/json"}
+        )
         response = self.client.generic(method, address, headers=headers, **data)
         content = response.getvalue()  # of a file that is sent, too
         assert response.status_code == expect, (response.status_code, content[:2000])

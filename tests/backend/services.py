@@ -9,6 +9,7 @@ import tempfile
 import time
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 PROGRAMS = sorted(Path("/usr/lib/postgresql").glob("*/bin"))
 TIMEOUT_S = 60
@@ -59,7 +60,9 @@ class Cluster:
 def cluster(place=None, *, data=None, log=None, segment_mb=16, **settings):
     """A fresh server in `place`; its data and its write-ahead log may be elsewhere."""
     # PostgreSQL refuses to run as root.
-    as_user = {"user": "postgres", "group": "postgres", "extra_groups": []} if os.geteuid() == 0 else {}
+    as_user: dict[str, Any] = (
+        {"user": "postgres", "group": "postgres", "extra_groups": []} if os.geteuid() == 0 else {}
+    )
     with tempfile.TemporaryDirectory(prefix="bts-pg-", dir=place) as name:
         folder = Path(name)
         data = data or folder / "data"

@@ -15,6 +15,7 @@ from backend.accounts.models import GroupMember
 from backend.catalog import queries
 from backend.config.schema_view import document
 from backend.projects.choices import Role
+from backend.projects.models import GroupShare
 from backend.projects.sharing import memberships
 from backend.projects.storage import writes
 from backend.sessions import writes as session_writes
@@ -150,9 +151,7 @@ def world(person, monkeypatch):  # noqa: F811
     project = writes.create_project(files, acting_user=owner, name="Robot")
     group = groups.create("Class", acting_user=teacher)
     GroupMember.objects.create(group=group, user=people["viewer"].user, joined_at=project.created_at)
-    memberships.GroupShare.objects.create(
-        project=project, group=group, role=Role.VIEWER, created_at=project.created_at
-    )
+    GroupShare.objects.create(project=project, group=group, role=Role.VIEWER, created_at=project.created_at)
     memberships.share_with_person(project.id, "editor", Role.EDITOR, acting_user=owner)
     memberships.share_with_person(project.id, "teacher", Role.VIEWER, acting_user=owner)
     memberships.make_link(project.id, acting_user=owner, days=None)
@@ -222,12 +221,13 @@ def policy(method, path):
 
 def test_every_role_reads_what_the_policy_says(world):
     reads = [key for key in POLICY if key[0] == "get"]
-    assert {key: answers(*world, *key) for key in reads} == {key: policy(*key) for key in reads}
+    people, values = world
+    assert {key: answers(people, values, *key) for key in reads} == {key: policy(*key) for key in reads}
 
 
 @pytest.mark.parametrize(("method", "path"), WRITES, ids=lambda part: part.removeprefix("/api/v1"))
 def test_every_role_writes_what_the_policy_says(method, path, world):
-    assert answers(*world, method, path) == policy(method, path)
+    assert answers(world[0], world[1], method, path) == policy(method, path)
 
 
 def test_what_does_not_exist_answers_as_what_one_may_not_know_of(world):

@@ -11,6 +11,7 @@ from django.db import close_old_connections
 from django.utils import timezone
 from hypothesis import HealthCheck
 from hypothesis import strategies as st
+from schemathesis.specs.openapi import checks
 
 from backend.accounts.writes import create_account
 from backend.config.schema_view import document
@@ -31,11 +32,11 @@ HEADERS = {"Host": "127.0.0.1:8000", "Authorization": f"Bearer {guard.keys().tok
 # than a schema can say.
 CHECKS = [
     schemathesis.checks.not_a_server_error,
-    schemathesis.specs.openapi.checks.status_code_conformance,
-    schemathesis.specs.openapi.checks.content_type_conformance,
-    schemathesis.specs.openapi.checks.response_headers_conformance,
-    schemathesis.specs.openapi.checks.response_schema_conformance,
-    schemathesis.specs.openapi.checks.unsupported_method,
+    checks.status_code_conformance,
+    checks.content_type_conformance,
+    checks.response_headers_conformance,
+    checks.response_schema_conformance,
+    checks.unsupported_method,
 ]
 
 

@@ -9,6 +9,7 @@ import time
 from dataclasses import dataclass, field
 
 from websockets.asyncio.client import connect
+from websockets.typing import Origin
 
 CHANCE = random.Random(1)  # noqa: S311 - it spreads requests
 EXTRA = {"list": 0.1, "open": 0.1}
@@ -55,7 +56,9 @@ class Editor:
         """A socket that waits for news of the project."""
         uri = f"ws://127.0.0.1:{self._port}/ws/projects/{self._project['id']}/notices"
         headers = dict([self._credentials])
-        return connect(uri, additional_headers=headers, origin=f"http://127.0.0.1:{self._port}", proxy=None)
+        return connect(
+            uri, additional_headers=headers, origin=Origin(f"http://127.0.0.1:{self._port}"), proxy=None
+        )
 
     async def save(self) -> None:
         """A block is moved, and the tree saved."""

@@ -23,7 +23,7 @@ import sys
 import time
 from statistics import median
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import django
 
@@ -104,11 +104,11 @@ async def stop_manager(session: HangingSession) -> tuple[float, float]:
     """Stops a manager; returns the seconds until the watch noted that, and until it ended the manager."""
     from backend.sessions import watch, writes
 
-    writes.manager_token = lambda _: TOKEN
-    one = SimpleNamespace(id="benchmark", address=f"127.0.0.1:{session.manager.ready['port']}")
+    writes.manager_token = lambda session: TOKEN
+    one: Any = SimpleNamespace(id="benchmark", address=f"127.0.0.1:{session.manager.ready['port']}")
     noted: list[float] = []
     handler = logging.Handler()
-    handler.emit = lambda _: noted.append(time.monotonic())
+    handler.emit = lambda record: noted.append(time.monotonic())  # type: ignore[method-assign]
     watch.log.addHandler(handler)
     watching = asyncio.create_task(watch.until_silent(one))
     await asyncio.sleep(CALM_S)

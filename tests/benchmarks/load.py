@@ -21,6 +21,7 @@ import tempfile
 import time
 from contextlib import AsyncExitStack, ExitStack
 from pathlib import Path
+from typing import Any
 
 import psutil
 
@@ -133,7 +134,8 @@ def main() -> None:
     with ExitStack() as stack:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         os.sched_setaffinity(0, set(cores[:-1]) or set(cores))
-        settings, port = {}, 0
+        settings: dict[str, Any] = {}
+        port = 0
         if not options.local:
             settings, port = team(stack, folder, sqlite=options.sqlite)
         elif not options.sqlite:

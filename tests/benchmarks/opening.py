@@ -14,6 +14,7 @@ import statistics
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import psutil
 import requests
@@ -88,7 +89,7 @@ def main() -> None:
             ask.headers.update(server.headers)
             base = f"{server.base}/api/v1/projects"
             project = ask.post(base, json={"name": "Large"}, timeout=60).json()["id"]
-            changes = {"files": project_files(options.files)}
+            changes: Any = {"files": project_files(options.files)}
             ask.post(f"{base}/{project}/changes", json=changes, timeout=60).raise_for_status()
         with serving(folder) as server:
             # The first request of all pays for imports; that is no matter of this project.

@@ -8,8 +8,9 @@ import statistics
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from executor.render import Viewpoint
 from executor.render.gl import GlRenderer
@@ -99,8 +100,8 @@ def physics() -> None:
         world = BulletWorld(load_builtin(universe))
         robot = world.robots[0]
         robot.command(0.2, 0.5)
-        step = median_ms(lambda world=world: world.step(4), 500) / 4
-        scan = median_ms(lambda robot=robot: robot.scan(robot.config.lidars[0]), 100)
+        step = median_ms(partial(world.step, 4), 500) / 4
+        scan = median_ms(partial(robot.scan, robot.config.lidars[0]), 100)
         load = (step * 240 + scan * 10) / 10
         costs = f"{step * 1000:.0f} µs a step, {scan:.2f} ms a scan"
         print(f"{universe}: {costs}, {load:.1f} % of a core in real time")
@@ -136,7 +137,7 @@ def processes() -> None:
     command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
     with subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment) as world:
         theirs.close()
-        channel = Channel(ours.detach(), msgspec.msgpack.decode)
+        channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
         ready_s = _start(channel)
         listener = str(ROOT / "tests/executor/ros/camera_listener.py")
         heard = subprocess.Popen(
@@ -157,13 +158,13 @@ def processes() -> None:
     print(f"pictures of 640×480 at 15 Hz between processes: {len(stamps)} arrived, {lost} lost")
 
 
-def _start(channel: object) -> float:
+def _start(channel: Any) -> float:
     began_s = time.perf_counter()
     channel.send(
         {"type": "start", "universe": "walled_room", "seed": 1, "speed": 1.0, "domain_id": DOMAIN_ID}
-    )  # type: ignore[attr-defined]
+    )
     while True:
-        message = channel.receive(120)  # type: ignore[attr-defined]
+        message = channel.receive(120)
         if message is None or message["type"] == "error":
             raise RuntimeError(f"the world did not start: {message}")
         if message["type"] == "ready":

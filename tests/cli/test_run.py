@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 import pytest
 from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from tests.budget import count
 
@@ -59,7 +60,7 @@ def test_a_run_can_be_looked_at_in_a_browser():
         link = re.search(r"http://\S+", run.stdout.readline())[0]
         origin, query = link.split("/?")
         url = f"{origin.replace('http', 'ws')}/socket?{query}"
-        with connect(url, origin=origin, max_size=None) as socket:
+        with connect(url, origin=Origin(origin), max_size=None) as socket:
             socket.send('{"eye": [-3, 0, 3], "target": [0, 0, 0]}')
             messages = list(socket)
         run.communicate(timeout=100)

@@ -69,8 +69,8 @@ def leave_behind(stack: OldStack) -> None:
     stack.compose(*load, input=DUMP.read_text())
     for volume in ARCHIVED:
         # With Compose's labels, so that it recognizes them.
-        labels = ("--label", f"com.docker.compose.project={stack.name}")
-        labels += ("--label", f"com.docker.compose.volume={volume}")
+        labels = ["--label", f"com.docker.compose.project={stack.name}"]
+        labels += ["--label", f"com.docker.compose.volume={volume}"]
         stack.engine.run("volume", "create", *labels, f"{stack.name}_{volume}")
         _put(stack, volume)
     stack.compose("stop")

@@ -12,10 +12,11 @@ import time
 import urllib.error
 import urllib.parse
 import urllib.request
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from websockets.asyncio.client import connect
 from websockets.protocol import State
+from websockets.typing import Origin, Subprotocol
 
 from tests.docker.engine import REPOSITORY, _run
 from tests.executor.session_client import SessionClient
@@ -165,7 +166,7 @@ class Stack:
         """Passes a backup to `bt-studio restore -`."""
         self._studio_bytes("restore", "-", input=archive)
 
-    def _studio_bytes(self, *arguments: str, **options: object) -> bytes:
+    def _studio_bytes(self, *arguments: str, **options: Any) -> bytes:
         command = (*self._command, "exec", "-T", "web", "bt-studio", *arguments)
         done = subprocess.run(
             command, env=self.engine.environment, check=False, capture_output=True, cwd=REPOSITORY, **options
@@ -194,7 +195,7 @@ class User:
         self._headers = headers
         self._base, self._tls = stack.base, stack.tls
         self._jar = http.cookiejar.CookieJar()
-        handlers = [urllib.request.HTTPCookieProcessor(self._jar)]
+        handlers: list[urllib.request.BaseHandler] = [urllib.request.HTTPCookieProcessor(self._jar)]
         handlers += [urllib.request.HTTPSHandler(context=self._tls)] if self._tls else []
         self._opener = urllib.request.build_opener(*handlers)
 
@@ -258,7 +259,7 @@ class User:
         return connect(
             f"{self._base.replace('http', 'ws', 1)}/ws/projects/{project}/{name}",
             additional_headers={"Cookie": self.cookies},
-            origin=self._base,
+            origin=Origin(self._base),
             proxy=None,
             open_timeout=60,
             ssl=self._tls,
@@ -286,8 +287,8 @@ class RelayedClient(SessionClient):
         return connect(
             f"{self._origin.replace('http', 'ws', 1)}/ws/sessions/{self._session_id}{path}",
             additional_headers=self._headers,
-            origin=self._origin,
-            subprotocols=["bt-studio.v1"],
+            origin=Origin(self._origin),
+            subprotocols=[Subprotocol("bt-studio.v1")],
             max_size=None,
             compression=None,
             proxy=None,

@@ -6,6 +6,7 @@ import secrets
 import ssl
 import subprocess
 import time
+from typing import Any
 
 import pytest
 
@@ -43,7 +44,7 @@ def network(tmp_path):
             build_images(running, TAG)
         name = "btacme" + secrets.token_hex(3)
         running.run("network", "create", name)
-        started = []
+        started: list[Any] = []
 
         def run(alias, *options):
             started.append(f"{name}-{len(started)}")

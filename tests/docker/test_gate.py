@@ -8,6 +8,7 @@ import os
 import subprocess
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 import yaml
@@ -116,7 +117,7 @@ def test_without_the_sockets_group_the_keeper_says_which_one_it_takes(stack):
 def held_door(stack):
     """Yields the name of a door that stays open."""
     command = [stack.engine.docker, "exec", "-i", stack.container("keeper"), "python3", "-c", HOLD]
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    pipes: Any = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, cwd=REPOSITORY, env=stack.engine.environment, **pipes) as keeper:
         yield keeper.stdout.readline().strip()
         keeper.stdin.close()

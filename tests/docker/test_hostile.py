@@ -16,6 +16,7 @@ import sys
 import time
 from contextlib import asynccontextmanager
 from functools import partial
+from typing import Any
 
 import pytest
 
@@ -145,7 +146,8 @@ async def moves_on(client, until):
 
 async def attack_inside(user, project, until):
     """Runs hostile code in a session's container, and starts it again whenever it was ended."""
-    starts, said = 0, {}
+    starts = 0
+    said: dict[Any, Any] = {}
     while time.monotonic() < until:
         starts += 1
         session = await asyncio.to_thread(user.post, f"projects/{project}/session")

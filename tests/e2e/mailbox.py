@@ -33,7 +33,7 @@ class _Delivery(socketserver.StreamRequestHandler):
     def _keep(self) -> None:
         lines = list(iter(self.rfile.readline, b".\r\n"))
         raw = b"".join(line[1:] if line.startswith(b"..") else line for line in lines)
-        mail: EmailMessage = message_from_bytes(raw, policy=policy.default)  # type: ignore[arg-type]
+        mail: EmailMessage = message_from_bytes(raw, policy=policy.default)
         self.server.mails.append(mail)  # type: ignore[attr-defined]
 
     def _say(self, line: str) -> None:

@@ -19,6 +19,7 @@ import msgpack
 import numpy as np
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
 
 from executor.stream.pose_codec import POSE_BYTES, unpack
 
@@ -47,7 +48,9 @@ class Observer:
         sockets = ExitStack()
 
         def opened(path: str) -> ClientConnection:
-            connection = connect(f"{socket}/{path}", additional_headers=headers, origin=origin, max_size=None)
+            connection = connect(
+                f"{socket}/{path}", additional_headers=headers, origin=Origin(origin), max_size=None
+            )
             return sockets.enter_context(connection)
 
         control = opened("control")

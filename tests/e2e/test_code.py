@@ -69,7 +69,11 @@ def network_of(studio: Studio) -> Callable[[bool], None]:
     session = studio.page.context.new_cdp_session(studio.page)
     session.send("Network.enable")
     speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
-    return lambda cut: session.send("Network.emulateNetworkConditions", {"offline": cut, **speed})
+
+    def cut_off(cut: bool) -> None:  # noqa: FBT001 - on or off
+        session.send("Network.emulateNetworkConditions", {"offline": cut, **speed})
+
+    return cut_off
 
 
 def begin(studio: Studio) -> None:

@@ -258,7 +258,7 @@ def the_view_goes_to_what_is_wanted(studio: Studio) -> None:
     ):
         found.get_by_role("textbox").fill(text)
         expect(found).to_contain_text(count)
-        wait_until(lambda first=first: selected(studio) == [first], f"{first} is found")
+        wait_until(lambda: selected(studio) == [first], f"{first} is found")
     found.get_by_role("textbox").fill("reactive")
     keys.press("Enter")
     expect(found).to_contain_text("2 of 2")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 import yaml
-from playwright.sync_api import expect
+from playwright.sync_api import FilePayload, expect
 
 from tests.e2e.accessibility import expect_accessible
 from tests.e2e.server import wait_until
@@ -79,7 +79,7 @@ def change_a_universe(studio: Studio) -> None:
     assert text_of(studio, "universes/yard.yaml") == turned
     a_ceiling_is_switched_on_and_off(studio)
     studio.at("mesh-file").set_input_files(
-        files=[{"name": "rock.obj", "mimeType": "text/plain", "buffer": CRATE}]
+        files=FilePayload(name="rock.obj", mimeType="text/plain", buffer=CRATE)
     )
     expect(studio.at("thing-rock")).to_be_visible()
     studio.at("place-floor").click()
@@ -256,7 +256,7 @@ def let_a_mesh_turn(studio: Studio) -> None:
     """A mesh is uploaded, becomes a link with a name, and gets a motor."""
     fields = studio.at("part-fields")
     studio.at("part-mesh-file").set_input_files(
-        files=[{"name": "cup.stl", "mimeType": "model/stl", "buffer": MESH_MM}]
+        files=FilePayload(name="cup.stl", mimeType="model/stl", buffer=MESH_MM)
     )
     expect(studio.at("thing-link cup_link")).to_have_attribute("aria-selected", "true")
     field(fields, "part-name", "holder")

@@ -176,7 +176,8 @@ async def manager_process(*arguments, env=None):
     family = []
     try:
         with os.fdopen(reader) as ready:
-            process.ready = json.loads(await asyncio.to_thread(ready.readline))
+            # Callers read it beside what a process has itself.
+            process.ready = json.loads(await asyncio.to_thread(ready.readline))  # type: ignore[attr-defined]
         yield process
         with contextlib.suppress(psutil.NoSuchProcess):
             family = psutil.Process(process.pid).children(recursive=True)

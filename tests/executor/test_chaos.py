@@ -169,7 +169,7 @@ async def test_real_processes_survive_it_too_and_no_shared_memory_is_left():
     chance = chance_of_today()
     it = Manager(ManagerSettings(port=0, token=TOKEN))
     try:
-        it.port = await it.start()
+        it.port = await it.start()  # type: ignore[attr-defined]
         storm = Storm(it, chance, run_data())
         await storm.connect()
         await storm.blow(count("manager_chaos_real"))

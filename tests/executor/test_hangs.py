@@ -7,6 +7,7 @@ import os
 import random
 import signal
 import sys
+from typing import Any
 
 import pytest
 
@@ -22,7 +23,7 @@ def cases_of_today():
     seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
     chance, wanted = random.Random(seed), count("hangs_real")  # noqa: S311
-    found = []
+    found: list[Any] = []
     while len(found) < wanted:
         found += chance.sample(CASES, len(CASES))
     return found[:wanted]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import msgspec
 import numpy as np
 
@@ -48,7 +50,7 @@ async def test_a_client_that_stalls_gets_the_present_when_it_reads_again():
             lambda: {type(f) for _, f in client.frames if f.t == last} == {Camera, Poses}, timeout_s=60
         )
         assert len(client.frames) < FRAMES
-        places = {}
+        places: dict[Any, Any] = {}
         for _, frame in client.frames:
             if isinstance(frame, Poses):
                 ids = np.frombuffer(frame.ids, "<u2").tolist()

@@ -8,6 +8,7 @@ import signal
 import sys
 import tempfile
 import time
+from typing import Any
 
 import msgspec
 
@@ -110,7 +111,7 @@ def main():
     parser.add_argument("--channel-fd", type=int, required=True)
     arguments = parser.parse_args()
     die_with_parent()
-    channel = Channel(arguments.channel_fd, msgspec.msgpack.decode)
+    channel: Channel[Any, Any] = Channel(arguments.channel_fd, msgspec.msgpack.decode)
     pulse = Pulse(channel.send)
     habits = {
         "good": lambda: obey(channel, pulse),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from typing import Any
 
 import msgspec
 
@@ -87,7 +88,7 @@ def main():
     parser.add_argument("--mute-after", type=float, default=float("inf"))
     arguments = parser.parse_args()
     die_with_parent()
-    channel = Channel(arguments.channel_fd, msgspec.msgpack.decode)
+    channel: Channel[Any, Any] = Channel(arguments.channel_fd, msgspec.msgpack.decode)
     try:
         ClockWorld(channel, Pulse(channel.send), arguments.mute_after).run()
     except ChannelClosed:

@@ -105,6 +105,7 @@ class FakeDocker(socketserver.ThreadingUnixStreamServer):
 
 class _Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
+    server: FakeDocker
 
     def do_GET(self):
         self._answer()

@@ -216,7 +216,7 @@ def visit(entities: Sequence[Entity], context: Context) -> None:
         visit(entity.execute(context) or [], context)
 
 
-MODULES = {
+MODULES: dict[str, list[Any]] = {
     "launch": [LaunchDescription],
     "launch.actions": [
         DeclareLaunchArgument,

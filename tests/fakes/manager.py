@@ -21,6 +21,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from websockets.asyncio.server import ServerConnection, serve
 
@@ -52,7 +53,7 @@ async def flood(socket: ServerConnection) -> None:
 async def listen(kind: str, ready_fd: int) -> None:
     handler = flood if kind == "flood" else echo
     refusal = refuse_watch if kind == "old" else None
-    options = {"compression": None, "max_queue": 2, "max_size": None, "process_request": refusal}
+    options: Any = {"compression": None, "max_queue": 2, "max_size": None, "process_request": refusal}
     async with (
         await asyncio.start_server(read_only, "127.0.0.1", 0)
         if kind == "deaf"

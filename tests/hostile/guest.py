@@ -17,7 +17,7 @@ import time
 import urllib.parse
 import zipfile
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tests.hostile.wire import Site, ask, chunk, connected, frame, status_of, websocket
 
@@ -92,8 +92,8 @@ async def _kept_alive(reader: asyncio.StreamReader) -> str:
 async def forged(site: Site, note: Counter[str]) -> None:
     """Sends forged client addresses and host names."""
     address = ".".join(str(CHANCE.randrange(256)) for _ in range(4))
-    lies = {"X_Forwarded_For": address, "X_Real_IP": address, "Forwarded": f"for={address}"}
-    more = CHANCE.choice(
+    lies: Any = {"X_Forwarded_For": address, "X_Real_IP": address, "Forwarded": f"for={address}"}
+    more: Any = CHANCE.choice(
         (
             {"Host": "evil.example"},
             {"Origin": "https://evil.example"},
@@ -124,7 +124,7 @@ async def passwords(site: Site, note: Counter[str]) -> None:
     body = urllib.parse.urlencode(form).encode()
     kind = "application/x-www-form-urlencoded"
     referer = f"{site.origin}/accounts/login/"
-    lies = {"X_Forwarded_For": f"10.0.{CHANCE.randrange(256)}.{CHANCE.randrange(256)}"}
+    lies: Any = {"X_Forwarded_For": f"10.0.{CHANCE.randrange(256)}.{CHANCE.randrange(256)}"}
     note[
         await ask(
             site,
@@ -300,7 +300,7 @@ async def tried(kind: str, site: Site, note: Counter[str], goes_on: Callable[[in
 
 async def all_at_once(site: Site, rounds: int) -> dict[str, Counter[str]]:
     """Runs every kind at the same time, each with its number of clients."""
-    notes = {kind: Counter() for kind in KINDS}
+    notes: dict[Any, Any] = {kind: Counter() for kind in KINDS}
     await asyncio.gather(*(tried(kind, site, notes[kind], lambda done: done < rounds) for kind in KINDS))
     return notes
 
@@ -313,7 +313,7 @@ async def in_phases(site: Site, seconds: float, phase_s: float) -> list[tuple[st
         for kinds in (*([kind] for kind in KINDS), list(KINDS)):
             began, until = time.time(), min(end, time.time() + phase_s)
             note: Counter[str] = Counter()
-            going = (tried(kind, site, note, lambda _, until=until: time.time() < until) for kind in kinds)
+            going = (tried(kind, site, note, lambda _: time.time() < until) for kind in kinds)
             await asyncio.gather(*going)
             told.append((kinds[0] if len(kinds) == 1 else "all", began, dict(note)))
             if time.time() >= end:

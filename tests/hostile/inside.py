@@ -13,6 +13,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import py_trees
 from py_trees.common import Status
@@ -39,7 +40,7 @@ def flood_gates(until):
         b"x" * 100_000,
         json.dumps({"session": "a", "token": "b"}).encode() + b"\n",
     )
-    held = []
+    held: list[Any] = []
     while time.monotonic() < until:
         for number, path in enumerate(gates()):
             door = socket.socket(socket.AF_UNIX)
@@ -153,9 +154,11 @@ KINDS = (
 
 
 class Forward(py_trees.behaviour.Behaviour):
+    at_it: threading.Thread
+
     def __init__(self, name, ports=None):
         super().__init__(name)
-        self.number = FIRST  # noqa: F821 - the last line of what is run
+        self.number = globals()["FIRST"]  # the last line of what is run sets it
 
     def update(self):
         """Continues to tick meanwhile, as a program does that wants to survive."""

@@ -27,7 +27,7 @@ def run(monkeypatch, capfdbinary):
         try:
             cli.main()
         except SystemExit as error:
-            status = error.code or 0
+            status = int(error.code or 0)
         out, errors = capfdbinary.readouterr()
         return status, out.decode(), errors.decode()
 

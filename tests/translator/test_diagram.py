@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import pytest
@@ -57,7 +58,7 @@ def test_what_cannot_be_saved_is_refused(name):
     assert found(raw) == (None, [code])
 
 
-REPAIRED = {
+REPAIRED: Any = {
     "node without a type": ({"n1": LEAF, "n2": {"name": "x"}}, {}, ["BT0011"]),
     "number as a port": ({"n1": {**LEAF, "ports": {"a": 1.5}}}, {}, ["BT0012"]),
     "control character": ({"n1": {**LEAF, "name": "a\x01"}}, {}, ["BT0012"]),
@@ -115,7 +116,7 @@ def test_large_rings_and_chains_are_read_in_linear_time():
     chain = {f"n{n}": {**LEAF, "children": [f"n{n + 1}"]} for n in range(20_000)} | {"n20000": LEAF}
     tree, told = found(document(dict(reversed(chain.items())), root=None))
     assert told == ["BT0024"]
-    pairs = {}
+    pairs: dict[Any, Any] = {}
     for n in range(0, 20_000, 2):
         pairs |= {f"n{n}": {**LEAF, "children": [f"n{n + 1}"]}, f"n{n + 1}": {**LEAF, "children": [f"n{n}"]}}
     tree, told = found(document(pairs, root=None))

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 import translator
-from translator import python_source
 from translator.python_source import parse
 
 ROOT = Path(__file__).parents[2]
@@ -100,7 +99,7 @@ def test_what_the_standard_library_disturbs_is_read_again(monkeypatch):
             raise raised.pop()
         return read(*arguments, **options)
 
-    monkeypatch.setattr(python_source.ast, "parse", disturbed)
+    monkeypatch.setattr(ast, "parse", disturbed)
     assert isinstance(parse("x = 1", "x.py"), ast.Module)
     assert raised == []
 
@@ -121,8 +120,7 @@ def test_nothing_else_in_the_web_server_makes_syntax_trees():
     for package in ("backend", "translator", "tree_gardener"):
         for path in (ROOT / package).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text())):
-                is_call = isinstance(node, ast.Call)
-                if is_call and ast.unparse(node.func) in {
+                if isinstance(node, ast.Call) and ast.unparse(node.func) in {
                     "ast.parse",
                     "compile",
                     "builtins.compile",

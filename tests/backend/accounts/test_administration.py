@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from typing import Any
 
 import pytest
 from django.conf import settings
@@ -58,7 +59,7 @@ def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkey
     olga.post(f"projects/{running}/session")  # what runs goes on
     assert session_writes.start_queued() == 0
     assert drain.text().endswith("those that run continue. Back at 15:00.")
-    told = []
+    told: list[Any] = []
     assert drain.wait_for_the_last(0, told.append) == 1
     assert told == ["Robots that run: 1. Users who wait for one: 0."]
     drain.lift(acting_user=ada.user)

@@ -9,6 +9,7 @@ import os
 import socket
 import threading
 import zipfile
+from typing import Any
 
 import pytest
 
@@ -55,7 +56,13 @@ def refused(messages, headers, path="/api/v1/projects", **more):
         read = len(messages) - len(waiting) if read is None else read
         sent.append(message)
 
-    scope = {"type": "http", "method": "POST", "path": path, "query_string": b"", "headers": headers} | more
+    scope: Any = {
+        "type": "http",
+        "method": "POST",
+        "path": path,
+        "query_string": b"",
+        "headers": headers,
+    } | more
     upload = Upload(IMPORT, room_for_archive)
     asyncio.run(ThreadedHandler(upload)(scope, receive, send))
     named = {name.lower(): value for name, value in sent[0]["headers"]}
@@ -118,7 +125,7 @@ def test_a_user_sends_only_a_few_large_bodies_at_a_time(person, monkeypatch):
     owner = person("olga")
     handling = ThreadedHandler()
     headers = head(owner, content_length=str(2 * MEBIBYTE))
-    scope = {
+    scope: Any = {
         "type": "http",
         "method": "POST",
         "path": "/api/v1/projects",
@@ -127,14 +134,14 @@ def test_a_user_sends_only_a_few_large_bodies_at_a_time(person, monkeypatch):
     }
 
     async def both():
-        heard = asyncio.Queue()
-        open_ended = asyncio.create_task(handling(dict(scope), asyncio.Queue().get, heard.put))
+        heard: asyncio.Queue[Any] = asyncio.Queue()
+        open_ended = asyncio.create_task(handling(scope | {}, asyncio.Queue().get, heard.put))
         async with asyncio.timeout(60):
             while not siblings._taken:  # noqa: ASYNC110 - until the first is being read
                 await asyncio.sleep(0.01)
-            rest = asyncio.Queue()
+            rest: asyncio.Queue[Any] = asyncio.Queue()
             rest.put_nowait({"type": "http.disconnect"})
-            await handling(dict(scope), rest.get, heard.put)
+            await handling(scope | {}, rest.get, heard.put)
         open_ended.cancel()
         await asyncio.gather(open_ended, return_exceptions=True)
         return heard.get_nowait()
@@ -157,7 +164,7 @@ def test_a_body_that_comes_too_slowly_is_given_up(monkeypatch):
         sent.append(message)
 
     headers = head(content_length="100")
-    scope = {
+    scope: Any = {
         "type": "http",
         "method": "POST",
         "path": "/api/v1/projects",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from django.conf import settings
 from django.test import override_settings
@@ -45,7 +47,7 @@ def test_who_comes_from_the_provider_is_in_and_their_browser_is_known(provider):
     morsel = tina.client.cookies[attempts.COOKIE]
     assert morsel["httponly"]
     assert morsel["samesite"] == "Lax"
-    request = type("Request", (), {"COOKIES": {attempts.COOKIE: morsel.value}})
+    request: Any = type("Request", (), {"COOKIES": {attempts.COOKIE: morsel.value}})
     assert attempts.browser_of(request).accounts == (user.pk,)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from typing import Any
 from uuid import UUID
 
 import pytest
@@ -44,7 +45,8 @@ def closed_after(browser, project, deed):
     """The code with which the socket of an open project ends when something is done."""
 
     async def listen():
-        heard, said = asyncio.Queue(), asyncio.Queue()
+        heard: asyncio.Queue[Any] = asyncio.Queue()
+        said: asyncio.Queue[Any] = asyncio.Queue()
         said.put_nowait({"type": "websocket.connect"})
         scope = scope_of(browser, f"/ws/projects/{project}/notices")
         serving = asyncio.create_task(
@@ -71,7 +73,8 @@ def test_who_may_not_use_a_socket_is_told_so(person):
         await sync_to_async(may_write)(UUID(call.address[1]), call.user)
 
     async def code():
-        heard, said = asyncio.Queue(), asyncio.Queue()
+        heard: asyncio.Queue[Any] = asyncio.Queue()
+        said: asyncio.Queue[Any] = asyncio.Queue()
         said.put_nowait({"type": "websocket.connect"})
         routes = {ADDRESS: Route(written, may_write)}
         await serve(routes, scope_of(friend, f"/ws/projects/{one}/notices"), said.get, heard.put)

@@ -12,6 +12,7 @@ import pytest
 
 from backend.config import parent
 from backend.config.server import ServeError
+from backend.core.processes.numbers import make_page
 from backend.core.processes.siblings import PAGE
 
 WORKER = """
@@ -57,7 +58,7 @@ class Small(parent.Parent):
 
     def _child(self, folder, number, name, lines):
         self.folder = folder
-        page = parent.make_page(folder / PAGE.format(number))
+        page = make_page(folder / PAGE.format(number))
         script = textwrap.dedent(WORKER) + textwrap.dedent(lines)
         return parent.Child(name, [sys.executable, "-S", "-c", script, str(folder), str(number)], page)
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import logging
 import sys
+from typing import Any
 
 import pytest
 
 from backend.config import probes
 from backend.config.environment import environment
+from backend.config.healthcheck import READY
 from backend.core.logs import JsonFormatter, TextFormatter
 from backend.core.processes import metrics
 from backend.core.processes.threads import Threads
@@ -22,7 +24,8 @@ class Busy(Threads):
 
     def __init__(self, *, full_s=0.0, stuck_s=0.0):
         super().__init__(1, "busy")
-        self.full_for_s, self.stuck_for_s = lambda: full_s, lambda: stuck_s
+        self.full_for_s = lambda: full_s  # type: ignore[method-assign]
+        self.stuck_for_s = lambda: stuck_s  # type: ignore[method-assign]
 
 
 async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None, threads=None):
@@ -36,21 +39,21 @@ async def ask(path, *, client=("127.0.0.1", 5), headers=(), inner=None, threads=
         await send({"type": "http.response.start", "status": 404, "headers": []})
         await send({"type": "http.response.body", "body": b""})
 
-    scope = {"type": "http", "path": path, "method": "GET", "client": client, "headers": list(headers)}
+    scope: Any = {"type": "http", "path": path, "method": "GET", "client": client, "headers": list(headers)}
     await probes.probed(inner or application, threads or Busy())(scope, None, send)
     return sent[0]["status"], b"".join(message.get("body", b"") for message in sent[1:]).decode()
 
 
 async def test_a_process_that_answers_is_alive_and_ready():
     assert await ask(probes.LIVE, client=("10.0.0.9", 5)) == (200, '{"status": "ok"}\n')
-    assert (await ask(probes.READY, client=("10.0.0.9", 5)))[0] == 200
+    assert (await ask(READY, client=("10.0.0.9", 5)))[0] == 200
 
 
 def host(name):
     return [(b"host", name.encode())]
 
 
-@pytest.mark.parametrize("path", [probes.LIVE, probes.READY, probes.METRICS])
+@pytest.mark.parametrize("path", [probes.LIVE, READY, probes.METRICS])
 async def test_a_page_whose_name_was_made_to_point_here_learns_nothing(path, settings_of):
     for name in ("evil.example", "evil.example:8000", "127.0.0.1.evil.example"):
         status, body = await ask(path, headers=host(name))
@@ -75,7 +78,13 @@ async def test_probes_have_the_headers_of_every_answer():
     async def send(message):
         sent.append(message)
 
-    scope = {"type": "http", "path": probes.LIVE, "method": "GET", "client": ("127.0.0.1", 5), "headers": []}
+    scope: Any = {
+        "type": "http",
+        "path": probes.LIVE,
+        "method": "GET",
+        "client": ("127.0.0.1", 5),
+        "headers": [],
+    }
     await probes.probed(None, Busy())(scope, None, send)
     names = {name.lower() for name, _ in sent[0]["headers"]}
     assert {
@@ -88,7 +97,7 @@ async def test_probes_have_the_headers_of_every_answer():
 
 async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch):
     monkeypatch.setattr(probes, "trouble", lambda: "The database does not answer: OperationalError.")
-    status, body = await ask(probes.READY)
+    status, body = await ask(READY)
     assert status == 503
     assert "database" in json.loads(body)["detail"]
     assert (await ask(probes.LIVE))[0] == 200
@@ -97,8 +106,8 @@ async def test_a_server_without_its_database_is_alive_and_not_ready(monkeypatch)
 @pytest.mark.parametrize(
     ("path", "busy", "status"),
     [
-        (probes.READY, {"full_s": 9.0}, 200),
-        (probes.READY, {"full_s": 11.0}, 503),
+        (READY, {"full_s": 9.0}, 200),
+        (READY, {"full_s": 11.0}, 503),
         (probes.LIVE, {"full_s": 300.0, "stuck_s": 59.0}, 200),
         (probes.LIVE, {"full_s": 61.0, "stuck_s": 61.0}, 503),
     ],

@@ -65,6 +65,9 @@ def made_to_wait(docker):
 class Several:
     """A server with several workers, its database, and a browser."""
 
+    environment: dict[str, str]
+    may_run: threading.Event
+
     def __init__(self, served, database_url, host):
         self.served, self.host = served, host
         self.database = psycopg.connect(database_url, autocommit=True)

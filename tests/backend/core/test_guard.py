@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from backend.core.guard import Facts, Keys, cookie_name, host_name, judge, schemes_of
@@ -120,7 +122,7 @@ def test_a_host_is_opened_by_the_scheme_of_the_settings(settings_of, public_url,
 
 
 def test_a_page_that_came_by_plain_http_is_not_of_a_server_with_tls():
-    facts = {"host": "bt.example.org", "schemes": ("https",), "method": "POST", "socket": True}
+    facts: Any = {"host": "bt.example.org", "schemes": ("https",), "method": "POST", "socket": True}
     judged = [
         judge(
             Facts(origin=f"{scheme}://bt.example.org", **facts),

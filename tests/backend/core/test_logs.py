@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import logging
 
 import pytest
 
-from backend.core.logs import MOST_ALIKE, PERIOD_S, Flood
+from backend.core.logs import MOST_ALIKE, PERIOD_S, Flood, JsonFormatter, TextFormatter
 
 
 class Clock:
@@ -61,3 +62,30 @@ def test_no_error_is_dropped(written):
     for _ in range(MOST_ALIKE + 30):
         logger.error("a fault")
     assert len(lines) == MOST_ALIKE + 30
+
+
+def record(**facts: object) -> logging.LogRecord:
+    made = logging.LogRecord("backend.x", logging.WARNING, "x.py", 1, "lost\n%s", ("this",), None)
+    if facts:
+        made.facts = facts
+    return made
+
+
+def test_a_record_is_one_object_in_one_line() -> None:
+    text = JsonFormatter().format(record(user="ada"))
+    line = json.loads(text)
+    assert "\n" not in text
+    assert (line["level"], line["message"], line["user"]) == ("warning", "lost\nthis", "ada")
+
+
+def test_an_exception_and_what_json_does_not_know_are_texts() -> None:
+    made = record(what=object())
+    try:
+        raise ValueError("no")
+    except ValueError as error:
+        made.exc_info = (type(error), error, error.__traceback__)
+    assert "ValueError: no" in json.loads(JsonFormatter().format(made))["exception"]
+
+
+def test_people_read_the_facts_behind_the_text() -> None:
+    assert TextFormatter().format(record(user="ada")).endswith(" user=ada")

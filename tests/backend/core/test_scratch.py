@@ -8,6 +8,7 @@ import io
 import shutil
 import zipfile
 from collections import namedtuple
+from typing import Any
 
 import pytest
 from django.core.files.uploadhandler import MemoryFileUploadHandler
@@ -94,7 +95,7 @@ def test_when_to_come_again_is_said(settings_of):
     async def send(message):
         sent.append(message)
 
-    scope = {"type": "http", "method": "POST", "path": "/api/v1/projects", "query_string": b""}
+    scope: Any = {"type": "http", "method": "POST", "path": "/api/v1/projects", "query_string": b""}
     asyncio.run(ThreadedHandler()(scope | {"headers": head(content_length="5000000")}, receive, send))
     assert sent[0]["status"] == 503
     assert dict(sent[0]["headers"])[b"Retry-After"] == b"15"
@@ -148,7 +149,7 @@ async def ask(handling, path="/api/v1/me/data"):
     async def send(message):
         sent.append(message)
 
-    scope = {"type": "http", "method": "GET", "path": path, "query_string": b"", "headers": head()}
+    scope: Any = {"type": "http", "method": "GET", "path": path, "query_string": b"", "headers": head()}
     await handling(scope, receive, send)
     return sent[0], [message["body"] for message in sent[1:]]
 
@@ -201,7 +202,7 @@ def test_a_client_that_takes_nothing_is_given_up(api, monkeypatch):
             if message.get("body"):
                 await asyncio.Event().wait()
 
-        scope = {
+        scope: Any = {
             "type": "http",
             "method": "GET",
             "path": "/api/v1/me/data",

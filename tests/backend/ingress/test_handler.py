@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from typing import Any
 
 from django.http import HttpResponse
 from django.utils import translation
@@ -25,7 +26,7 @@ def ask(*messages, handling=None, **scope):
     async def send(message):
         sent.append(message)
 
-    full = {"type": "http", "method": "GET", "path": "/", "query_string": b"", "headers": HEAD} | scope
+    full: Any = {"type": "http", "method": "GET", "path": "/", "query_string": b"", "headers": HEAD} | scope
     asyncio.run((handling or ThreadedHandler())(full, receive, send))
     return sent
 

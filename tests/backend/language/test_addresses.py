@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from backend.language.addresses import Addresses, ForeignAddressError
@@ -53,7 +55,7 @@ def test_the_page_names_no_file_outside_its_project(uri):
 
 
 def test_a_message_that_is_nested_beyond_reason_is_refused():
-    message = {}
+    message: dict[Any, Any] = {}
     for _ in range(200):
         message = {"a": message}
     with pytest.raises(ForeignAddressError):

@@ -6,6 +6,7 @@ import json
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -90,7 +91,7 @@ def fake_server(monkeypatch):
     return use
 
 
-ENDS = {
+ENDS: Any = {
     "dies": ({}, consumers.ENDED),
     "garbage": ({}, consumers.ENDED),
     "hungry": ({"language_memory_mib": 50}, consumers.TOO_MUCH_MEMORY),

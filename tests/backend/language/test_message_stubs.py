@@ -27,11 +27,11 @@ def members(stubs, package, name, kind="msg"):
     types = {}
     for each in found.body:
         if isinstance(each, ast.AnnAssign):
-            types[each.target.id] = ast.unparse(each.annotation)
+            types[ast.unparse(each.target)] = ast.unparse(each.annotation)
         elif isinstance(each, ast.FunctionDef) and each.returns and each.name != "__init__":
             types.setdefault(each.name, ast.unparse(each.returns))
         elif isinstance(each, ast.Assign):
-            types[each.targets[0].id] = ast.unparse(each.value)
+            types[ast.unparse(each.targets[0])] = ast.unparse(each.value)
     return types
 
 

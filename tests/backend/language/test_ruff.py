@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import pytest
 
 from backend.language import ruff
@@ -44,6 +46,6 @@ def test_a_checker_that_hangs_is_given_up(monkeypatch, api, tmp_path):
     slow = tmp_path / "ruff"
     slow.write_text("#!/bin/sh\nexec sleep 60\n")
     slow.chmod(0o755)
-    monkeypatch.setattr(ruff.sys, "executable", str(tmp_path / "python"))
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
     monkeypatch.setattr(ruff, "TIMEOUT_S", 0.2)
     assert api.post("python/lint", {"source": "x"}, expect=422)["code"] == "python_refused"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from concurrent.futures import Future
+from typing import Any
 
 import pytest
 from django.db import OperationalError
@@ -27,7 +28,7 @@ def fails(error):
 
 def fails_later(error):
     """Work that fails when it is at work."""
-    failed = Future()
+    failed: Future[Any] = Future()
     failed.set_exception(error)
     return lambda *_, **__: failed
 

@@ -10,6 +10,7 @@ import io
 import json
 import zipfile
 from contextlib import contextmanager
+from typing import Any
 
 import pytest
 from django.core.files.uploadedfile import SimpleUploadedFile
@@ -31,7 +32,7 @@ SAFE = {"GET", "HEAD", "OPTIONS", "TRACE"}
 def dead_after_commit(monkeypatch):
     """From the first commit on, everything fails that the answer could still want."""
     dead = [False]
-    commit = BaseDatabaseWrapper._commit
+    commit: Any = BaseDatabaseWrapper._commit  # type: ignore[attr-defined]
 
     def committing(wrapper):
         commit(wrapper)

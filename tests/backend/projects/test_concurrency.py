@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from typing import Any
 
 import hypothesis.strategies as st
 import pytest
@@ -11,7 +12,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule, run_state_machine_as_test
 
 from backend.accounts.writes import local_user
-from backend.projects.errors import RevisionConflictError
+from backend.projects.errors import NameTakenError, RevisionConflictError
 from backend.projects.storage import queries, writes
 from backend.projects.storage.access import Need
 from backend.projects.storage.changes import Content, FileChange
@@ -32,7 +33,7 @@ class TwoClients(RuleBasedStateMachine):
         files = dict.fromkeys(PATHS, b"")
         project = writes.create_project(files, acting_user=self.user, name=f"P{id(self)}-{next(NUMBERS)}")
         self.project = project.id
-        self.lines = {path: [] for path in PATHS}
+        self.lines: dict[Any, Any] = {path: [] for path in PATHS}
         self.known = {}
         for client in ("ann", "bob"):
             self.load(client)
@@ -156,7 +157,7 @@ def test_one_name_goes_to_one_of_two_that_ask_at_once(user):
         try:
             writes.create_project({MANIFEST: b"{}"}, acting_user=user, name="Same")
             outcomes.append("made")
-        except writes.NameTakenError:
+        except NameTakenError:
             outcomes.append("taken")
         finally:
             connection.close()

@@ -12,6 +12,7 @@ import time
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import pytest
 import requests
@@ -34,7 +35,7 @@ class Storm:
         self.server = server
         self.name = name
         self.projects = projects
-        self.acknowledged = {project: {} for project in projects}
+        self.acknowledged: dict[Any, Any] = {project: {} for project in projects}
         self.saves = 0
         self.enough = enough
         self.raging = threading.Event()
@@ -160,10 +161,11 @@ def assert_sound(folder):
 def fill(server, project):
     """Saves until there is no room; returns what was acknowledged, and the answer that was not."""
     address = f"{server.base}/api/v1/projects/{project}/changes"
-    acknowledged, revision = {}, 0
+    acknowledged: dict[int, str] = {}
+    revision = 0
     while True:
         text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()  # noqa: S311
-        body = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
+        body: Any = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
         answer = requests.post(address, json=body, headers=server.headers, timeout=TIMEOUT_S)
         if answer.status_code != 200:
             return acknowledged, answer

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -16,7 +17,7 @@ FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"
 
 
 def spec(**changes):
-    values = {
+    values: dict[str, Any] = {
         "session_id": "s1",
         "token": "t0ken",
         "ros_domain_id": 51,

@@ -6,11 +6,13 @@ import asyncio
 import contextlib
 import json
 import threading
+from typing import Any
 
 import pytest
 import uvicorn
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
+from websockets.typing import Origin
 
 from backend.config.server import _make_server, bind
 from backend.core import guard
@@ -155,7 +157,7 @@ def test_a_rebound_host_opens_no_socket(relay):
         connect(
             f"ws://{rebound}{MISSING}",
             address=("127.0.0.1", int(port)),
-            origin=f"http://{rebound}",
+            origin=Origin(f"http://{rebound}"),
             additional_headers={"Cookie": cookie},
             proxy=None,
         ),  # fmt: skip
@@ -205,6 +207,7 @@ def test_a_browser_that_does_not_read_holds_the_manager_up_and_fills_no_queue(
 async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
     """Neither taking a message that waits nor sending one that fits waits for anything."""
     messages, turns = 1600, 0
+    left = messages
 
     async def receive():
         nonlocal left
@@ -233,9 +236,10 @@ async def test_messages_that_are_there_already_leave_other_sockets_their_turn():
             turns += 1
             await asyncio.sleep(0)
 
+    manager: Any = Manager()
     for relaying in (
-        lambda: _browser_to_manager(receive, Manager()),
-        lambda: _manager_to_browser(Manager(), send),
+        lambda: _browser_to_manager(receive, manager),
+        lambda: _manager_to_browser(manager, send),
     ):
         left, turns = messages, 0
         other = asyncio.create_task(count_turns())

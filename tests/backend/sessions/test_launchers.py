@@ -35,7 +35,14 @@ def test_a_launcher_needs_a_name():
     with pytest.raises(TypeError, match="name"):
 
         class Nameless(Launcher):
-            start = poll = stop = lambda self: None
+            def start(self, spec):
+                return Started("", {})
+
+            def poll(self, state):
+                return None
+
+            def stop(self, state, *, timeout_s):
+                return None
 
 
 def test_a_manager_starts_runs_and_ends(launcher_of):

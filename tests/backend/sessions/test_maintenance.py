@@ -10,6 +10,7 @@ from django.utils import timezone
 
 from backend.config.environment import environment
 from backend.sessions import maintenance, writes
+from backend.sessions.errors import HostFullError
 from backend.sessions.models import Session
 from tests.backend.sessions.test_sessions import launched
 
@@ -61,7 +62,7 @@ def test_a_place_that_the_host_denies_is_waited_for(api, start, fake_manager, se
     launcher = fake_manager("echo")
 
     def full(spec):
-        raise writes.HostFullError("All places are taken.")
+        raise HostFullError("All places are taken.")
 
     monkeypatch.setattr(launcher, "start", full)
     started = start("One")

@@ -9,6 +9,7 @@ import os
 import signal
 import threading
 from types import SimpleNamespace
+from typing import Any
 from uuid import uuid4
 
 import psutil
@@ -236,7 +237,7 @@ def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: 
 
 async def test_nobody_looks_after_what_has_ended():
     keeper = watch.Watchmen()
-    one = SimpleNamespace(id=uuid4(), address="127.0.0.1:9")
+    one: Any = SimpleNamespace(id=uuid4(), address="127.0.0.1:9")
     keeper.keep_to([one])
     (task,) = keeper._tasks.values()
     keeper.keep_to([])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+from typing import Any
 
 import pytest
 
@@ -65,7 +66,7 @@ def test_a_formatter_that_hangs_holds_no_thread_of_requests(monkeypatch):
         async def send(message):
             sent.append(message)
 
-        scope = {"type": "http", "method": method, "path": f"/api/v1/{path}", "query_string": b""}
+        scope: Any = {"type": "http", "method": method, "path": f"/api/v1/{path}", "query_string": b""}
         await handling(scope | {"headers": head(content_length=str(len(data)))}, receive, send)
         return sent[0]["status"]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from concurrent.futures import Future
+from typing import Any
 
 import pytest
 from asgiref.sync import sync_to_async
@@ -57,7 +58,7 @@ def one(monkeypatch):
 @pytest.fixture
 def held(monkeypatch):
     """Work that the test does itself."""
-    work = Future()
+    work: Future[Any] = Future()
     monkeypatch.setattr(Lanes, "ask", lambda *_, **__: work)
     return work
 

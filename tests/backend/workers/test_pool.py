@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 import threading
 from concurrent.futures import wait
 from pathlib import Path
@@ -11,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from backend.projects.documents.templates import files_of
-from backend.workers import pool as module
 from backend.workers.errors import BusyError, TookTooLongError, WorkFailedError
 from backend.workers.pool import Limits, Pool
 
@@ -172,5 +172,5 @@ def test_a_worker_does_not_outlive_a_server_that_was_killed(make_pool):
     pool = make_pool(workers=1)
     pack(pool, 1).result(PATIENCE_S)
     worker = pool._workers[0]
-    worker._connection.shutdown(module.socket.SHUT_RDWR)  # as the end of the process does
+    worker._connection.shutdown(socket.SHUT_RDWR)  # as the end of the process does
     assert worker._process.wait(PATIENCE_S) == 0

@@ -7,6 +7,7 @@ import tempfile
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -40,7 +41,7 @@ class Served:
 @pytest.fixture
 def served():
     """Makes pools that are asked over a socket."""
-    made = []
+    made: list[Any] = []
     with tempfile.TemporaryDirectory() as folder:
 
         def make(**limits):

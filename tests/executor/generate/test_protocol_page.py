@@ -19,8 +19,8 @@ def test_the_page_in_the_docs_is_up_to_date():
 
 def test_every_error_code_is_explained():
     modules = ("steps", "running", "waits", "watch", "immediate", "protocol")
-    modules = [*(f"session/{name}" for name in modules), "manager/server"]
-    sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in modules)
+    paths = [*(f"session/{name}" for name in modules), "manager/server"]
+    sources = "".join((EXECUTOR / f"{name}.py").read_text() for name in paths)
     codes = set(re.findall(r'(?:StepFailed\(|_?refuse\(\w+, (?:\w+, )?)\s*"(\w+)"', sources))
     codes |= set(re.findall(r'NOT_ANSWERING: Final = "(\w+)"', sources))
     assert {"cancelled", "wrong_state", "unknown_command", "tick_hangs", "not_answering"} <= codes

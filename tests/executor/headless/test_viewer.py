@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from typing import Any
 
 import pytest
 import requests
@@ -16,7 +17,7 @@ LOOK = {"eye": [1.0, 2.0, 3.0], "target": [0.0, 0.0, 0.0]}
 
 
 async def served(use):
-    looks = asyncio.Queue()
+    looks: asyncio.Queue[Any] = asyncio.Queue()
     viewer = RunViewer(TOKEN, looks.put_nowait)
     url = await viewer.start()
     try:

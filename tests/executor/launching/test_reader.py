@@ -47,7 +47,7 @@ def project(tmp_path):
         (tmp_path / "launch" / name).write_text(text)
         return read_launch_files(tmp_path)
 
-    write.root = tmp_path
+    write.root = tmp_path  # type: ignore[attr-defined]
     return write
 
 

@@ -13,6 +13,7 @@ from websockets.asyncio.client import connect
 from websockets.datastructures import Headers
 from websockets.exceptions import InvalidStatus
 from websockets.http11 import Request
+from websockets.typing import Origin
 
 from executor.manager.admission import Admission
 from executor.manager.manager import Manager, ManagerSettings
@@ -79,7 +80,9 @@ async def test_a_page_of_another_site_cannot_take_a_manager_over():
         url = f"ws://127.0.0.1:{it.port}/control"
         for headers in ({}, RIGHT):
             with pytest.raises(InvalidStatus) as caught:
-                await connect(url, proxy=None, origin="https://evil.example", additional_headers=headers)
+                await connect(
+                    url, proxy=None, origin=Origin("https://evil.example"), additional_headers=headers
+                )
             assert caught.value.response.status_code == (403 if headers else 401)
 
 
@@ -122,7 +125,7 @@ async def test_a_manager_prints_the_token_that_it_requires():
         assert bearer == token
         with pytest.raises(InvalidStatus):
             await connect(bare, proxy=None)
-        async with connect(url, proxy=None, origin="https://studio.example") as socket:
+        async with connect(url, proxy=None, origin=Origin("https://studio.example")) as socket:
             assert json.loads(await socket.recv())["command"] == "introspection"
         async with connect(bare, proxy=None, additional_headers={"Authorization": f"Bearer {token}"}):
             pass

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import shutil
 import tempfile
+from typing import Any
 
 import pytest
 
@@ -22,7 +23,7 @@ def disk(tmp_path, monkeypatch):
     (tmp_path / "hoard").mkdir()
     (tmp_path / "hoard" / "big").write_text("…")
     (tmp_path / "more").symlink_to(tmp_path / "hoard")
-    real = folders.unpack
+    real: Any = vars(folders)["unpack"]
 
     def unpack(archive, folder):
         if (tmp_path / "hoard").exists():

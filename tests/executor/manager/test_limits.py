@@ -6,6 +6,7 @@ import asyncio
 import json
 import urllib.request
 from collections import Counter
+from typing import Any
 
 import pytest
 
@@ -56,7 +57,7 @@ def test_a_page_that_reconnects_requests_everything_at_once():
 async def flood(client, command, count=FLOOD, data=None):
     """Sends without waiting for answers, and returns how each command was answered."""
     text = json.dumps(data)
-    replies = Counter()
+    replies: Counter[Any] = Counter()
     for n in range(count):
         await client.control.send(f'{{"id": "f{n}", "command": "{command}", "data": {text}}}')
     ids = {f"f{n}" for n in range(count)}

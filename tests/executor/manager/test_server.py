@@ -15,6 +15,7 @@ import urllib.error
 import urllib.request
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import pytest
 from websockets.exceptions import InvalidStatus
@@ -43,13 +44,13 @@ RUN = {"universe": {"universe": "x"}, "application": {"app_zip_base64": empty_zi
 @contextlib.asynccontextmanager
 async def manager(world="good", application="good", **settings):
     environment = {"PYTHONPATH": str(ROOT)}
-    programs = {
+    programs: Any = {
         "world": Program((sys.executable, FAKE, world), environment),
         "application": Program((sys.executable, FAKE, application), environment),
     }
     it = Manager(ManagerSettings(port=0, token=TOKEN, domain_id=41, programs=programs, **settings))
     try:
-        it.port = await it.start()
+        it.port = await it.start()  # type: ignore[attr-defined]
         yield it
     finally:
         await it.close()

@@ -18,7 +18,7 @@ def node(uid: int, parent: int, type_: str, name: str = "") -> TreeNode:
 def test_nodes_lie_in_their_parents_and_equal_names_are_numbered() -> None:
     mirror = Mirror()
     mirror.apply(Tree([node(1, 0, "Sequence"), node(2, 1, "Go", "go"), node(3, 1, "Go", "go")]))
-    mirror.apply(Tick(n=1, t=0.0, changed=[(1, "RUNNING"), (3, "FAILURE")], flashed=[], duration_ms=1.0))
+    mirror.apply(Tick(n=1, changed=[(1, "RUNNING"), (3, "FAILURE")], flashed=[], duration_ms=1.0))
     mirror.apply(Blackboard([BlackboardEntry("Arm", "k", "int", 5, False, False)]))
     found = json.loads(update_text(mirror))
     assert found == {

@@ -17,7 +17,7 @@ def test_without_opengl_the_slower_one_draws(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.delenv("BT_STUDIO_RENDERER", raising=False)
     monkeypatch.setattr(choose, "GlRenderer", failing)
     renderer = make_renderer()
-    assert renderer.name == "tiny"
+    assert renderer.name == "TinyRenderer"
     renderer.close()
     with pytest.raises(RenderError):
         make_renderer("gl")
@@ -26,5 +26,5 @@ def test_without_opengl_the_slower_one_draws(monkeypatch: pytest.MonkeyPatch) ->
 def test_the_environment_may_choose(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BT_STUDIO_RENDERER", "tiny")
     renderer = make_renderer()
-    assert renderer.name == "tiny"
+    assert renderer.name == "TinyRenderer"
     renderer.close()

@@ -13,7 +13,7 @@ from executor.render.layers import SIDE, mean_color, pixels
 
 def texture(jpeg: bytes) -> Texture:
     fields = {field.name: field for field in msgspec.structs.fields(Texture)}
-    values: dict[str, object] = {"jpeg": jpeg, "name": "t", "id": "t", "size": [1.0, 1.0]}
+    values: dict[str, object] = {"jpeg": jpeg, "name": "t", "id": "t", "size": [1.0, 1.0], "tile": [1.0, 1.0]}
     return Texture(**{name: values[name] for name in fields if name in values})  # type: ignore[arg-type]
 
 

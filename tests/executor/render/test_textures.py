@@ -5,6 +5,7 @@ import struct
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -67,7 +68,7 @@ def test_both_renderers_agree_on_what_is_where_and_how_bright(
     models = f"{WALL % 'brick'}, {ball}"
     world = world_of(models, ground="{texture: grass}")
     view = look_at((1, -1.5, 1.5), (0, 2, 0.6))
-    seen = []
+    seen: list[Any] = []
     for renderer in renderers:
         renderer.load(world.scene)
         seen.append(
@@ -76,7 +77,7 @@ def test_both_renderers_agree_on_what_is_where_and_how_bright(
                 renderer.draw(world.poses(), view, 160, 120, smooth=False),
             ]
         )
-    same = seen[0][0] == seen[1][0]
+    same: Any = seen[0][0] == seen[1][0]
     assert same.mean() > 0.97
     for row in (-2, 0, 1):  # the ground, the wall, the ball
         colors = [picture[labels == row].mean(axis=0) for labels, picture in seen]

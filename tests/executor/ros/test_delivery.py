@@ -7,6 +7,7 @@ import subprocess
 import sys
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import msgspec
 import pytest
@@ -33,7 +34,7 @@ def test_no_picture_is_lost_between_processes() -> None:
         env=environment,
     )
     theirs.close()
-    channel = Channel(ours.detach(), msgspec.msgpack.decode)
+    channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
     listener = subprocess.Popen(
         [sys.executable, str(Path(__file__).with_name("camera_listener.py")), str(PICTURES)],
         env=environment,
@@ -64,7 +65,7 @@ def test_no_picture_is_lost_between_processes() -> None:
     assert world.returncode == 0
 
 
-def smallest_share(channel: Channel[object, object]) -> float:
+def smallest_share(channel: Channel[Any, Any]) -> float:
     """Returns the smallest share of their rates at which the cameras drew."""
     shares = [1.0]
     while (message := channel.receive(0)) is not None:

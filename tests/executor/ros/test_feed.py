@@ -28,16 +28,16 @@ def test_it_measures_when_due_and_only_for_subscribers() -> None:
     feed = Feed([heard, unheard], make, rate_hz=10.0)
     feeds = Feeds([feed, Feed([Publisher(1)], lambda _s, _t: None, rate_hz=30.0)])
     for i in range(61):
-        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+        feeds.publish(None, i / 60)
     assert len(heard.sent) == len(measured) == 11
     assert unheard.sent == []
     feeds.restart()
-    feeds.publish(None, 0.0)  # type: ignore[arg-type]
+    feeds.publish(None, 0.0)
     assert len(measured) == 12
     feeds.restart()
     heard.listeners = 0
     assert not feed.has_receiver
-    feeds.publish(None, 0.0)  # type: ignore[arg-type]
+    feeds.publish(None, 0.0)
     assert len(measured) == 12
 
 
@@ -45,7 +45,7 @@ def test_each_rate_is_kept() -> None:
     publishers = {rate: Publisher(1) for rate in (1.0, 15.0, 60.0)}
     feeds = Feeds([Feed([publisher], lambda _, t: t, rate) for rate, publisher in publishers.items()])
     for i in range(120):
-        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+        feeds.publish(None, i / 60)
     assert {rate: len(publisher.sent) for rate, publisher in publishers.items()} == {
         1.0: 2,
         15.0: 30,
@@ -64,10 +64,10 @@ def test_cameras_are_slowed_and_nothing_else() -> None:
     )
     feeds.slow_cameras(0.2)
     for i in range(60):
-        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+        feeds.publish(None, i / 60)
     assert picture.sent == info.sent
     assert (len(picture.sent), len(scan.sent)) == (3, 15)
     feeds.slow_cameras(1.0)
     for i in range(60, 120):
-        feeds.publish(None, i / 60)  # type: ignore[arg-type]
+        feeds.publish(None, i / 60)
     assert (len(picture.sent), len(scan.sent)) == (18, 30)

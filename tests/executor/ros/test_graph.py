@@ -67,7 +67,7 @@ def heard() -> Iterator[dict[str, Any]]:
         env=environment,
     )
     theirs.close()
-    channel = Channel(ours.detach(), msgspec.msgpack.decode)
+    channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
     script = str(Path(__file__).with_name("graph_listener.py"))
     listener = subprocess.Popen(
         [sys.executable, script, str(HEARD_S), ",".join(TOPICS)],

@@ -123,7 +123,7 @@ def test_a_frozen_subscriber_does_not_hold_up_the_world() -> None:
     command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
     world = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
     theirs.close()
-    channel = Channel(ours.detach(), msgspec.msgpack.decode)
+    channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
     listener = subprocess.Popen(
         [sys.executable, "-c", LISTENER], env=environment, stdout=subprocess.PIPE, text=True
     )

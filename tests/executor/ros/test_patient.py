@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import pytest
 import rclpy
@@ -62,7 +63,7 @@ def test_all_kinds_are_called_in_any_of_many_waits(node: Node, executor: Patient
     publisher = node.create_publisher(Int32, "numbers", 10)
     assert client.wait_for_service(5)
     wanted = ["answer", "coroutine", "informed", "plain", "service", "timer"]
-    timer = node.create_timer(0.0, lambda: (heard.append("timer"), timer.cancel()))
+    timer: Any = node.create_timer(0.0, lambda: (heard.append("timer"), timer.cancel()))
     for _ in range(LOOK_EVERY):
         heard.clear()
         timer.reset()

@@ -1,6 +1,7 @@
 """Draining calls everything that is ready, of every kind, and nothing else."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 import rclpy
@@ -83,7 +84,7 @@ def test_timers_services_and_guards_are_called(node: Node, executor: DrainingExe
     assert client.wait_for_service(5)
     answered = client.call_async(Trigger.Request())
     node.create_guard_condition(lambda: heard.append("guard")).trigger()
-    timer = node.create_timer(0.0, lambda: (heard.append("timer"), timer.cancel()))
+    timer: Any = node.create_timer(0.0, lambda: (heard.append("timer"), timer.cancel()))
     for _ in range(200):  # the middleware delivers answers separately
         executor.drain()
         if answered.done():

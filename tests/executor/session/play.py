@@ -99,7 +99,7 @@ class Play:
             case Tell(kind="application", message=child_messages.Stop()):
                 return [ChildExited(effect.kind, effect.number, "ended with exit code 0")]
             case Tell(message=message) if getattr(message, "request", None):
-                return [self._said(effect, "answer", request=message.request)]
+                return [self._said(effect, "answer", request=getattr(message, "request", None))]
             case Tell(kind="application", message=message) if type(message) in ANSWERS:
                 return [self._said(effect, ANSWERS[type(message)])]
             case Retire() | Kill():

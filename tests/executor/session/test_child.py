@@ -28,6 +28,6 @@ def test_the_last_message_of_a_type_is_stored_until_it_is_forgotten() -> None:
 def test_only_answers_that_are_expected_are_taken() -> None:
     child = Child("world", 1)
     child.expect("q1")
-    assert not child.take_answer(Answer("q2"))
-    assert child.take_answer(Answer("q1"))
-    assert child.answer("q1") == Answer("q1")
+    assert not child.take_answer(Answer(request="q2"))
+    assert child.take_answer(Answer(request="q1"))
+    assert child.answer("q1") == Answer(request="q1")

@@ -19,7 +19,7 @@ def test_events_add_up_to_the_snapshot() -> None:
     for event in (
         StateChanged(State.PAUSED.value),
         Tree([NODE]),
-        Tick(n=1, t=0.0, changed=[(1, "RUNNING")], flashed=[], duration_ms=2.0),
+        Tick(n=1, changed=[(1, "RUNNING")], flashed=[], duration_ms=2.0),
         entry("a", 1),
         entry("b", 2),
         entry("a", None, removed=True),

@@ -9,11 +9,13 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
+from msgspec import convert
 
-from executor.child_messages import name_of
+from executor.child_messages import ToWorld, name_of
 from executor.session.events import ChildExited, ChildSaid, Kill, Retire, Spawn, Tell
 from executor.supervision.output import LineReader, RateLimit
 from executor.supervision.processes import Limits, Program
@@ -37,8 +39,8 @@ def fakes_alive():
 class Stage:
     def __init__(self, habit, kind="application", **limits):
         self.kind = kind
-        self.events = asyncio.Queue()
-        self.frames = []
+        self.events: asyncio.Queue[Any] = asyncio.Queue()
+        self.frames: list[Any] = []
         self.seen = []
         self.supervisor = Supervisor(
             {kind: program(habit, **limits)}, self.events.put_nowait, self.frames.append
@@ -46,7 +48,7 @@ class Stage:
         self.supervisor.apply(Spawn(kind, 1))
 
     def tell(self, type_, **fields):
-        self.supervisor.apply(Tell(self.kind, 1, {"type": type_, **fields}))
+        self.supervisor.apply(Tell(self.kind, 1, convert({"type": type_, **fields}, ToWorld)))
 
     async def until(self, wanted):
         async with asyncio.timeout(60):
@@ -184,7 +186,7 @@ async def test_a_limit_that_is_hit_is_named(habit, limits, reason):
 
 
 async def test_a_program_that_does_not_exist_is_reported():
-    events = asyncio.Queue()
+    events: asyncio.Queue[Any] = asyncio.Queue()
     supervisor = Supervisor({"world": Program(("/does/not/exist",))}, events.put_nowait, print)
     supervisor.apply(Spawn("world", 1))
     event = await asyncio.wait_for(events.get(), 60)
@@ -223,7 +225,7 @@ def test_the_rate_limit_lets_a_burst_through_and_counts_the_rest():
 
 
 def test_lines_are_cut_and_given_their_level():
-    said = []
+    said: list[Any] = []
     reader = LineReader("info", said.append, time.monotonic)
     reader.feed(b"[WARN] [12.5] [node]: low ba")
     reader.feed(b"ttery\nplain\r\n\xff\n" + b"x" * 9000)

@@ -29,7 +29,7 @@ class Remote:
         command = [sys.executable, "-m", "executor.world.process", "--channel-fd", str(theirs.fileno())]
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()], env=environment)
         theirs.close()
-        self.channel = Channel(ours.detach(), msgspec.msgpack.decode)
+        self.channel: Channel[Any, Any] = Channel(ours.detach(), msgspec.msgpack.decode)
 
     def tell(self, kind: str, **fields: Any) -> None:
         self.channel.send({"type": kind, **fields})
@@ -134,12 +134,13 @@ def test_a_bump_is_logged(remote: Remote) -> None:
 
 
 def test_invalid_requests_are_refused_and_the_world_continues(remote: Remote) -> None:
-    for kind, fields in [
+    requests: Any = [
         ("set_speed", {"speed": -1}),
         ("move_body", {"id": "ghost", "pose": [0, 0, 0, 0, 0, 0]}),
         ("echo_topic", {"topic": "/ghost", "max_hz": 1.0}),
         ("start", {"universe": "empty"}),
-    ]:
+    ]
+    for kind, fields in requests:
         remote.tell(kind, **fields)
         assert remote.hear("error")["message"]
     remote.tell("list_topics")

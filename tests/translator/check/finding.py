@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from translator import Diagnostic, Project
 
 LEAF = {"type": "AlwaysSuccess"}
-Case = tuple[str, dict[str, Any], str]
+Case = tuple[str, Any, str]
 
 
 def findings(one: Callable[[Context], None], project: Project) -> list[Diagnostic]:

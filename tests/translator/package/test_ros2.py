@@ -6,6 +6,7 @@ import ast
 import io
 import re
 import zipfile
+from typing import Any
 
 import pytest
 import yaml
@@ -23,7 +24,7 @@ def parsed(package, tmp_path, folder=None):
     """The package.xml as catkin_pkg reads and validates it."""
     path = tmp_path / "package.xml"
     path.write_bytes(package.files[f"{folder or package.name}/package.xml"])
-    warnings = []
+    warnings: list[Any] = []
     found = parse_package(str(path), warnings=warnings)
     found.validate(warnings=warnings)
     assert warnings == []

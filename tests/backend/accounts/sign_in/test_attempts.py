@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import threading
+from typing import Any
 
 import pytest
 from django.contrib.auth.hashers import make_password
@@ -263,7 +264,7 @@ def test_hashing_passwords_leaves_threads_to_the_others(monkeypatch):
         async def send(message):
             sent.append(message)
 
-        scope = {"type": "http", "method": method, "path": path, "query_string": b"", "headers": []}
+        scope: Any = {"type": "http", "method": method, "path": path, "query_string": b"", "headers": []}
         await handling(scope, receive, send)
         return sent[0]["status"]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -12,7 +13,7 @@ from backend.core.processes.fair import FairQueue, QueueFullError
 
 
 def test_owners_take_turns():
-    queue = FairQueue(room=10, per_owner=5)
+    queue: FairQueue[Any] = FairQueue(room=10, per_owner=5)
     for item in ("a1", "a2", "a3"):
         queue.put("a", item)
     queue.put("b", "b1")
@@ -20,7 +21,7 @@ def test_owners_take_turns():
 
 
 def test_one_owner_has_no_more_than_its_share_at_work():
-    queue = FairQueue(room=10, per_owner=2)
+    queue: FairQueue[Any] = FairQueue(room=10, per_owner=2)
     for n in range(4):
         queue.put("a", n)
     assert [queue.take(), queue.take(), queue.take()] == [("a", 0), ("a", 1), None]
@@ -32,7 +33,7 @@ def test_one_owner_has_no_more_than_its_share_at_work():
 
 
 def test_what_has_no_room_is_refused():
-    queue = FairQueue(room=2, per_owner=1)
+    queue: FairQueue[Any] = FairQueue(room=2, per_owner=1)
     queue.put("a", 1)
     queue.put("b", 2)
     with pytest.raises(QueueFullError):
@@ -43,7 +44,7 @@ def test_what_has_no_room_is_refused():
 
 
 def test_one_owner_fills_half_of_the_room_at_most():
-    queue = FairQueue(room=4, per_owner=1)
+    queue: FairQueue[Any] = FairQueue(room=4, per_owner=1)
     queue.put("a", 1)
     queue.put("a", 2)
     with pytest.raises(QueueFullError):
@@ -56,8 +57,10 @@ def test_one_owner_fills_half_of_the_room_at_most():
 
 @given(st.lists(st.one_of(st.sampled_from("abc"), st.just("take"), st.just("done")), max_size=60))
 def test_everything_is_worked_on_once_and_in_its_owners_order(events):
-    queue = FairQueue(room=1000, per_owner=2)
-    put, taken, at_work = [], [], Counter()
+    queue: FairQueue[Any] = FairQueue(room=1000, per_owner=2)
+    put: list[Any] = []
+    taken: list[Any] = []
+    at_work: Counter[Any] = Counter()
     for n, event in enumerate(events):
         if event == "take":
             found = queue.take()

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import threading
+import time
+from functools import partial
 
 import pytest
 
-from backend.core.processes import threads as module
 from backend.core.processes.threads import Threads
 
 
@@ -55,7 +56,7 @@ def test_one_owner_has_a_share_and_the_others_find_a_free_thread():
         gates["other"].set()
         await asyncio.gather(*other)
         # Two are free again, and not for the greedy one.
-        assert await asyncio.gather(*(threads.run(loop, lambda n=n: n, f"user {n}") for n in range(9)))
+        assert await asyncio.gather(*(threads.run(loop, partial(int, n), f"user {n}") for n in range(9)))
         assert await threads.run(loop, lambda: "nobody's") == "nobody's"
         assert (len(threads._waiting), threads.full_for_s()) == (18, 0.0)
         gates["greedy"].set()
@@ -107,7 +108,7 @@ def test_the_end_waits_for_what_is_begun():
 
 def test_it_tells_for_how_long_no_thread_was_free_and_none_made_progress(threads, monkeypatch):
     now = [100.0]
-    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
 
     async def ask():
         loop = asyncio.get_running_loop()

@@ -8,7 +8,7 @@ import pytest
 
 from backend.core.limits import LIMITS
 from backend.projects.models import Blob
-from backend.projects.storage import bounds, queries, writes
+from backend.projects.storage import bounds, cache, queries, writes
 from translator import limits
 
 pytestmark = pytest.mark.django_db(transaction=True)
@@ -106,7 +106,7 @@ def test_large_main_trees_make_no_picture_and_are_not_read_for_a_list(api, one, 
     api.save(one, tree("MainTree", 200, base=1))
     largest = Blob.objects.order_by("-size").first()
     monkeypatch.setattr(
-        queries.cache,
+        cache,
         "contents",
         lambda wanted: pytest.fail("it was read") if largest.sha256 in list(wanted) else {},
     )

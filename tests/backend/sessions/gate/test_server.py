@@ -7,6 +7,7 @@ import socket
 import stat
 import time
 from pathlib import Path
+from typing import Any
 
 import psutil
 import pytest
@@ -15,7 +16,7 @@ from backend.sessions.gate.callers import Callers
 from backend.sessions.gate.doors import Doors
 from backend.sessions.gate.errors import GateError
 from backend.sessions.gate.server import GateServer, Limits
-from tests.backend.sessions.gate.conftest import TOKEN, Gate, fetch, show
+from tests.backend.sessions.gate.conftest import TOKEN, fetch, show
 from tests.e2e.server import wait_until
 
 LISTEN = (b"listen\n", 1)
@@ -139,7 +140,7 @@ def test_out_of_descriptors_the_oldest_give_way_and_the_session_comes(stopped_ga
 
 def test_with_no_descriptor_to_spare_it_backs_off_and_serves_when_there_is_one(stopped_gate):
     stopped_gate.start(descriptors=DESCRIPTORS)
-    doors = []
+    doors: list[Any] = []
     with pytest.raises(GateError, match="no descriptors"):  # noqa: PT012 - after how many is not known
         while len(doors) < DESCRIPTORS:
             doors.append(stopped_gate.open_door(f"n{len(doors)}", timeout_s=0.5)[0])
@@ -201,7 +202,7 @@ class Clock:
 
 
 @pytest.fixture
-def stepped(stopped_gate):
+def stepped(stopped_gate: Any) -> Any:
     """A gate whose rounds and time the test makes."""
     clock = Clock()
     server = GateServer(Doors(stopped_gate.doors), stopped_gate.control, Limits(doors=2), clock)
@@ -212,7 +213,7 @@ def stepped(stopped_gate):
     server.serve()
 
 
-def opened(stepped: Gate, name: str):
+def opened(stepped: Any, name: str):
     """A door of the stepped gate, as the keeper asks for it; what it answers is in the connection."""
     [ours] = stepped.connect(stepped.control)
     asked = f'{{"door": "{name}", "session": "s", "token": "{TOKEN}"}}\n'.encode()
@@ -267,7 +268,7 @@ def test_whose_door_is_fullest_gives_way():
         def __init__(self, door):
             self.door, self.deadline_s = door, time.monotonic()
 
-    callers = Callers(per_door=3, in_all=4)
+    callers: Any = Callers(per_door=3, in_all=4)
     first = [Named("a") for _ in range(3)]
     [other, another] = [Named("b"), Named("b")]
     for one in (*first, other):

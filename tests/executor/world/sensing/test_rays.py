@@ -78,7 +78,7 @@ def test_rays_end_where_the_physics_server_s_do(bullet, seed):
     start = np.array([0.0, 0.0, 0.2])
     angles = np.arange(720) * math.tau / 720
     tilt = (0, 0, 0, *rng.normal(0, 0.05, 2), 0)
-    ours = rays.cast(start, fan(angles, tilt), -1, ALL)
+    ours = rays.cast(start.tolist(), fan(angles, tilt), -1, ALL)
     # Bullet passes an edge by a little, so a ray that grazes one may have its neighbour's result.
     near = np.array([by_bullet(bullet, start, fan(angles + turn, tilt)) for turn in (-0.01, 0.0, 0.01)])
     assert (ours < 1).sum() > 100

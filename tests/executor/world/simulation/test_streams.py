@@ -55,7 +55,8 @@ class Watched:
     def __init__(self) -> None:
         self.world = BulletWorld(load_builtin("person_in_green"))
         self.renderer = PlainRenderer()
-        self.sensors = Sensors(self.world, lambda: self.renderer)
+        renderer: Any = self.renderer  # it draws; nothing asks it for depth
+        self.sensors = Sensors(self.world, lambda: renderer)
         self.sent: list[Frame] = []
         # By this clock drawing takes no time: on a busy machine a slow picture would delay others.
         self.streams = Streams(self.world, self.sensors, self.sent.append, clock=lambda: 0.0)
@@ -123,7 +124,7 @@ def test_applying_all_poses_gives_the_world(watched: Watched) -> None:
 
 def test_a_world_that_stands_sends_nothing_twice(watched: Watched) -> None:
     for stream in ("poses", "scan", "camera", "view"):
-        watched.streams.subscribe("a", stream)  # type: ignore[arg-type]
+        watched.streams.subscribe("a", stream)
     first = watched.stand(0.2)
     assert {type(frame) for frame in first} == set(FRAMES)
     assert watched.stand(1.0) == []

@@ -1,0 +1,14 @@
+"""What a language server knows of the packages around a project."""
+
+from __future__ import annotations
+
+import tomllib
+
+from backend.language.library import configuration
+
+
+def test_the_configuration_is_toml_with_the_search_path() -> None:
+    found = tomllib.loads(configuration('/a "b"', "/lib", "/usr/bin/python"))
+    assert found["search-path"] == ['/a "b"', '/a "b"/actions', "/lib"]
+    assert found["python-interpreter-path"] == "/usr/bin/python"
+    assert found["project-includes"] == ['/a "b"/**/*.py']

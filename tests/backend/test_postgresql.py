@@ -17,7 +17,7 @@ PASSWORD = "Correct-horse-9"
 # What rests on the database itself: storage, locks, what is kept after a commit, shares, numbers of queries.
 PART = (
     "tests/backend/projects/storage",
-    "tests/backend/projects/test_concurrency.py",
+    "tests/backend/projects/storage/test_writes.py",
     "tests/backend/projects/test_after_commit_writes.py",
     "tests/backend/accounts/test_sharing.py",
     "tests/backend/test_query_budgets.py",

@@ -70,7 +70,7 @@ def network_of(studio: Studio) -> Callable[[bool], None]:
     session.send("Network.enable")
     speed = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
 
-    def cut_off(cut: bool) -> None:  # noqa: FBT001 - on or off
+    def cut_off(cut: bool) -> None:
         session.send("Network.emulateNetworkConditions", {"offline": cut, **speed})
 
     return cut_off

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from typing import TYPE_CHECKING
 
 import pytest
@@ -258,7 +259,7 @@ def the_view_goes_to_what_is_wanted(studio: Studio) -> None:
     ):
         found.get_by_role("textbox").fill(text)
         expect(found).to_contain_text(count)
-        wait_until(lambda: selected(studio) == [first], f"{first} is found")
+        wait_until(partial(is_selected, studio, first), f"{first} is found")
     found.get_by_role("textbox").fill("reactive")
     keys.press("Enter")
     expect(found).to_contain_text("2 of 2")
@@ -349,3 +350,8 @@ def paste(studio: Studio, text: str) -> None:
         }""",
         text,
     )
+
+
+def is_selected(studio: Studio, node: str) -> bool:
+    """Whether one block alone is selected."""
+    return selected(studio) == [node]

@@ -305,6 +305,11 @@ async def all_at_once(site: Site, rounds: int) -> dict[str, Counter[str]]:
     return notes
 
 
+def before(until: float) -> Callable[[object], bool]:
+    """Whether there is time left."""
+    return lambda _: time.time() < until
+
+
 async def in_phases(site: Site, seconds: float, phase_s: float) -> list[tuple[str, float, dict[str, int]]]:
     """Runs one kind after another with full force, and all together after each round."""
     told: list[tuple[str, float, dict[str, int]]] = []
@@ -313,7 +318,7 @@ async def in_phases(site: Site, seconds: float, phase_s: float) -> list[tuple[st
         for kinds in (*([kind] for kind in KINDS), list(KINDS)):
             began, until = time.time(), min(end, time.time() + phase_s)
             note: Counter[str] = Counter()
-            going = (tried(kind, site, note, lambda _: time.time() < until) for kind in kinds)
+            going = (tried(kind, site, note, before(until)) for kind in kinds)
             await asyncio.gather(*going)
             told.append((kinds[0] if len(kinds) == 1 else "all", began, dict(note)))
             if time.time() >= end:

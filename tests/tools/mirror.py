@@ -25,6 +25,8 @@ PAGE: Final = "frontend/src"
 # Tables and entry points without a rule of their own.
 LEFT_OUT: Final = {"__init__", "__main__", "apps", "urls", "manage", "index", "main"}
 FOLDERS_LEFT_OUT: Final = {"migrations", "behaviours", "setup", "generated", "locales", "test"}
+# Modules below are imported by their own names: actions find them so.
+ON_PATH: Final = "executor.ros_python."
 # What an expression without logic consists of.
 PLAIN: Final = (
     *(ast.Constant, ast.Name, ast.Attribute, ast.Tuple, ast.List, ast.Dict, ast.JoinedStr),
@@ -90,7 +92,7 @@ def _imports_script(test: Path, stem: str) -> bool:
 def _imports_python(test: Path, module: Path) -> bool:
     text = test.read_text(encoding="utf-8")
     tree = ast.parse(text)
-    name = ".".join(module.relative_to(ROOT).with_suffix("").parts)
+    name = ".".join(module.relative_to(ROOT).with_suffix("").parts).removeprefix(ON_PATH)
     return bool(ASSERTS.search(text)) and any(_brings(node, name, module) for node in ast.walk(tree))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from backend.config import static
-from tests.backend.accounts.conftest import Person, person, team  # noqa: F401 - fixtures
+from tests.backend.accounts.conftest import Person
 
 
 def test_without_a_built_page_the_server_says_so(api, settings, tmp_path, monkeypatch):
@@ -13,7 +13,7 @@ def test_without_a_built_page_the_server_says_so(api, settings, tmp_path, monkey
     assert static.page.__doc__
 
 
-def test_on_a_team_server_a_stranger_signs_in_first(team):  # noqa: F811
+def test_on_a_team_server_a_stranger_signs_in_first(team):
     answer = Person().page("/projects/3f2504e0-4f89-41d3-9a0c-000000000001")
     assert answer.status_code == 302
     assert answer.headers["Location"].startswith("/accounts/login/?next=%2Fprojects")

@@ -19,7 +19,7 @@ from backend.ingress import bodies, handler
 from backend.ingress.handler import ThreadedHandler
 from backend.projects.models import Project
 from backend.workers.lanes import Lanes
-from tests.backend.accounts.test_bodies import IMPORT, MEBIBYTE, archive_of, head, parts, refused
+from tests.backend.ingress.test_bodies import IMPORT, MEBIBYTE, archive_of, head, parts, refused
 from tests.backend.ingress.test_handler import body
 
 pytestmark = pytest.mark.django_db(transaction=True)

@@ -15,6 +15,7 @@ from websockets.sync.client import connect
 from backend.config import asgi
 from backend.config.server import bind
 from backend.core import guard
+from tests.backend.accounts.conftest import person, stranger, team
 
 GO = "file:///project/actions/Go.py"
 SOURCE = """import py_trees
@@ -114,3 +115,6 @@ def with_actions(api, project):
         {"path": "actions/Turn.py", "base_revision": 0, "content": turn},
     )
     return project["id"]
+
+
+__all__ = ["person", "stranger", "team"]

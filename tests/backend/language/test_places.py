@@ -9,7 +9,6 @@ from backend.language.containers import ContainerLauncher
 from backend.language.errors import CheckerUnavailableError, UnavailableError
 from backend.language.places import checker, launcher
 from backend.language.servers import ProcessLauncher
-from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixtures
 
 
 def test_on_this_machine_it_is_a_child_process(user) -> None:
@@ -17,7 +16,7 @@ def test_on_this_machine_it_is_a_child_process(user) -> None:
     assert checker(user) is ruff.run_beside
 
 
-def test_a_team_has_it_in_containers_or_not_at_all(team, settings_of, person) -> None:  # noqa: F811
+def test_a_team_has_it_in_containers_or_not_at_all(team, settings_of, person) -> None:
     ada = person("ada").user
     with pytest.raises(UnavailableError):
         launcher()

@@ -12,6 +12,7 @@ import pytest
 from backend.sessions import writes
 from backend.sessions.launchers.base import Spec
 from backend.sessions.launchers.process import ProcessLauncher
+from tests.backend.accounts.conftest import person, stranger, team
 
 FAKE = Path(__file__).parents[2] / "fakes" / "manager.py"
 
@@ -62,3 +63,6 @@ def fake_manager(launcher_of, monkeypatch):
         return launcher
 
     return use
+
+
+__all__ = ["person", "stranger", "team"]

@@ -29,7 +29,7 @@ from backend.sessions.consumers import (
     may_use,
 )
 from backend.sessions.consumers import relay as relay_socket
-from tests.backend.sessions.test_sessions import launched
+from tests.backend.sessions.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 MISSING = "/ws/sessions/00000000-0000-0000-0000-000000000000/control"

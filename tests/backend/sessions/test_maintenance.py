@@ -12,7 +12,7 @@ from backend.config.environment import environment
 from backend.sessions import maintenance, writes
 from backend.sessions.errors import HostFullError
 from backend.sessions.models import Session
-from tests.backend.sessions.test_sessions import launched
+from tests.backend.sessions.test_writes import launched
 
 pytestmark = pytest.mark.django_db(transaction=True)
 

@@ -13,7 +13,7 @@ from backend.ingress.handler import ThreadedHandler
 from backend.language import views
 from backend.workers.aside import Aside
 from backend.workers.errors import BusyError
-from tests.backend.accounts.test_bodies import head
+from tests.backend.ingress.test_bodies import head
 from tests.backend.ingress.test_handler import body
 
 pytestmark = pytest.mark.django_db(transaction=True)

@@ -12,7 +12,7 @@ from backend.projects.models import Project
 from backend.workers.lanes import MEMORY_BYTES
 from backend.workers.pool import Limits, Pool
 from tests.backend.accounts.conftest import PUBLIC, Person, person, team  # noqa: F401 - fixtures
-from tests.backend.accounts.test_bodies import head
+from tests.backend.ingress.test_bodies import head
 from translator.limits import NODES_PER_PROJECT, NODES_PER_TREE
 
 pytestmark = pytest.mark.django_db(transaction=True)

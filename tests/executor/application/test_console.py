@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import io
+from typing import TYPE_CHECKING
 
 from executor.application.console import Console
 from executor.application.locate import Locator
-from executor.child_messages import Log
 from executor.supervision.channel import ChannelClosed
+
+if TYPE_CHECKING:
+    from executor.child_messages import Log
 
 
 def test_a_line_is_sent_when_it_is_complete() -> None:

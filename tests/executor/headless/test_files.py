@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from executor.headless.files import write_files
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_files_lie_at_their_paths(tmp_path: Path) -> None:

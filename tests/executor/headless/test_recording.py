@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import gzip
 import json
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from executor.headless.recording import FORMAT, VERSION, Recording
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_events_are_lines_and_replies_are_left_out(tmp_path: Path) -> None:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from executor.launching.find import NotFound, find_command, find_executable
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_a_file_of_the_project_is_found_from_its_folder_and_the_launch_files(tmp_path: Path) -> None:

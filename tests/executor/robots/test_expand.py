@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from executor.robots.expand import urdf_of
 from executor.robots.urdf import UrdfError
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 XACRO = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
 <xacro:property name="part" value="base"/>
@@ -26,7 +29,7 @@ def test_a_urdf_stays_and_macros_are_expanded(tmp_path: Path) -> None:
 def test_a_wrong_macro_is_reported_with_its_line(tmp_path: Path) -> None:
     path = tmp_path / "r.xacro"
     path.write_text(XACRO.replace("${part}", "${nothing}"))
-    with pytest.raises(UrdfError, match="xacro: .*nothing") as refused:
+    with pytest.raises(UrdfError, match=r"xacro: .*nothing") as refused:
         urdf_of(path)
     assert refused.value.line == 3
     with pytest.raises(OSError, match="No such file"):

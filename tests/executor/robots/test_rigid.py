@@ -14,7 +14,7 @@ from lxml import etree
 from executor.robots.inertia import Inertial
 from executor.robots.prepare import physical_urdf
 from executor.robots.rigid import merge_fixed_links
-from executor.robots.urdf import UrdfError, parse_urdf, read_inertial
+from executor.robots.urdf import parse_urdf, read_inertial
 from executor.world.engine import Bullet
 from executor.world.geometry.transforms import compose, from_xyz_rpy, rotation
 
@@ -141,17 +141,3 @@ def test_bullet_sees_one_body_as_it_sees_its_parts(bullet: Bullet) -> None:
     assert len(joints) == 3
     assert math.dist(ends[0][:3], (0.1, 0.2, 0.7)) > 0.05
     assert ends[0] == pytest.approx(ends[1], abs=2e-3)
-
-
-@pytest.mark.parametrize(
-    ("wrong", "right", "says"),
-    [
-        ('<mass value="-2"/>', '<mass value="2"/>', "cannot be less than 0"),
-        ('<mass value="heavy"/>', '<mass value="2"/>', "needs a number as 'value'"),
-        ("", '<mass value="2"/>', "needs a <mass> and an <inertia>"),
-    ],
-)
-def test_a_wrong_mass_is_refused_with_its_line(wrong: str, right: str, says: str) -> None:
-    with pytest.raises(UrdfError, match=says) as raised:
-        parse_urdf(CART.replace(right, wrong).encode(), "cart.urdf")
-    assert raised.value.line == 3

@@ -10,7 +10,7 @@ def test_it_is_in_use_once_it_received_its_start() -> None:
     child = Child("world", 3)
     child.is_started = True
     assert not child.is_in_use
-    child.note(Starting("the universe"))
+    child.note(Starting())
     assert child.is_in_use
     assert (child.key, child.vitals.task) == (("world", 3), "loading")
 

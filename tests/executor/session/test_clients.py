@@ -5,6 +5,7 @@ from __future__ import annotations
 import msgspec
 
 from executor.child_messages import EchoTopic, Pace, Subscribe
+from executor.session.clients import Clients
 from executor.session.events import (
     ClientJoined,
     ClientLeft,
@@ -217,3 +218,25 @@ def test_the_same_world_again_introduces_nobody_and_one_that_is_gone_has_no_rend
     play.command("run")
     assert play.sent("introspection", "d")[-1].renderer == "egl"
     assert play.sent("introspection", "late")[-1].tf
+
+
+def test_one_is_the_driver_and_may_be_replaced() -> None:
+    clients = Clients(0.0)
+    clients.join("a")
+    clients.join("b")
+    assert [clients.role(client) for client in ("a", "b")] == ["driver", "viewer"]
+    clients.leave("a", 1.0)
+    assert clients.promote(1.5, promote_s=1.0) == []
+    assert clients.promote(2.0, promote_s=1.0) == ["b"]
+    assert clients.take_over("b") == []
+
+
+def test_topics_are_echoed_at_the_highest_rate_and_given_up_with_the_last_client() -> None:
+    clients = Clients(0.0)
+    for client, rate_hz in (("a", 5.0), ("b", 10.0)):
+        clients.join(client)
+        clients.echo(client, "/scan", rate_hz)
+    assert clients.echoes() == {"/scan": 10.0}
+    assert clients.leave("b", 1.0) == []
+    assert clients.leave("a", 1.0) == ["/scan"]
+    assert clients.is_abandoned(3.0, 2.0)

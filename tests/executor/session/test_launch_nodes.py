@@ -7,12 +7,14 @@ import io
 import os
 import signal
 import zipfile
+from typing import Any
 
 import psutil
 
 from executor.launching.model import LaunchPlan, NodeSpec
 from executor.session.events import Retire, Spawn, Unpacked
 from executor.session.ladder import State
+from executor.session.launch_nodes import LaunchNodes
 from tests.executor.manager.test_server import manager
 from tests.executor.session.play import Play
 from tests.executor.session_client import SessionClient
@@ -124,3 +126,10 @@ def test_a_second_run_starts_it_again_and_a_pause_does_not_affect_it():
     assert play.did(Spawn).count("node") == 3
     assert play.sent("launch_nodes")[-1].nodes[0].restarts == 1
     assert play.state is State.APPLICATION_RUNNING
+
+
+def test_a_node_that_no_launch_file_has_is_not_restarted() -> None:
+    stage: Any = None
+    assert (
+        LaunchNodes().restart(stage, "launch/x.yaml:y") == "The launch files have no node 'launch/x.yaml:y'."
+    )

@@ -5,9 +5,12 @@ from __future__ import annotations
 import fcntl
 import os
 import time
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from executor.supervision.locks import YOUNGEST_S, is_abandoned, is_young
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_a_file_is_abandoned_when_it_is_old_and_nobody_holds_it(tmp_path: Path) -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from backend.core.processes.numbers import ROOM, Numbers, make_page, read_page
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 def test_a_worker_counts_in_its_page_and_reads_the_sum(tmp_path: Path) -> None:
@@ -14,7 +17,7 @@ def test_a_worker_counts_in_its_page_and_reads_the_sum(tmp_path: Path) -> None:
     for page in pages:
         make_page(page)
     both = [Numbers(), Numbers()]
-    place = [one.take(2) for one in both][0]
+    place, _ = (one.take(2) for one in both)
     for own, one in enumerate(both):
         one.share(pages, own)
         one.add(place, own + 1)
@@ -28,4 +31,3 @@ def test_a_page_has_an_end() -> None:
     numbers = Numbers()
     with pytest.raises(MemoryError):
         numbers.take(ROOM + 1)
-        numbers.take(1)

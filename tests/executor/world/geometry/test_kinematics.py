@@ -11,7 +11,8 @@ from executor.world.geometry.kinematics import link_pose, mesh_key
 from executor.world.geometry.transforms import IDENTITY
 
 URDF = b"""<robot name="r"><link name="base"/><link name="arm"/><link name="tool"/>
-<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/><origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+<joint name="turn" type="revolute"><parent link="base"/><child link="arm"/>
+<origin xyz="0 0 1"/><axis xyz="0 0 1"/>
 <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
 <joint name="slide" type="prismatic"><parent link="arm"/><child link="tool"/><axis xyz="1 0 0"/>
 <limit lower="0" upper="2" effort="1" velocity="1"/></joint></robot>"""

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from executor.ros.spin import DrainingExecutor
-from tests.executor.ros_python.test_tf2 import at, plain, stamped
+from tests.executor.ros_python.tf2_py.test_core import at, plain, stamped
 
 
 @pytest.fixture

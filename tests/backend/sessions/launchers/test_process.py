@@ -13,36 +13,12 @@ import psutil
 import pytest
 
 from backend.sessions.errors import LaunchError
-from backend.sessions.launchers.base import UNKNOWN_EXIT, Launcher, Started
+from backend.sessions.launchers.base import UNKNOWN_EXIT
 from tests.backend.sessions.conftest import children, spec
 
 
 def is_alive(process):
     return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
-
-
-def test_a_launcher_that_lacks_a_method_fails_when_it_is_defined():
-    with pytest.raises(TypeError, match="poll, stop"):
-
-        class Half(Launcher):
-            name = "half"
-
-            def start(self, spec):
-                return Started("", {})
-
-
-def test_a_launcher_needs_a_name():
-    with pytest.raises(TypeError, match="name"):
-
-        class Nameless(Launcher):
-            def start(self, spec):
-                return Started("", {})
-
-            def poll(self, state):
-                return None
-
-            def stop(self, state, *, timeout_s):
-                return None
 
 
 def test_a_manager_starts_runs_and_ends(launcher_of):

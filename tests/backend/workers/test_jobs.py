@@ -1,0 +1,42 @@
+"""The jobs of a worker."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import zipfile
+
+from backend.workers.jobs import JOBS
+
+TREE = json.dumps({"id": "MainTree", "root": "n1", "nodes": {"n1": {"type": "AlwaysSuccess"}}})
+FILES = {"project.json": b'{"name": "P"}', "trees/MainTree.json": TREE.encode()}
+BROKEN = {**FILES, "trees/MainTree.json": TREE.replace("AlwaysSuccess", "Nope").encode()}
+
+
+def test_a_report_names_problems_and_actions() -> None:
+    assert JOBS["report"](files=FILES) == {"diagnostics": [], "actions": []}
+    assert JOBS["report"](files=BROKEN)["diagnostics"]
+
+
+def test_what_the_translator_refuses_is_an_answer() -> None:
+    refused = JOBS["xml"](files=BROKEN, self_contained=False)["refused"]
+    assert refused[0]["code"].startswith("BT")
+    assert "<AlwaysSuccess" in JOBS["xml"](files=FILES, self_contained=False)["text"]
+
+
+def test_an_app_is_a_zip_with_its_universe() -> None:
+    files = {**FILES, "universes/yard.yaml": b"name: yard\n", "assets/a.png": b"x"}
+    made = JOBS["app"](files=files, universe="yard", built_in=None)
+    assert made["universe"]["document"] == "name: yard\n"
+    with zipfile.ZipFile(io.BytesIO(base64.b64decode(made["universe"]["assets_zip_base64"]))) as assets:
+        assert "assets/a.png" in assets.namelist()
+    assert JOBS["app"](files=FILES, universe="empty", built_in=None)["universe"] == "empty"
+
+
+def test_a_text_that_is_half_typed_has_findings_and_no_diagram() -> None:
+    written = JOBS["write_tree"](diagram=TREE, base="", ids=[])
+    assert JOBS["read_tree"](xml=written["xml"], diagram=TREE)["diagram"]
+    half = JOBS["read_tree"](xml="<root", diagram=TREE)
+    assert half["diagram"] is None
+    assert half["diagnostics"]

@@ -1,0 +1,28 @@
+"""The world is asked for the streams that clients subscribed to."""
+
+from __future__ import annotations
+
+from executor.session import streaming
+from executor.session.events import StreamClosed, StreamOpened
+from executor.session.ladder import State
+from tests.executor.session.play import Play
+
+
+def test_a_stream_is_asked_for_when_its_socket_opens_and_ended_when_it_closes() -> None:
+    play = Play()
+    play.climb(State.VISUALIZATION_READY)
+    play.command("subscribe", stream="poses")
+    assert "subscribe" not in play.told("world")
+    play.happens(StreamOpened("d"))
+    assert play.told("world").count("subscribe") == 1
+    play.happens(StreamClosed("d"))
+    assert play.told("world")[-1] == "unsubscribe"
+    assert "take" in streaming.__all__
+
+
+def test_a_new_world_is_asked_again() -> None:
+    play = Play()
+    play.happens(StreamOpened("d"))
+    play.command("subscribe", stream="poses")
+    play.climb(State.VISUALIZATION_READY)
+    assert play.told("world").count("subscribe") == 1

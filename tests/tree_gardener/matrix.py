@@ -7,8 +7,6 @@ clone.
 Left out are the tests that need what those environments lack: the command line, ROS, behaviortreepy.
 """
 
-# ruff: noqa: T201 - it is a program
-
 from __future__ import annotations
 
 import os

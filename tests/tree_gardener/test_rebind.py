@@ -11,6 +11,7 @@ from py_trees.ports import PortInformation, PortsMixin
 
 from tests.tree_gardener.trees import load
 from tree_gardener import PortError, Status
+from tree_gardener.rebind import rebind
 
 
 class WithMixin(PortsMixin, py_trees.behaviour.Behaviour):
@@ -30,3 +31,10 @@ def test_classes_on_py_trees_ports_are_rebound() -> None:
     assert behaviour.get_input("none", default=7) == 7
     with pytest.raises(PortError):
         behaviour.get_input("none")
+
+
+def test_a_behaviour_without_py_trees_ports_stays_as_it_is() -> None:
+    behaviour = py_trees.behaviours.Success("s")
+    before = dict(vars(behaviour))
+    rebind(behaviour)
+    assert vars(behaviour) == before

@@ -112,7 +112,7 @@ DONE = {
 
 
 @pytest.fixture
-def owner(person):  # noqa: F811
+def owner(person):
     person("eve")
     person("fred")
     return person("olga", is_teacher=True)

@@ -34,8 +34,6 @@ def test_the_nearest_range_of_all_scans_is_kept() -> None:
     measured = Measured()
     for ranges in ((3.0, float("inf"), 0.0), (2.0, 5.0), (4.0,)):
         data = struct.pack(f"<{len(ranges)}f", *ranges)
-        scan = messages.Scan(**dict.fromkeys((), 0.0)) if False else None
-        del scan
         measured.take_frame(scan_of(data))
     assert measured.report.min_range_m == 2.0
 

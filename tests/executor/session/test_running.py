@@ -13,7 +13,7 @@ def test_a_pause_stops_both_processes() -> None:
     play = Play()
     play.climb(State.PAUSED)
     for kind in ("world", "application"):
-        assert play.told(kind)[-1] == "pause"  # type: ignore[arg-type]
+        assert play.told(kind)[-1] == "pause"
     assert play.reply(play.command("resume")) == "ack"
     assert play.state is State.APPLICATION_RUNNING
 

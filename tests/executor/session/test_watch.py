@@ -7,6 +7,7 @@ import pytest
 from executor.child_messages import name_of
 from executor.session.events import ChildLooked, ChildTraced, Inspect, Interrupt, Kill, Kind, Spawn, Tell
 from executor.session.ladder import State
+from executor.session.watch import LATEST_TRACE_S
 from tests.executor.session.play import Play
 
 LOOK_S = 0.25
@@ -419,3 +420,10 @@ def test_a_pause_waits_for_a_process_that_is_merely_slow():
     play.child_says("application", "paused")
     assert play.reply(request) == "ack"
     assert play.state is State.PAUSED
+
+
+def test_a_hang_is_reported_once_at_the_latest_when_its_trace_would_be_there():
+    play = play_in(State.APPLICATION_RUNNING)
+    play.quiet.add("application")
+    play.goes_on(LATEST_TRACE_S + 2 * LOOK_S)
+    assert len(play.faults) == 1

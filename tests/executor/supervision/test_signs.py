@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import subprocess
 import sys
@@ -28,8 +29,8 @@ async def test_a_process_that_is_gone_leaves_no_trace() -> None:
     notes = Notes()
     os.pwrite(notes.fd, (7).to_bytes(4, "little"), 0)
     assert notes.current_uid() == 7
-    with subprocess.Popen([sys.executable, "-c", ""]) as process:
-        process.wait(60)
+    process = await asyncio.create_subprocess_exec(sys.executable, "-c", "")
+    await process.wait()
     assert await notes.trace(process.pid) == ""
     notes.close()
     notes.close()

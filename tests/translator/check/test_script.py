@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.translator.check.finding import LEAF, is_found_at_its_place
+from tests.translator.check.finding import LEAF, findings, is_found_at_its_place
 from translator.check.script import check_scripts
 
 CASES = {
@@ -20,3 +20,8 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_finding_and_its_place(make_project, name):
     is_found_at_its_place(check_scripts, make_project, CASES[name])
+
+
+def test_what_can_be_read_is_not_reported(make_project):
+    nodes = {"n1": {"type": "Script", "ports": {"code": "x := 1"}, "conditions": {"_skipIf": "false"}}}
+    assert findings(check_scripts, make_project(nodes)) == []

@@ -10,6 +10,7 @@ from py_trees.common import Status as PyTreesStatus
 
 from tests.tree_gardener.trees import leaf, load, recording
 from tree_gardener import Status, TickError
+from tree_gardener.leaves.behaviour import LEAF_KINDS
 
 R, S, F = PyTreesStatus.RUNNING, PyTreesStatus.SUCCESS, PyTreesStatus.FAILURE
 
@@ -181,3 +182,9 @@ def test_the_behaviours_own_status_follows() -> None:
         tree.tick_exactly_once()
         seen.append(leaf(tree, "a").status)
     assert seen == [R, S]
+
+
+def test_a_class_is_what_its_kind_says() -> None:
+    for kind, leaf_class in LEAF_KINDS.items():
+        tree = load("<A/>", nodes={"A": recording(PyTreesStatus.SUCCESS, kind=kind)})
+        assert type(tree.nodes[0]) is leaf_class

@@ -13,7 +13,7 @@ AT_REST = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 def model(**noise: float) -> ImuModel:
-    return ImuModel(Imu(kind="imu", link="base", **noise), (1,))  # type: ignore[arg-type]
+    return ImuModel(Imu(kind="imu", link="base", **noise), (1,))
 
 
 def test_at_rest_it_feels_gravity_upwards() -> None:

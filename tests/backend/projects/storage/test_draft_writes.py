@@ -1,0 +1,20 @@
+"""Drafts."""
+
+from __future__ import annotations
+
+import pytest
+
+from backend.projects.errors import PreconditionFailedError
+from backend.projects.storage import queries
+from backend.projects.storage.access import Need
+from backend.projects.storage.draft_writes import discard_draft, save_draft
+
+
+def test_a_draft_is_one_users_and_is_discarded(project, user):
+    row = queries.project(project["id"], user=user, need=Need.READ)
+    save_draft(project["id"], "a.txt", base_revision=0, content="half", acting_user=user)
+    assert [draft.path for draft in queries.drafts(row, user=user)] == ["a.txt"]
+    with pytest.raises(PreconditionFailedError):
+        discard_draft(project["id"], "a.txt", acting_user=user, if_match='"other"')
+    discard_draft(project["id"], "a.txt", acting_user=user)
+    assert queries.drafts(row, user=user) == []

@@ -18,7 +18,7 @@ from tests.backend.story import Story, play
 
 
 @pytest.fixture
-def told(person, stranger, monkeypatch):
+def told(person, stranger, monkeypatch):  # noqa: F811
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     # A team's server checks Python in containers.
     monkeypatch.setattr(language, "checker", lambda user: ruff.run_beside)

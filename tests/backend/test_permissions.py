@@ -140,7 +140,7 @@ BODIES = {
 
 
 @pytest.fixture
-def world(person, monkeypatch):
+def world(person, monkeypatch):  # noqa: F811
     """One project, shared in every way, and everybody's browser."""
     people = {name: person(name) for name in ("other", "viewer", "editor", "owner", "teacher")}
     teacher = people["teacher"].user

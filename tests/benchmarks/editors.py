@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from websockets.asyncio.client import connect
 from websockets.typing import Origin
 
-CHANCE = random.Random(1)
+CHANCE = random.Random(1)  # noqa: S311 - it spreads requests
 EXTRA = {"list": 0.1, "open": 0.1}
 """How often a save is followed by something else."""
 

@@ -87,7 +87,7 @@ class Saver(Editor):
     def __init__(self, number: int, port: int, who: tuple[str, str], answers: Answers, *, seed: int) -> None:
         super().__init__(number, port, who, Measured())
         self._prefix = f"Client{number}Action"
-        self._chance = random.Random(seed + number)
+        self._chance = random.Random(seed + number)  # noqa: S311 - it chooses what is saved
         self._answers = answers
         self._stored: dict[str, tuple[int, str]] = {}
         self._saves = 0

@@ -67,5 +67,5 @@ def test_a_defect_of_ours_is_one_sentence_and_a_report(
     assert "Traceback" not in said
     assert "nobody expected this" in said
     report = said.split("details are in ")[1].split(";")[0]
-    with open(report) as file:
+    with open(report) as file:  # noqa: PTH123
         assert "ZeroDivisionError" in file.read()

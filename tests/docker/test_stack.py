@@ -111,7 +111,7 @@ def ticks(client):
 async def until(condition, timeout_s):
     """Waits for a condition that no message reports."""
     async with asyncio.timeout(timeout_s):
-        while not condition():
+        while not condition():  # noqa: ASYNC110
             await asyncio.sleep(0.2)
 
 
@@ -271,7 +271,7 @@ async def test_a_killed_web_server_loses_no_project_and_no_running_robot(stack, 
         stack.engine.run("kill", "--signal", "KILL", stack.container("web"))
     assert len(stack.sessions()) == 2
     # One of the two is not recorded anywhere.
-    forget = f"DELETE FROM executor_sessions_session WHERE id = '{orphan}'"
+    forget = f"DELETE FROM executor_sessions_session WHERE id = '{orphan}'"  # noqa: S608 - our own
     stack.compose("exec", "-T", "postgres", "psql", "-U", "studio", "-c", forget)
     stack.compose("up", "-d", "web")
     stack.await_page()

@@ -295,7 +295,7 @@ def the_servers_view_is_turned(studio: Studio) -> None:
     for gesture in (turn, lambda: mouse.wheel(0, -400), lambda: view.press("ArrowLeft")):
         before = drawn()
         gesture()
-        wait_until(lambda: drawn() != before, "the picture is another one")
+        wait_until(lambda: drawn() != before, "the picture is another one")  # noqa: B023 - called at once
     expect(studio.at("view-figures")).to_have_text(re.compile(r"^\d{3,4} × \d+"))
 
 

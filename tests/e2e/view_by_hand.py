@@ -109,7 +109,7 @@ def layers_come_and_go(studio: Studio) -> None:
         expect(item).not_to_have_attribute("aria-checked", was)
         item.click()
         expect(item).to_have_attribute("aria-checked", was)
-        wait_until(lambda: drawn(studio) == before, f"{layer}: as before")
+        wait_until(lambda: drawn(studio) == before, f"{layer}: as before")  # noqa: B023 - called at once
     camera = studio.page.get_by_role("menuitemcheckbox", name="Robot's camera", exact=True)
     camera.click()
     expect(studio.at("camera-inset")).to_be_visible()
@@ -155,10 +155,10 @@ def bodies_are_carried_and_put_back(studio: Studio, observer: Observer) -> None:
         mouse.move(left - 20, top + 40, steps=4)
         mouse.up()
         expect(moved).to_contain_text(f"{body} was moved")
-        wait_until(lambda: math.dist(at(observer, body), (x, y)) > 0.4, f"{body} is elsewhere")
+        wait_until(lambda: math.dist(at(observer, body), (x, y)) > 0.4, f"{body} is elsewhere")  # noqa: B023
         moved.get_by_role("button", name="Put it back").click()
         expect(moved).to_have_count(0)
-        wait_until(lambda: math.dist(at(observer, body), (x, y)) < 0.02, f"{body} is back")
+        wait_until(lambda: math.dist(at(observer, body), (x, y)) < 0.02, f"{body} is back")  # noqa: B023
 
 
 def at(observer: Observer, body: str) -> tuple[float, float]:

@@ -94,7 +94,7 @@ class HangingSession:
             if is_used:
                 await self.client.event("state-changed", lambda d: d["state"] == _LEFT[kind], after=at)
             await self.spare(kind, other_than=victim.pid)
-            while victim.is_running():
+            while victim.is_running():  # noqa: ASYNC110 - the process table
                 await asyncio.sleep(0.02)
         right_s = time.monotonic() - began_s
         outcome = Outcome(kind, state, fault["data"], fault["at"] - began_s, right_s)

@@ -81,7 +81,7 @@ class Storm:
     async def has_ended(pid):
         """Waits for the end of a killed process, which takes a while on a busy machine."""
         async with asyncio.timeout(60):
-            while pid in {process.pid for process in supervised()}:
+            while pid in {process.pid for process in supervised()}:  # noqa: ASYNC110 - the process table
                 await asyncio.sleep(0.02)
 
     async def stall(self):
@@ -105,7 +105,7 @@ class Storm:
         """Waits until the ladder agrees with the living processes."""
         began_s = time.monotonic()
         async with asyncio.timeout(60):
-            while not self._is_consistent():
+            while not self._is_consistent():  # noqa: ASYNC110 - it looks at the process table
                 await asyncio.sleep(0.02)
         self.took_s.append(time.monotonic() - began_s)
 
@@ -144,9 +144,9 @@ class Storm:
 
 
 def chance_of_today():
-    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
-    return random.Random(seed)
+    return random.Random(seed)  # noqa: S311
 
 
 def tell(storm):

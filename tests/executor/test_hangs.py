@@ -20,9 +20,9 @@ pytestmark = pytest.mark.simulation
 
 def cases_of_today():
     """Returns as many cases as the budget allows, evenly over all states, drawn at random."""
-    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
-    chance, wanted = random.Random(seed), count("hangs_real")
+    chance, wanted = random.Random(seed), count("hangs_real")  # noqa: S311
     found: list[Any] = []
     while len(found) < wanted:
         found += chance.sample(CASES, len(CASES))

@@ -110,7 +110,7 @@ class _Handler(BaseHTTPRequestHandler):
     def do_GET(self):
         self._answer()
 
-    do_POST = do_DELETE = do_GET
+    do_POST = do_DELETE = do_GET  # noqa: N815 - the base class's names
 
     def _answer(self):
         address = urlsplit(self.path)
@@ -175,7 +175,7 @@ class _Handler(BaseHTTPRequestHandler):
     def address_string(self):
         return "keeper"
 
-    def log_message(self, format, *args):
+    def log_message(self, format, *args):  # noqa: A002
         pass
 
 

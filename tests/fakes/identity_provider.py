@@ -66,7 +66,7 @@ def identity_provider():
             self.end_headers()
             self.wfile.write(data)
 
-        do_POST = do_GET
+        do_POST = do_GET  # noqa: N815 - the server's name for it
 
         def log_message(self, *_):
             pass

@@ -36,7 +36,7 @@ async def echo(socket: ServerConnection) -> None:
         if message == "close":
             await socket.close(4321, "as asked")
         elif message == "hang":
-            time.sleep(3600)
+            time.sleep(3600)  # noqa: ASYNC251 - the loop is what hangs
         elif message == "die":
             os._exit(9)
         else:
@@ -44,7 +44,7 @@ async def echo(socket: ServerConnection) -> None:
 
 
 async def flood(socket: ServerConnection) -> None:
-    with Path(os.environ["FAKE_MANAGER_COUNTER"]).open("ab", buffering=0) as counter:
+    with Path(os.environ["FAKE_MANAGER_COUNTER"]).open("ab", buffering=0) as counter:  # noqa: ASYNC230
         while True:
             await socket.send(bytes(100_000))
             counter.write(b".")

@@ -28,7 +28,7 @@ class Sample(NamedTuple):
 class Bystander:
     """A user with one project and one persistent connection, as a browser has."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0917 - as a plan has it
         self, host: str, port: int, origin: str, cookie: str, project: str, session: str = ""
     ) -> None:
         self.samples: list[Sample] = []

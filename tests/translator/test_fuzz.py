@@ -121,7 +121,7 @@ SEEDS = range(4)
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_mutated_diagrams(seed):
-    chance = random.Random(seed)
+    chance = random.Random(seed)  # noqa: S311 - a seed that can be given again
     examples = [example_files(name) for name in EXAMPLES]
     for number in range(count("translator_fuzz") // 2 // len(SEEDS)):
         files = dict(chance.choice(examples))
@@ -158,7 +158,7 @@ def xml_corpus() -> list[bytes]:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_mutated_xml(seed):
-    chance = random.Random(seed)
+    chance = random.Random(seed)  # noqa: S311 - a seed that can be given again
     corpus = xml_corpus()
     for number in range(count("translator_fuzz") // 2 // len(SEEDS)):
         raw = mutate_bytes(chance.choice(corpus), chance)

@@ -103,7 +103,7 @@ def main() -> None:
                 project(behaviour, ports, models), LockstepOptions(duration_s=duration_s, seed=1), watch=watch
             )
         results[behaviour] = {**report.to_json(), "bodies": bodies}
-    print(json.dumps(results))
+    print(json.dumps(results))  # noqa: T201 - the result
 
 
 main()

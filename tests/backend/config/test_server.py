@@ -155,7 +155,7 @@ def test_a_port_in_use_is_one_sentence_with_the_remedy(tmp_path):
     )
 
 
-@pytest.mark.parametrize("host", ["0.0.0.0", "example.org"])
+@pytest.mark.parametrize("host", ["0.0.0.0", "example.org"])  # noqa: S104
 def test_other_machines_are_not_served_without_accounts(tmp_path, host):
     status, said = failed(start(tmp_path, "--host", host, "--port", "0"))
     assert status == 1

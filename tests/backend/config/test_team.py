@@ -83,7 +83,7 @@ def test_a_mail_servers_address_says_how_it_is_spoken_to():
 
 
 def test_without_accounts_nobody_else_is_served(tmp_path):
-    process = start(tmp_path, "--host", "0.0.0.0", "--port", "0")
+    process = start(tmp_path, "--host", "0.0.0.0", "--port", "0")  # noqa: S104
     _, errors = process.communicate(timeout=TIMEOUT_S)
     assert process.returncode == 1
     assert "BT_STUDIO_MODE=team" in errors

@@ -88,7 +88,7 @@ def test_who_may_not_use_a_socket_is_told_so(person):
 def test_whoever_is_taken_out_of_a_project_hears_no_more_of_it(person):
     owner, friend = person("olga"), person("fred")
     one = shared_project(owner, name="fred", role="viewer")
-    deed = lambda: owner.delete(f"projects/{one}/shares/people/fred")
+    deed = lambda: owner.delete(f"projects/{one}/shares/people/fred")  # noqa: E731
     assert closed_after(friend, one, deed) == NO_SUCH_PROJECT
 
 
@@ -98,7 +98,7 @@ def test_a_link_that_is_taken_back_ends_what_it_opened(person):
     link = owner.post(f"projects/{one}/shares/links", {}, expect=201)["links"][0]
     guest = Person()
     guest.page(link["url"].partition(PUBLIC)[2])
-    deed = lambda: owner.delete(f"projects/{one}/shares/links/{link['id']}")
+    deed = lambda: owner.delete(f"projects/{one}/shares/links/{link['id']}")  # noqa: E731
     assert closed_after(guest, one, deed) == NO_SUCH_PROJECT
 
 
@@ -109,7 +109,7 @@ def test_whoever_leaves_a_group_leaves_what_was_shared_with_it(person):
     sam.form(link.partition(PUBLIC)[2])
     one = shared_project(teacher)
     teacher.put(f"projects/{one}/shares/groups/{group}", {"role": "viewer"})
-    deed = lambda: sam.delete(f"groups/{group}/members/sam")
+    deed = lambda: sam.delete(f"groups/{group}/members/sam")  # noqa: E731
     assert closed_after(sam, one, deed) == NO_SUCH_PROJECT
 
 

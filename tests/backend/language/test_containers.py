@@ -53,7 +53,7 @@ def test_an_editor_knows_neighbours_follows_revisions_and_leaves_nothing(
         while page.at("definition", 4, 18)["uri"] != "file:///project/actions/Spin.py":
             assert time.monotonic() < deadline
             time.sleep(0.05)
-        assert "/tmp" not in json.dumps(page.told)
+        assert "/tmp" not in json.dumps(page.told)  # noqa: S108
         [name] = keeper.docker.containers
         assert name.startswith("stack-tools-")
 

@@ -112,7 +112,7 @@ DONE = {
 
 
 @pytest.fixture
-def owner(person):
+def owner(person):  # noqa: F811
     person("eve")
     person("fred")
     return person("olga", is_teacher=True)

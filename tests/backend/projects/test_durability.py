@@ -131,7 +131,7 @@ def make_projects(server, number):
 @pytest.mark.timeout(0)
 def test_no_acknowledged_save_is_lost_when_the_server_is_killed(tmp_path, database):
     kills = count("backend_kill_storm")
-    chance = random.Random(7)
+    chance = random.Random(7)  # noqa: S311
     storm, saves = None, 0
     with zygote(tmp_path, **database) as forking:
         for kill in range(kills + 1):
@@ -164,7 +164,7 @@ def fill(server, project):
     acknowledged: dict[int, str] = {}
     revision = 0
     while True:
-        text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()
+        text = random.Random(revision).randbytes(MEBIBYTE // 4).hex()  # noqa: S311
         body: Any = {"files": [{"path": p, "base_revision": revision, "content": p + text} for p in FILES]}
         answer = requests.post(address, json=body, headers=server.headers, timeout=TIMEOUT_S)
         if answer.status_code != 200:

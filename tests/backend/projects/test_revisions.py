@@ -234,7 +234,7 @@ def test_garbage_goes_and_what_someone_can_reach_stays(api, edited):
 
 
 def test_the_old_names_of_the_api_answer(api):
-    post = lambda name, expect=200, **asked: api.post(f"/tree_api/{name}/", asked, expect=expect)
+    post = lambda name, expect=200, **asked: api.post(f"/tree_api/{name}/", asked, expect=expect)  # noqa: E731
     assert post("create_project", project_name="Old", expect=201) == {"success": True}
     assert api.get("/tree_api/get_project_list/") == {"project_list": ["Old"]}
     graph = api.get("/tree_api/get_project_graph/?project_name=Old")["graph_json"]

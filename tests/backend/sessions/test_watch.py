@@ -102,7 +102,7 @@ async def watched(one):
     await asyncio.gather(task, return_exceptions=True)
 
 
-async def test_a_stopped_manager_behind_the_gate_is_given_up(gate, quick, monkeypatch):
+async def test_a_stopped_manager_behind_the_gate_is_given_up(gate, quick, monkeypatch):  # noqa: F811
     gate.door.open()
     async with manager_process("--gate", str(gate.entrance), "--session", "s1") as process:
         one = row(f"unix:{gate.path}", monkeypatch=monkeypatch)
@@ -133,7 +133,7 @@ async def test_a_manager_that_answers_again_in_time_is_kept(monkeypatch):
 
 async def until(condition):
     async with asyncio.timeout(60):
-        while not condition():
+        while not condition():  # noqa: ASYNC110
             await asyncio.sleep(0.02)
 
 
@@ -161,7 +161,7 @@ async def test_what_counts_as_an_answer(kind, is_given_up, launcher_of, quick, m
 @pytest.mark.django_db(transaction=True)
 @pytest.mark.parametrize("how", ["stopped", "hangs"])
 @pytest.mark.usefixtures("quick")
-def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, session, api, project):
+def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, session, api, project):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     pid = Session.objects.get().launcher_state["pid"]
@@ -184,7 +184,7 @@ def test_a_page_is_told_why_and_another_run_starts_another_executor(how, relay, 
 
 
 @pytest.mark.django_db(transaction=True)
-def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_once(session, quick, api):
+def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_once(session, quick, api):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     pid = Session.objects.get().launcher_state["pid"]
@@ -209,7 +209,7 @@ def test_a_session_without_a_page_is_looked_after_by_every_server_and_failed_onc
 
 
 @pytest.mark.django_db(transaction=True)
-def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkeypatch):
+def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkeypatch):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     launcher = writes.launcher()
@@ -227,7 +227,7 @@ def test_whoever_sees_the_end_first_gives_the_reason_for_it(session, api, monkey
 
 
 @pytest.mark.django_db(transaction=True)
-def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):
+def test_a_session_that_was_ended_meanwhile_stays_ended(session, api):  # noqa: F811
     started = session("echo")
     launched(started["id"])
     api.delete(f"sessions/{started['id']}")

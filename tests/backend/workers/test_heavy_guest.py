@@ -60,7 +60,7 @@ def patient(monkeypatch):
     made.close()
 
 
-def test_eight_requests_for_the_largest_project_leave_the_server_to_the_others(patient, person):
+def test_eight_requests_for_the_largest_project_leave_the_server_to_the_others(patient, person):  # noqa: F811
     owner, other, guest = person("olga"), person("otto"), Person()
     one = owner.post("projects", {"name": "Large"}, expect=201)["id"]
     owner.save(one, {"path": "trees/MainTree.json", "base_revision": 1, "delete": True})

@@ -19,7 +19,7 @@ def test_a_frame_of_an_action_has_its_node_and_line() -> None:
     locator = Locator()
     locator.learn(tree)
     names: dict[str, Any] = {}
-    exec(compile(SOURCE, "actions/Go.py", "exec"), names)
+    exec(compile(SOURCE, "actions/Go.py", "exec"), names)  # noqa: S102 - as the engine loads an action
     frame = names["look"](tree.nodes[0].behaviour, lambda: sys._getframe(1))
     place = locator.place_of(frame)
     assert (place.node_id, place.file, place.line, place.is_in_action) == ("n7", "actions/Go.py", 3, True)

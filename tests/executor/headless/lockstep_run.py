@@ -31,7 +31,7 @@ def main() -> None:
     lockstep._Run._count = note  # type: ignore[method-assign, assignment]
     with contextlib.redirect_stdout(sys.stderr):
         report = run_lockstep(project, LockstepOptions(duration_s=duration_s, seed=seed), watch=watch)
-    print(json.dumps({"report": report.to_json(), "same": report.without_wall_times(), "ticks": ticks}))
+    print(json.dumps({"report": report.to_json(), "same": report.without_wall_times(), "ticks": ticks}))  # noqa: T201 - the result
 
 
 main()

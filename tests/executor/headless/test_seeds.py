@@ -142,7 +142,7 @@ def test_every_seed_seeds_both(seed: int) -> None:
     def draw() -> tuple[float, float]:
         randomness = seed_randomness(seed)
         assert randomness.is_untouched
-        drawn = random.random(), float(np.random.rand())
+        drawn = random.random(), float(np.random.rand())  # noqa: S311
         assert not randomness.is_untouched
         return drawn
 

@@ -42,7 +42,7 @@ def test_an_executable_of_a_package_is_found_or_the_reason_given(
     program = tmp_path / "lib" / "demo" / "talker"
     program.parent.mkdir(parents=True)
     program.write_text("")
-    os.chmod(program, 0o700)
+    os.chmod(program, 0o700)  # noqa: PTH101 - as one reads it in a shell
     assert find_command("demo", "talker", tmp_path / "x", tmp_path / "x") == (str(program),)
 
 

@@ -87,7 +87,7 @@ async def test_a_page_of_another_site_cannot_take_a_manager_over():
 
 
 async def test_without_a_token_it_listens_on_loopback_alone():
-    it = Manager(ManagerSettings(host="0.0.0.0", port=0, programs={}))
+    it = Manager(ManagerSettings(host="0.0.0.0", port=0, programs={}))  # noqa: S104
     with pytest.raises(OSError, match="loopback"):
         await it.start()
     await it.close()

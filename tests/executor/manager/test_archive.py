@@ -126,7 +126,7 @@ def test_no_entry_keeps_the_right_to_be_run_as_another_user(tmp_path):
 
 def test_random_damage_never_breaks_out(tmp_path):
     whole = base64.b64decode(packed(("a/b.py", "x" * 200), ("c", b"y" * 50)))
-    chance = random.Random(7)
+    chance = random.Random(7)  # noqa: S311
     folder = tmp_path / "in"
     for n in range(300):
         broken = bytearray(whole)

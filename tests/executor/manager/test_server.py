@@ -135,9 +135,9 @@ def answered(client):
 
 async def test_random_frames_are_all_answered(monkeypatch):
     monkeypatch.setattr("executor.manager.server.Allowance", lambda now_s: Allowance(now_s, burst=math.inf))
-    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
-    chance = random.Random(seed)
+    chance = random.Random(seed)  # noqa: S311
     frames = count("manager_fuzz_frames")
     values = [None, 1, -1.5, 1e308, "x", "é" * 50, [], {}, [[1]], {"stream": "poses"}, {"speed": 1}, True]
     names = [*COMMANDS, "", "x"]
@@ -172,7 +172,7 @@ async def test_health_is_answered_without_a_token_and_other_paths_do_not_exist()
             request = urllib.request.Request(f"http://127.0.0.1:{it.port}{path}")
             request.add_header("Authorization", f"Bearer {token}")
             try:
-                with urllib.request.urlopen(request) as reply:
+                with urllib.request.urlopen(request) as reply:  # noqa: S310
                     return reply.status, reply.read()
             except urllib.error.HTTPError as error:
                 with error:
@@ -194,7 +194,7 @@ async def test_metrics_have_the_text_format():
         def get():
             request = urllib.request.Request(f"http://127.0.0.1:{client.port}/metrics")
             request.add_header("Authorization", f"Bearer {TOKEN}")
-            with urllib.request.urlopen(request) as reply:
+            with urllib.request.urlopen(request) as reply:  # noqa: S310
                 return reply.headers["Content-Type"], reply.read().decode()
 
         kind, text = await asyncio.to_thread(get)

@@ -152,8 +152,8 @@ async def test_a_page_whose_name_was_made_to_point_here_is_refused():
 
 async def test_it_listens_on_loopback_alone():
     assert all(is_loopback(host) for host in ("127.0.0.1", "::1", "localhost"))
-    assert not any(is_loopback(host) for host in ("0.0.0.0", "10.0.0.1", "example.org"))
-    it = Manager(ManagerSettings(host="0.0.0.0", port=0, programs={}, is_ram=True))
+    assert not any(is_loopback(host) for host in ("0.0.0.0", "10.0.0.1", "example.org"))  # noqa: S104
+    it = Manager(ManagerSettings(host="0.0.0.0", port=0, programs={}, is_ram=True))  # noqa: S104
     with pytest.raises(OSError, match="loopback"):
         await it.start()
     await it.close()
@@ -194,9 +194,9 @@ def test_the_monitor_nests_nodes_by_name():
 
 
 async def test_random_frames_are_all_answered_and_the_client_is_served_still():
-    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)
+    seed = int(os.environ.get("BT_STUDIO_SEED", "0")) or random.randrange(1 << 30)  # noqa: S311
     sys.stdout.write(f"seed {seed}\n")
-    chance = random.Random(seed)
+    chance = random.Random(seed)  # noqa: S311
     names = [
         "connect",
         "launch_world",

@@ -89,7 +89,7 @@ class Play:
                     effects += self.happens(answer)
         return effects
 
-    def answers(self, effect: Effect) -> list[Event]:
+    def answers(self, effect: Effect) -> list[Event]:  # noqa: PLR0911 - one line an effect
         """Yields the answers of obedient children and the manager to an effect."""
         match effect:
             case Tell(message=child_messages.StartWorld()):

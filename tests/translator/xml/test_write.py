@@ -14,7 +14,7 @@ def test_the_main_tree_comes_first_and_the_models_last(make_project):
         trees={"Another": {"n1": LEAF}},
         main_tree="MainTree",
     )
-    root = ElementTree.fromstring(write_document(project))
+    root = ElementTree.fromstring(write_document(project))  # noqa: S314 - our own text
     assert root.get("main_tree_to_execute") == "MainTree"
     assert [child.tag for child in root][-1] == "TreeNodesModel"
     assert {tree.id for tree in ordered_trees(project)} == {"MainTree", "Another"}

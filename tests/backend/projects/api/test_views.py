@@ -54,7 +54,7 @@ def test_an_unknown_template_lists_those_that_exist(api):
 def test_a_list_is_searched_and_sorted(api):
     for name in ("Beta", "alpha", "Gamma ray"):
         api.post("projects", {"name": name}, expect=201)
-    listed = lambda query: [p["name"] for p in api.get(f"projects?{query}")["items"]]
+    listed = lambda query: [p["name"] for p in api.get(f"projects?{query}")["items"]]  # noqa: E731
     assert listed("sort=name") == ["alpha", "Beta", "Gamma ray"]
     assert listed("sort=-name") == ["Gamma ray", "Beta", "alpha"]
     assert listed("sort=-updated_at")[0] == "Gamma ray"

@@ -10,7 +10,7 @@ from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixture
 from tests.backend.accounts.test_sharing import project_of
 
 
-def test_a_member_who_leaves_or_is_lowered_loses_rights(person, django_capture_on_commit_callbacks):
+def test_a_member_who_leaves_or_is_lowered_loses_rights(person, django_capture_on_commit_callbacks):  # noqa: F811
     heard: list[Any] = []
 
     def hear(sender: Any, *, project_id: Any, **_: Any) -> None:

@@ -8,7 +8,7 @@ from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixture
 from tests.backend.accounts.test_sharing import project_of
 
 
-def test_people_and_links_are_listed_with_a_tag_of_their_own(person):
+def test_people_and_links_are_listed_with_a_tag_of_their_own(person):  # noqa: F811
     olga = person("olga")
     person("fred")
     one = project_of(olga)

@@ -11,7 +11,7 @@ from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixture
 from tests.backend.accounts.test_sharing import project_of
 
 
-def test_an_editor_becomes_the_owner_and_the_owner_an_editor(person):
+def test_an_editor_becomes_the_owner_and_the_owner_an_editor(person):  # noqa: F811
     olga, fred = person("olga"), person("fred")
     one = project_of(olga)
     with pytest.raises(InvalidInputError, match="no editor"):

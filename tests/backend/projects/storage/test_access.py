@@ -11,7 +11,7 @@ from tests.backend.accounts.conftest import person, team  # noqa: F401 - fixture
 from tests.backend.accounts.test_sharing import project_of
 
 
-def test_a_stranger_finds_nothing_and_a_viewer_only_reads(person):
+def test_a_stranger_finds_nothing_and_a_viewer_only_reads(person):  # noqa: F811
     olga, fred = person("olga"), person("fred")
     one = project_of(olga)
     with pytest.raises(NotFoundError):

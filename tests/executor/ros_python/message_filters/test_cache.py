@@ -14,7 +14,7 @@ def test_a_cache_answers_by_time() -> None:
     assert (cache.getLast(), cache.getOldestTime()) == (None, None)
     for stamp in (10, 20, 30, 40):
         source.signalMessage(message(stamp))
-    time = lambda ms: Time.from_msg(message(ms).header.stamp)
+    time = lambda ms: Time.from_msg(message(ms).header.stamp)  # noqa: E731
     assert stamps(cache.getInterval(time(15), time(30))) == (20, 30)
     assert stamps([cache.getElemBeforeTime(time(35)), cache.getElemAfterTime(time(35))]) == (30, 40)
     assert cache.getElemBeforeTime(time(15)) is None

@@ -9,10 +9,12 @@ from typing import Any
 
 import pytest
 from asgiref.sync import sync_to_async
+from django.http import HttpResponse
 
 from backend.core import guard
 from backend.ingress import handler
 from backend.ingress.handler import ThreadedHandler
+from backend.workers.deferred import Deferred, Waiting
 from backend.workers.errors import BusyError
 from backend.workers.lanes import Lanes
 from tests.backend.conftest import HOST
@@ -115,3 +117,14 @@ async def test_too_much_work_is_refused_with_when_to_ask_again(one, project, mon
 
 def test_a_handler_that_cannot_wait_gets_whole_answers(api, project):
     assert api.get(f"projects/{project['id']}/xml").startswith(b"<?xml")
+
+
+def test_a_handler_that_cannot_wait_gets_the_answer_itself():
+    class Later:
+        complete = staticmethod(lambda _: HttpResponse(b"done"))
+
+    later: Any = type("Later", (Deferred,), {"__init__": lambda self: None, "complete": Later.complete})()
+    request: Any = type("Request", (), {})()
+    assert Waiting(lambda _: later)(request).getvalue() == b"done"
+    request.handler_waits = True
+    assert Waiting(lambda _: later)(request) is later

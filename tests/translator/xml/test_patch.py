@@ -7,6 +7,8 @@ from dataclasses import replace
 import pytest
 
 from translator import Node, Tree, from_xml, to_xml
+from translator.export import source_documents
+from translator.xml.patch import patch_document
 
 TEXT = """<?xml version="1.0"?>
 <!-- head -->
@@ -108,3 +110,9 @@ def test_another_root(imported):
     again = from_xml(to_xml(project.with_tree(replace(wrapped, nodes=nodes, root="w"))))
     assert [node.type for node in again.main.walk()] == ["Inverter", "Sequence", "Foo", "AlwaysSuccess"]
     assert "<!-- first -->" in to_xml(project.with_tree(replace(wrapped, nodes=nodes, root="w")))
+
+
+def test_a_document_that_nothing_changed_in_stays_byte_for_byte(imported):
+    project, _ = imported
+    [document] = source_documents(project)
+    assert patch_document(document, project, added=[], main=None) == project.files[document.file]

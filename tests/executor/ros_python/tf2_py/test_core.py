@@ -263,3 +263,12 @@ def test_an_unregistered_type_is_reported() -> None:
     thing = stamped("base", "x", plain(0))
     with pytest.raises(TypeException, match="not loaded or supported"):
         buffer.transform(thing, "map")
+
+
+def test_frames_are_known_once_they_are_heard() -> None:
+    from tf2_py.core import BufferCore
+
+    core = BufferCore()
+    assert not core.can_transform_core("map", "base", Time())[0]
+    core.set_transform(stamped("map", "base", plain(1.0)), "test")
+    assert core.can_transform_core("map", "base", Time())[0]

@@ -11,6 +11,7 @@ from executor.render.gl import GlRenderer
 from executor.render.tiny import TinyRenderer
 from executor.universes import UniverseError, load_builtin, parse_universe
 from executor.world.physics.bullet import BulletWorld
+from executor.world.physics.ceiling import ceiling_of
 
 HEAD = "format: bt-studio/universe\nversion: 1\nname: test\n"
 CEILING = 'ceiling: {height: 2.4, color: "#ffffff"}\n'
@@ -130,3 +131,8 @@ def test_without_anything_that_stands_there_is_none() -> None:
     world = world_of(CEILING)
     assert all(o.body != "ceiling" for o in world.scene.objects)
     world.close()
+
+
+def test_a_universe_without_a_ceiling_has_none() -> None:
+    plain = parse_universe("format: bt-studio/universe\nversion: 1\nname: x\n")
+    assert ceiling_of(plain) is None

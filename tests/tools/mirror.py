@@ -18,6 +18,8 @@ import sys
 from pathlib import Path
 from typing import Final
 
+from tests.tools import shrinking
+
 ROOT: Final = Path(__file__).resolve().parents[2]
 LIST: Final = Path(__file__).with_name("unmirrored.txt")
 PACKAGES: Final = ("backend", "executor", "translator", "tree_gardener")
@@ -129,23 +131,15 @@ def unmirrored() -> list[str]:
     return sorted(str(path.relative_to(ROOT)) for path in modules if not is_mirrored(path))
 
 
-def listed() -> list[str]:
-    """Returns the modules that are known to have none."""
-    return LIST.read_text(encoding="utf-8").split()
-
-
 def main(arguments: list[str]) -> int:
     """Compares, or writes the list; returns 1 where they differ."""
-    found, known = unmirrored(), listed() if LIST.exists() else []
-    if "--write" in arguments and (len(found) <= len(known) or not known):
-        LIST.write_text("".join(f"{path}\n" for path in found), encoding="utf-8")
-        return 0
-    new, covered = sorted(set(found) - set(known)), sorted(set(known) - set(found))
-    for path in new:
-        print(f"{path}: has no test file of its own that imports it and asserts")
-    for path in covered:
-        print(f"{path}: is gone or has its test file now; run `python -m tests.tools.mirror --write`")
-    return 1 if new or covered else 0
+    return shrinking.compare(
+        unmirrored(),
+        LIST,
+        arguments,
+        new="has no test file of its own that imports it and asserts",
+        gone="is gone or has its test file now; run `python -m tests.tools.mirror --write`",
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What is written of a project: XML, the imported files, one file with all sources."""
+"""Exports of a project: XML, the imported files, one file with all sources."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files of tools are told from those of a project."""
+"""Files of tools are distinguished from those of a project."""
 
 from __future__ import annotations
 

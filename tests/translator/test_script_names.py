@@ -6,7 +6,7 @@ from translator.limits import SCRIPT_CHARACTERS
 from translator.script_names import MAX_INTEGER, integers_too_large, script_names
 
 
-def test_names_that_are_read_and_written_are_told_apart() -> None:
+def test_names_that_are_read_and_written_are_distinguished() -> None:
     names = script_names("x := a + b; y := x; x += 1")
     assert set(names.written) == {"x", "y"}
     assert {"a", "b"} <= set(names.read)

@@ -1,4 +1,4 @@
-"""What the builder of a tree gives to its nodes."""
+"""Constants, ports and problems of the builder of a tree."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What nodes know of themselves."""
+"""Places and kinds of nodes."""
 
 from __future__ import annotations
 

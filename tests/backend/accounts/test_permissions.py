@@ -1,4 +1,4 @@
-"""What is checked before every view."""
+"""Checks before every view."""
 
 from __future__ import annotations
 

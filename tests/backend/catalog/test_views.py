@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from backend.catalog import views
 from backend.catalog.queries import NODES, OUTSIDE
 from backend.config.environment import REPOSITORY
 
@@ -71,3 +72,11 @@ def test_templates_are_the_empty_project_and_the_examples(api):
 def test_a_folder_without_examples_leaves_the_empty_project(api, settings_of, tmp_path):
     settings_of(templates_dir=tmp_path / "none")
     assert [item["id"] for item in api.get("catalog/templates")["items"]] == ["empty"]
+
+
+def test_every_view_of_the_catalogue_only_reads():
+    found = [
+        view for view in vars(views).values() if isinstance(view, type) and view.__module__ == views.__name__
+    ]
+    assert len(found) > 5
+    assert all(not hasattr(view, "post") and hasattr(view, "get") for view in found)

@@ -1,4 +1,4 @@
-"""What the verbs of trees share."""
+"""Shared functions of the verbs of trees."""
 
 from __future__ import annotations
 

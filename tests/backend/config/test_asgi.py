@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from backend.config import asgi
 
 
@@ -14,7 +16,7 @@ async def test_a_request_goes_through_the_guard():
     async def send(message):
         sent.append(message)
 
-    scope = {
+    scope: Any = {
         "type": "http",
         "method": "GET",
         "path": "/health/live",

@@ -1,4 +1,4 @@
-"""What a language server knows of the packages around a project."""
+"""The packages around a project, for a language server."""
 
 from __future__ import annotations
 

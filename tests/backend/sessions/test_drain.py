@@ -12,7 +12,7 @@ from backend.sessions import writes as session_writes
 from tests.backend.accounts.test_sharing import project_of
 
 
-def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkeypatch):
+def test_before_an_upgrade_no_robot_starts_and_users_learn_why(person, monkeypatch):
     monkeypatch.setattr(session_writes, "workers", type("Idle", (), {"submit": lambda *_: None}))
     ada, olga = person("ada", is_admin=True), person("olga")
     running, waiting = project_of(olga), project_of(olga, "Later")
@@ -27,7 +27,7 @@ def test_before_an_upgrade_no_robot_starts_and_users_are_told_why(person, monkey
     assert b"Back at 15:00." in ada.page("/admin/executor_sessions/session/").content
     refused = olga.post(f"projects/{waiting}/session", expect=503)
     assert (refused["code"], refused["hint"]) == ("draining", "Back at 15:00.")
-    olga.post(f"projects/{running}/session")  # what runs goes on
+    olga.post(f"projects/{running}/session")  # it continues
     assert session_writes.start_queued() == 0
     assert drain.text().endswith("those that run continue. Back at 15:00.")
     told: list[Any] = []

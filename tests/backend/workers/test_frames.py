@@ -30,7 +30,7 @@ def test_an_end_and_a_message_that_is_too_large_are_errors(monkeypatch: pytest.M
             receive(other)
 
 
-def test_a_time_that_is_over_is_told_from_an_end() -> None:
+def test_a_time_that_is_over_is_distinguished_from_an_end() -> None:
     one, other = socket.socketpair()
     with one, other:
         other.settimeout(0.01)

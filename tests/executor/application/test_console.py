@@ -1,4 +1,4 @@
-"""What actions print, line by line."""
+"""Output of actions, line by line."""
 
 from __future__ import annotations
 

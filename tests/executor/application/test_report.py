@@ -1,4 +1,4 @@
-"""What the application reports of its tree."""
+"""Reports of the application about its tree."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a step of the session waits for."""
+"""Conditions that a step of the session waits for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A physics server of one's own."""
+"""Each physics server is separate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tests of single checks share."""
+"""Shared by the tests of single checks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Case = tuple[str, Any, str]
 
 
 def findings(one: Callable[[Context], None], project: Project) -> list[Diagnostic]:
-    """What one check alone finds in a project."""
+    """The findings of one check alone."""
     context = Context(project)
     one(context)
     return located(context.found, project)

@@ -31,7 +31,7 @@ def test_the_example_is_a_name_of_an_action() -> None:
     assert example_name([]) == ""
 
 
-def test_names_that_are_made_while_it_runs_are_told_with_their_line() -> None:
+def test_names_that_are_made_while_it_runs_are_listed_with_their_line() -> None:
     [sentence] = unknown_names([endpoint("f'{x}'", known=False)])
     assert sentence.startswith("actions/Go.py, line 3: publishes")
 

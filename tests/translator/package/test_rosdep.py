@@ -14,7 +14,7 @@ def test_a_key_is_found_by_the_longest_beginning() -> None:
     assert table.key_of("no_such_module") is None
 
 
-def test_what_an_action_imports_is_needed_and_what_nobody_knows_is_told_once() -> None:
+def test_what_an_action_imports_is_needed_and_what_nobody_knows_is_reported_once() -> None:
     source = "import json, numpy, nothing_known\nimport nothing_known.more\nimport helper\n"
     model = inspect_action(source + "class Go: pass\n", "actions/Go.py")
     keys, found = dependencies([model], {"helper"})

@@ -1,4 +1,4 @@
-"""Who asks, for DRF."""
+"""The user of a request, for DRF."""
 
 from __future__ import annotations
 

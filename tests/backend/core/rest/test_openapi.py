@@ -1,4 +1,4 @@
-"""What every operation of the document has in common."""
+"""Parts of the document that every operation has in common."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What requests may say."""
+"""Contents of requests."""
 
 from __future__ import annotations
 

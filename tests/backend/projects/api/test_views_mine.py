@@ -1,4 +1,4 @@
-"""What a user has on the server."""
+"""A user's own room and data."""
 
 from __future__ import annotations
 

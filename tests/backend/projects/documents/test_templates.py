@@ -1,4 +1,4 @@
-"""What new projects start from."""
+"""Templates of new projects."""
 
 from __future__ import annotations
 

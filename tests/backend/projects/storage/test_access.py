@@ -1,4 +1,4 @@
-"""What someone may do with a project."""
+"""Rights in a project."""
 
 from __future__ import annotations
 

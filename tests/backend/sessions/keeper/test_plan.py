@@ -1,4 +1,4 @@
-"""What a container may do."""
+"""Rights and limits of a container."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ import pytest
 
 from backend.sessions.errors import LaunchError
 from backend.sessions.launchers.base import UNKNOWN_EXIT
+from backend.sessions.launchers.process import ProcessLauncher
 from tests.backend.sessions.conftest import children, spec
 
 
@@ -110,3 +111,9 @@ def test_a_killed_manager_is_seen_with_its_signal(launcher_of):
     os.kill(state["pid"], signal.SIGKILL)
     os.waitid(os.P_PID, state["pid"], os.WEXITED | os.WNOWAIT)
     assert launcher.poll(state) == -signal.SIGKILL
+
+
+def test_it_says_that_its_executors_end_with_the_server(launcher_of):
+    launcher = launcher_of("echo")
+    assert isinstance(launcher, ProcessLauncher)
+    assert (launcher.name, launcher.survives_server) == ("process", False)

@@ -6,7 +6,7 @@ from rclpy.time import Time
 from tests.executor.ros_python.tf2_py.test_core import at, plain, stamped
 
 
-def test_a_transform_is_found_or_the_reason_is_told() -> None:
+def test_a_transform_is_found_or_the_error_says_why() -> None:
     from tf2_ros import LookupException
     from tf2_ros.buffer import Buffer
 

@@ -50,7 +50,7 @@ class Small(parent.Parent):
     def _note_ready(self):
         self.ready += 1
 
-    def _make_pool(self, folder):
+    def _make_pool(self, folder):  # type: ignore[override]
         return self._child(folder, POOL, "pool", self._pool_lines)
 
     def _worker(self, folder, number):

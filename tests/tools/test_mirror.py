@@ -6,6 +6,8 @@ import pytest
 
 from tests.tools import mirror
 
+ERROR = "class E(Exception):\n    def __init__(self, a):\n        super().__init__(a)\n        self.a = a\n"
+
 
 def test_every_module_has_a_test_file_or_is_on_the_list(capsys):
     assert mirror.main([]) == 0, capsys.readouterr().out
@@ -44,10 +46,7 @@ def test_what_a_package_exports_counts_for_the_module_that_defines_it(tmp_path, 
     ("source", "is_declaration"),
     [
         ("X = 5\nclass A:\n    x: int = 3\n", True),
-        (
-            "class E(Exception):\n    def __init__(self, a):\n        super().__init__(a)\n        self.a = a\n",
-            True,
-        ),
+        (ERROR, True),
         ("class P(Protocol):\n    def go(self) -> int: ...\n", True),
         ("class B:\n    def go(self):\n        raise NotImplementedError\n", True),
         ("class A:\n    @property\n    def x(self):\n        return self._x\n", True),

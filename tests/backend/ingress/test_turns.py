@@ -65,7 +65,7 @@ async def test_a_rest_is_waited_for(turns, monkeypatch):
         await sleep(0)
 
     turns.spend("eve", 0.2)
-    monkeypatch.setattr(module.asyncio, "sleep", told)
+    monkeypatch.setattr(asyncio, "sleep", told)
     async with turns.turn("eve"):
         pass
     assert rests == [pytest.approx(0.2)]

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.catalog import library, queries
 from backend.catalog import serializers as s
 from backend.core.problems import NotFoundError
@@ -33,100 +35,77 @@ class Nodes(APIView):
         return Response(queries.nodes())
 
 
-class Universes(APIView):
-    """Built-in worlds."""
+class Universes(ResourceViewSet):
+    """Built-in universes."""
 
+    lookup_url_kwarg = "universe_id"
     open_to_guests = True
 
     @extend_schema(operation_id="list_universes", responses=s.EntryListSerializer, tags=["catalog"])
-    def get(self, request: Request) -> Response:
+    def list(self, request: Request) -> Response:
         """Every built-in universe."""
         return Response({"items": queries.universes()})
-
-
-class UniversePreview(APIView):
-    """The picture of a built-in universe."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_universe_preview",
         responses={(200, "image/webp"): OpenApiTypes.BINARY},
         tags=["catalog"],
     )
-    def get(self, request: Request, universe_id: str) -> HttpResponse:
+    @action(detail=True)
+    def preview(self, request: Request, universe_id: str) -> HttpResponse:
         """A picture of 480 by 270 pixels."""
         return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
-
-
-class UniverseText(APIView):
-    """The source of a built-in universe."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_universe_text",
         responses={(200, "application/yaml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, universe_id: str) -> HttpResponse:
+    @action(detail=True)
+    def text(self, request: Request, universe_id: str) -> HttpResponse:
         """Its YAML, to make a project's own of."""
         path = queries.universe_text(universe_id)
         return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
 
 
-class Robots(APIView):
+class Robots(ResourceViewSet):
     """Built-in robots."""
 
+    lookup_url_kwarg = "robot_id"
     open_to_guests = True
 
     @extend_schema(operation_id="list_robots", responses=s.EntryListSerializer, tags=["catalog"])
-    def get(self, request: Request) -> Response:
+    def list(self, request: Request) -> Response:
         """Every built-in robot."""
         return Response({"items": queries.robots()})
-
-
-class RobotPreview(APIView):
-    """The picture of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_preview",
         responses={(200, "image/webp"): OpenApiTypes.BINARY},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
+    @action(detail=True)
+    def preview(self, request: Request, robot_id: str) -> HttpResponse:
         """A picture of 480 by 270 pixels."""
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
-
-
-class RobotConfig(APIView):
-    """The drive and the sensors of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_config",
         responses={(200, "application/yaml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
+    @action(detail=True)
+    def config(self, request: Request, robot_id: str) -> HttpResponse:
         """Its `robot.yaml`, to make a project's own of."""
         return _text(queries.robot_config(robot_id), "application/yaml", f"There is no robot {robot_id!r}.")
-
-
-class RobotUrdf(APIView):
-    """The description of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_urdf",
         responses={(200, "text/xml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
+    @action(detail=True)
+    def urdf(self, request: Request, robot_id: str) -> HttpResponse:
         """Its URDF, to draw it."""
         return _text(queries.robot_urdf(robot_id), "text/xml", f"There is no robot {robot_id!r}.")
 

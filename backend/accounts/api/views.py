@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from django.db import transaction
 from drf_spectacular.utils import extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
@@ -13,6 +14,7 @@ from backend import __version__
 from backend.accounts import groups, invitations
 from backend.accounts.api import serializers as s
 from backend.accounts.api.requests import parsed, user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.config.environment import environment
 
 if TYPE_CHECKING:
@@ -52,11 +54,14 @@ def _role(user: User) -> str:
     return "administrator" if user.is_superuser else "teacher" if user.is_teacher else "user"
 
 
-class Groups(APIView):
+class Groups(ResourceViewSet):
     """Groups such as classes."""
 
+    lookup_url_kwarg = "group_id"
+    lookup_value_converter = "uuid"
+
     @extend_schema(operation_id="list_groups", responses=s.GroupListSerializer, tags=["accounts"])
-    def get(self, request: Request) -> Response:
+    def list(self, request: Request) -> Response:
         """Those that the user made or is in."""
         user = user_of(request)
         return Response({"items": [groups.presented(row, user=user) for row in groups.groups_of(user)]})
@@ -68,19 +73,15 @@ class Groups(APIView):
         tags=["accounts"],
     )
     @transaction.atomic  # with what the answer reads
-    def post(self, request: Request) -> Response:
+    def create(self, request: Request) -> Response:
         """Makes a group; for teachers."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
         made = groups.create(asked["name"], acting_user=user)
         return Response(groups.presented(made, user=user), status=201)
 
-
-class OneGroup(APIView):
-    """One group."""
-
     @extend_schema(operation_id="get_group", responses=s.GroupSerializer, tags=["accounts"])
-    def get(self, request: Request, group_id: UUID) -> Response:
+    def retrieve(self, request: Request, group_id: UUID) -> Response:
         """The group; its managers also get the members and invitations."""
         user = user_of(request)
         return Response(groups.presented(groups.group(group_id, user=user), user=user))
@@ -92,7 +93,7 @@ class OneGroup(APIView):
         tags=["accounts"],
     )
     @transaction.atomic  # with what the answer reads
-    def patch(self, request: Request, group_id: UUID) -> Response:
+    def partial_update(self, request: Request, group_id: UUID) -> Response:
         """Gives the group another name."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
@@ -100,24 +101,17 @@ class OneGroup(APIView):
         return Response(groups.presented(found, user=user))
 
     @extend_schema(operation_id="delete_group", responses={204: None}, tags=["accounts"])
-    def delete(self, request: Request, group_id: UUID) -> Response:
+    def destroy(self, request: Request, group_id: UUID) -> Response:
         """Removes the group; accounts and projects stay."""
         groups.delete(group_id, acting_user=user_of(request))
         return Response(status=204)
 
-
-class Member(APIView):
-    """One person in a group."""
-
     @extend_schema(operation_id="remove_group_member", responses={204: None}, tags=["accounts"])
-    def delete(self, request: Request, group_id: UUID, username: str) -> Response:
+    @action(detail=True, methods=["delete"], url_path="members/<str:username>")
+    def remove_member(self, request: Request, group_id: UUID, username: str) -> Response:
         """Takes someone out, or leaves."""
         groups.remove_member(group_id, username, acting_user=user_of(request))
         return Response(status=204)
-
-
-class GroupInvitations(APIView):
-    """Links into a group."""
 
     @extend_schema(
         operation_id="invite_to_group",
@@ -125,8 +119,9 @@ class GroupInvitations(APIView):
         responses={201: s.InvitationSerializer},
         tags=["accounts"],
     )
+    @action(detail=True, methods=["post"], url_path="invitations")
     @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, group_id: UUID) -> Response:
+    def invite(self, request: Request, group_id: UUID) -> Response:
         """Makes a link by which people make accounts and join."""
         asked = parsed(s.InviteSerializer, request.data)
         user = user_of(request)

@@ -10,11 +10,12 @@ from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.parsers import BaseParser, MultiPartParser
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.problems import InvalidInputError
 from backend.core.rest.openapi import IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
@@ -68,89 +69,12 @@ def packaged(made: dict[str, Any]) -> HttpResponse:
     return zipped(made["name"], made)
 
 
-class File(APIView):
-    """One file as it is."""
-
-    @extend_schema(
-        operation_id="download_file",
-        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
-        """The bytes of a current file."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return file_response(queries.current_file(project, names.file_path(path)))
-
-
 def file_response(file: queries.StoredFile) -> HttpResponse:
     """A stored file with its revision in the ETag."""
     response = download(file.data, "application/octet-stream", file.path.rpartition("/")[2])
     response.headers["ETag"] = f'"{file.sha256}"'
     response.headers["X-Revision"] = str(file.revision)
     return response
-
-
-class Xml(APIView):
-    """The tree as XML."""
-
-    @extend_schema(
-        operation_id="get_xml",
-        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
-        responses={(200, "text/xml"): OpenApiTypes.STR},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return checking.answered(
-            self,
-            request,
-            "xml",
-            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
-            files=queries.contents(project),
-            self_contained=flag(request, "self_contained"),
-        )
-
-
-class Export(APIView):
-    """The project folder as a zip."""
-
-    expensive = ("GET",)
-
-    @extend_schema(
-        operation_id="export_project",
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The current files as a zip; the same revision gives the same bytes."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
-        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
-
-
-class Package(APIView):
-    """The exported package."""
-
-    expensive = ("GET",)
-
-    @extend_schema(
-        operation_id="get_package",
-        parameters=[
-            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
-            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
-        ],
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
-        if flag(request, "dockerized"):
-            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
-        name = request.query_params.get("name") or None
-        return checking.answered(self, request, "package", packaged, files=files, name=name)
 
 
 class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
@@ -167,23 +91,6 @@ class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
     files = PackageFileSerializer(many=True)
     manifest = serializers.CharField(help_text="package.xml, with the dependencies.")
     diagnostics = s.DiagnosticSerializer(many=True)
-
-
-class PackagePreview(APIView):
-    """The list of files of an export."""
-
-    @extend_schema(
-        operation_id="preview_package",
-        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
-        responses=PackagePreviewSerializer,
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The files of the ROS 2 package, before it is downloaded."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        name = request.query_params.get("name") or None
-        files = queries.contents(project)
-        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
 
 
 class UploadSerializer(serializers.Serializer[dict[str, object]]):
@@ -205,11 +112,86 @@ class RawFile(BaseParser):
         return {}
 
 
-class Import(APIView):
-    """The way back."""
+class ProjectFiles(ResourceViewSet):
+    """Downloads of a project in several forms, and the import of one."""
 
-    parser_classes = (MultiPartParser, RawFile)
-    expensive = ("POST",)
+    lookup_url_kwarg = "project_id"
+    lookup_value_converter = "uuid"
+
+    @extend_schema(
+        operation_id="download_file",
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, url_path="files/<path:path>")
+    def download_file(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
+        """The bytes of a current file."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return file_response(queries.current_file(project, names.file_path(path)))
+
+    @extend_schema(
+        operation_id="get_xml",
+        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    @action(detail=True)
+    def xml(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return checking.answered(
+            self,
+            request,
+            "xml",
+            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
+            files=queries.contents(project),
+            self_contained=flag(request, "self_contained"),
+        )
+
+    @extend_schema(
+        operation_id="export_project",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, expensive=("GET",))
+    def export(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The current files as a zip; the same revision gives the same bytes."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
+
+    @extend_schema(
+        operation_id="get_package",
+        parameters=[
+            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
+            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
+        ],
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, expensive=("GET",))
+    def package(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        if flag(request, "dockerized"):
+            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
+        name = request.query_params.get("name") or None
+        return checking.answered(self, request, "package", packaged, files=files, name=name)
+
+    @extend_schema(
+        operation_id="preview_package",
+        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
+        responses=PackagePreviewSerializer,
+        tags=["files"],
+    )
+    @action(detail=True, url_path="package/preview")
+    def package_preview(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """The files of the ROS 2 package, before it is downloaded."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        name = request.query_params.get("name") or None
+        files = queries.contents(project)
+        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
 
     @extend_schema(
         operation_id="import_project",
@@ -224,7 +206,14 @@ class Import(APIView):
         responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
         tags=["files"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
+    @action(
+        detail=False,
+        methods=["post"],
+        url_path="import",
+        parser_classes=(MultiPartParser, RawFile),
+        expensive=("POST",),
+    )
+    def import_project(self, request: Request) -> HttpResponseBase:
         """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
 
         The file may be the body itself, and then as large as the user has room; a form has a request's bound.

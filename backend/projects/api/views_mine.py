@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import parsed, user_of
 from backend.accounts.api.serializers import DeleteMeSerializer
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.accounts.audit import note
 from backend.accounts.writes import delete_account
 from backend.config.environment import environment
@@ -34,26 +35,22 @@ class UsageSerializer(serializers.Serializer[Any]):
     max_bytes = serializers.IntegerField()
 
 
-class Usage(APIView):
-    """The space that the user's projects take."""
+class Mine(ResourceViewSet):
+    """The data of the user on this server."""
 
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
-    def get(self, request: Request) -> Response:
+    @action(detail=False)
+    def usage(self, request: Request) -> Response:
         """Projects and bytes, with their limits."""
         return Response(usage.usage(user_of(request)))
-
-
-class MyData(APIView):
-    """Everything of one user."""
-
-    expensive = ("GET",)
 
     @extend_schema(
         operation_id="export_my_data",
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
         tags=["accounts"],
     )
-    def get(self, request: Request) -> HttpResponseBase:
+    @action(detail=False, expensive=("GET",))
+    def data(self, request: Request) -> HttpResponseBase:
         """The account, its log and its projects, as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
@@ -66,7 +63,8 @@ class MyData(APIView):
         responses={204: None},
         tags=["accounts"],
     )
-    def delete(self, request: Request) -> Response:
+    @data.mapping.delete
+    def delete_data(self, request: Request) -> Response:
         """Deletes the account with all its projects, for good; the body is `{"username": one's own name}`."""
         user = user_of(request)
         if not environment().is_team:

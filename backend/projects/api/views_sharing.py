@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 from django.db import transaction
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.requests import if_match, parsed, user_of
 from backend.accounts.api.serializers import PersonSerializer
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.rest.openapi import IF_MATCH
 from backend.projects.choices import SHARED_ROLES, Role
 from backend.projects.sharing import memberships, transfer
@@ -89,11 +91,11 @@ def _answer(project: Project, status: int = 200) -> Response:
     return Response(document, status=status, headers={"ETag": memberships.etag(document)})
 
 
-class Shares(APIView):
-    """With whom a project is shared."""
+class Shares(ResourceViewSet):
+    """The people, groups and links that a project is shared with."""
 
     @extend_schema(operation_id="get_shares", responses=SharesSerializer, tags=["sharing"])
-    def get(self, request: Request, project_id: UUID) -> Response:
+    def list(self, request: Request, project_id: UUID) -> Response:
         """People, groups and links; for the owner."""
         return _answer(queries.project(project_id, user=user_of(request), need=Need.MANAGE))
 
@@ -101,11 +103,11 @@ class Shares(APIView):
         operation_id="share_with_person",
         parameters=[IF_MATCH],
         request=SharePersonSerializer,
-        responses=SharesSerializer,
+        responses={200: SharesSerializer},
         tags=["sharing"],
     )
     @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, project_id: UUID) -> Response:
+    def create(self, request: Request, project_id: UUID) -> Response:
         """Gives someone a role, or another one."""
         asked = parsed(SharePersonSerializer, request.data)
         role = Role[asked["role"].upper()]
@@ -113,6 +115,70 @@ class Shares(APIView):
         return _answer(
             memberships.share_with_person(project_id, asked["name"], role, acting_user=user, if_match=tag)
         )
+
+    @extend_schema(
+        operation_id="unshare_with_person", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
+    )
+    @action(detail=False, methods=["delete"], url_path="people/<str:username>")
+    def unshare_with_person(self, request: Request, project_id: UUID, username: str) -> Response:
+        """Takes their role away; one's own is given up."""
+        user, tag = user_of(request), if_match(request)
+        memberships.unshare_with_person(project_id, username, acting_user=user, if_match=tag)
+        return Response(status=204)
+
+    @extend_schema(
+        operation_id="share_with_group",
+        parameters=[IF_MATCH],
+        request=SharedRoleSerializer,
+        responses=SharesSerializer,
+        tags=["sharing"],
+    )
+    @action(detail=False, methods=["put"], url_path="groups/<uuid:group_id>")
+    @transaction.atomic  # with what the answer reads
+    def share_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
+        """Gives everybody in the group a role."""
+        role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
+        user, tag = user_of(request), if_match(request)
+        return _answer(
+            memberships.share_with_group(project_id, group_id, role, acting_user=user, if_match=tag)
+        )
+
+    @extend_schema(
+        operation_id="unshare_with_group", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
+    )
+    @share_with_group.mapping.delete
+    def unshare_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
+        """Takes the role of the group away."""
+        user, tag = user_of(request), if_match(request)
+        memberships.unshare_with_group(project_id, group_id, acting_user=user, if_match=tag)
+        return Response(status=204)
+
+    @extend_schema(
+        operation_id="make_share_link",
+        parameters=[IF_MATCH],
+        request=MakeLinkSerializer,
+        responses={201: SharesSerializer},
+        tags=["sharing"],
+    )
+    @action(detail=False, methods=["post"], url_path="links")
+    @transaction.atomic  # with what the answer reads
+    def make_link(self, request: Request, project_id: UUID) -> Response:
+        """Makes a link by which anybody may read the project."""
+        asked = parsed(MakeLinkSerializer, request.data)
+        user, tag = user_of(request), if_match(request)
+        return _answer(
+            memberships.make_link(project_id, acting_user=user, days=asked["days"], if_match=tag), 201
+        )
+
+    @extend_schema(
+        operation_id="revoke_share_link", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
+    )
+    @action(detail=False, methods=["delete"], url_path="links/<uuid:link_id>")
+    def revoke_link(self, request: Request, project_id: UUID, link_id: UUID) -> Response:
+        """Ends the link at once, also for those who opened it."""
+        user, tag = user_of(request), if_match(request)
+        memberships.revoke_link(project_id, link_id, acting_user=user, if_match=tag)
+        return Response(status=204)
 
 
 class Transfer(APIView):
@@ -131,78 +197,3 @@ class Transfer(APIView):
         asked = parsed(TransferSerializer, request.data)
         user, tag = user_of(request), if_match(request)
         return _answer(transfer.transfer_project(project_id, asked["name"], acting_user=user, if_match=tag))
-
-
-class SharedPerson(APIView):
-    """One person."""
-
-    @extend_schema(
-        operation_id="unshare_with_person", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
-    )
-    def delete(self, request: Request, project_id: UUID, username: str) -> Response:
-        """Takes their role away; one's own is given up."""
-        user, tag = user_of(request), if_match(request)
-        memberships.unshare_with_person(project_id, username, acting_user=user, if_match=tag)
-        return Response(status=204)
-
-
-class SharedGroup(APIView):
-    """One group."""
-
-    @extend_schema(
-        operation_id="share_with_group",
-        parameters=[IF_MATCH],
-        request=SharedRoleSerializer,
-        responses=SharesSerializer,
-        tags=["sharing"],
-    )
-    @transaction.atomic  # with what the answer reads
-    def put(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Gives everybody in the group a role."""
-        role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
-        user, tag = user_of(request), if_match(request)
-        return _answer(
-            memberships.share_with_group(project_id, group_id, role, acting_user=user, if_match=tag)
-        )
-
-    @extend_schema(
-        operation_id="unshare_with_group", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
-    )
-    def delete(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Takes the role of the group away."""
-        user, tag = user_of(request), if_match(request)
-        memberships.unshare_with_group(project_id, group_id, acting_user=user, if_match=tag)
-        return Response(status=204)
-
-
-class Links(APIView):
-    """Read-only links."""
-
-    @extend_schema(
-        operation_id="make_share_link",
-        parameters=[IF_MATCH],
-        request=MakeLinkSerializer,
-        responses={201: SharesSerializer},
-        tags=["sharing"],
-    )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, project_id: UUID) -> Response:
-        """Makes a link by which anybody may read the project."""
-        asked = parsed(MakeLinkSerializer, request.data)
-        user, tag = user_of(request), if_match(request)
-        return _answer(
-            memberships.make_link(project_id, acting_user=user, days=asked["days"], if_match=tag), 201
-        )
-
-
-class OneLink(APIView):
-    """One link."""
-
-    @extend_schema(
-        operation_id="revoke_share_link", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
-    )
-    def delete(self, request: Request, project_id: UUID, link_id: UUID) -> Response:
-        """Ends the link at once, also for those who opened it."""
-        user, tag = user_of(request), if_match(request)
-        memberships.revoke_link(project_id, link_id, acting_user=user, if_match=tag)
-        return Response(status=204)

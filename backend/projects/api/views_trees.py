@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import parsed
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.limits import LIMITS
 from backend.projects.api import serializers as s
 from backend.projects.documents import checking
@@ -67,11 +68,8 @@ class ReadTreeDoneSerializer(TreeTextSerializer):
     diagnostics = s.DiagnosticSerializer(many=True)
 
 
-class TreeXml(APIView):
-    """A tree as text; who may read a project may read its trees so."""
-
-    open_to_guests = True
-    guests_post = True
+class Trees(ResourceViewSet):
+    """Trees as diagram and as text; nothing is stored."""
 
     @extend_schema(
         operation_id="write_tree_xml",
@@ -79,14 +77,12 @@ class TreeXml(APIView):
         responses=TreeTextSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
+    # Users who may read a project may also read its trees as text: with POST, since a diagram is long.
+    @action(detail=False, methods=["post"], open_to_guests=True, guests_post=True)
+    def xml(self, request: Request) -> HttpResponseBase:
         """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
         asked = parsed(WriteTreeSerializer, request.data)
         return checking.answered(self, request, "write_tree", Response, **asked)
-
-
-class TreeDiagram(APIView):
-    """A text as tree."""
 
     @extend_schema(
         operation_id="read_tree_xml",
@@ -94,7 +90,8 @@ class TreeDiagram(APIView):
         responses=ReadTreeDoneSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
+    @action(detail=False, methods=["post"])
+    def diagram(self, request: Request) -> HttpResponseBase:
         """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
         asked = parsed(ReadTreeSerializer, request.data)
         return checking.answered(self, request, "read_tree", Response, **asked)

@@ -1,4 +1,4 @@
-"""The audit log. Nothing is written on localhost, where there is one user."""
+"""The audit log. It is empty on localhost, where there is one user."""
 
 from __future__ import annotations
 
@@ -56,6 +56,9 @@ def note(
 
 
 def forget_old(now: datetime) -> int:
-    """Removes ended sign-ins, and entries older than `BT_STUDIO_AUDIT_DAYS`; returns how many of these."""
+    """Removes expired sign-ins, and old entries; returns the number of these.
+
+    Entries are kept for `BT_STUDIO_AUDIT_DAYS`.
+    """
     Session.objects.filter(expire_date__lt=now).delete()
     return AuditEntry.objects.filter(at__lt=now - timedelta(days=environment().audit_days)).delete()[0]

@@ -31,7 +31,7 @@ lessened = Signal()
 
 
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
-    """Announces it for one user, or for everybody in one project, after the transaction is committed."""
+    """Sends a notice for one user, or for everybody in one project, after the transaction."""
     if environment().is_team:
         # Robust: the commit stands, also when the notice cannot be sent.
         transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)

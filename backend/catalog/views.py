@@ -1,4 +1,4 @@
-"""The catalogue over HTTP."""
+"""Views of the catalogue."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Nodes(APIView):
 
     @extend_schema(operation_id="list_nodes", responses=s.NodesSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """Every built-in node with its ports."""
+        """Lists every built-in node with its ports."""
         return Response(queries.nodes())
 
 
@@ -43,7 +43,7 @@ class Universes(ResourceViewSet):
 
     @extend_schema(operation_id="list_universes", responses=s.EntryListSerializer, tags=["catalog"])
     def list(self, request: Request) -> Response:
-        """Every built-in universe."""
+        """Lists every built-in universe."""
         return Response({"items": queries.universes()})
 
     @extend_schema(
@@ -53,7 +53,7 @@ class Universes(ResourceViewSet):
     )
     @action(detail=True)
     def preview(self, request: Request, universe_id: str) -> HttpResponse:
-        """A picture of 480 by 270 pixels."""
+        """Returns a picture of 480 by 270 pixels."""
         return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
 
     @extend_schema(
@@ -63,7 +63,7 @@ class Universes(ResourceViewSet):
     )
     @action(detail=True)
     def text(self, request: Request, universe_id: str) -> HttpResponse:
-        """Its YAML, to make a project's own of."""
+        """Returns its YAML, from which a project can make its own universe."""
         path = queries.universe_text(universe_id)
         return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
 
@@ -76,7 +76,7 @@ class Robots(ResourceViewSet):
 
     @extend_schema(operation_id="list_robots", responses=s.EntryListSerializer, tags=["catalog"])
     def list(self, request: Request) -> Response:
-        """Every built-in robot."""
+        """Lists every built-in robot."""
         return Response({"items": queries.robots()})
 
     @extend_schema(
@@ -86,7 +86,7 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def preview(self, request: Request, robot_id: str) -> HttpResponse:
-        """A picture of 480 by 270 pixels."""
+        """Returns a picture of 480 by 270 pixels."""
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
 
     @extend_schema(
@@ -96,7 +96,7 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def config(self, request: Request, robot_id: str) -> HttpResponse:
-        """Its `robot.yaml`, to make a project's own of."""
+        """Returns its `robot.yaml`, from which a project can make its own robot."""
         return _text(queries.robot_config(robot_id), "application/yaml", f"There is no robot {robot_id!r}.")
 
     @extend_schema(
@@ -106,29 +106,29 @@ class Robots(ResourceViewSet):
     )
     @action(detail=True)
     def urdf(self, request: Request, robot_id: str) -> HttpResponse:
-        """Its URDF, to draw it."""
+        """Returns its URDF, with which the browser draws the robot."""
         return _text(queries.robot_urdf(robot_id), "text/xml", f"There is no robot {robot_id!r}.")
 
 
 class Templates(APIView):
-    """Projects that new ones start from."""
+    """Templates of new projects."""
 
     open_to_guests = True
 
     @extend_schema(operation_id="list_templates", responses=s.TemplateListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """The empty project and the examples."""
+        """Lists the empty project and the examples."""
         return Response({"items": [asdict(template) for template in templates()]})
 
 
 class Behaviours(APIView):
-    """Behaviours to reuse."""
+    """Behaviours that projects can reuse."""
 
     open_to_guests = True
 
     @extend_schema(operation_id="list_behaviours", responses=s.BehaviourListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """The built-in library, with every file that a behaviour brings."""
+        """Lists the built-in library, with every file of each behaviour."""
         return Response({"items": [asdict(behaviour) for behaviour in library.behaviours()]})
 
 

@@ -1,4 +1,4 @@
-"""`bt-studio run`: a project with its simulated world, from the terminal."""
+"""`bt-studio run`: runs a project with its simulated world in the terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`bt-studio serve`: the IDE."""
+"""`bt-studio serve`: starts the IDE."""
 
 from __future__ import annotations
 

@@ -55,11 +55,11 @@ NOT_LIVE_S: Final = 60.0
 
 
 def probed(application: ASGI3Application, threads: Threads) -> ASGI3Application:
-    """The application with the probes before it, measured and logged.
+    """Returns the application with the probes before it, measured and logged.
 
     Args:
-        application: what is behind the probes.
-        threads: those that answer its requests.
+        application: the application behind the probes.
+        threads: the threads that answer its requests.
     """
 
     async def entry(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:

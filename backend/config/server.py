@@ -42,7 +42,7 @@ MIGRATION_LOCK: Final = 0x62742D73747564
 
 
 class ServeError(Exception):
-    """The server cannot start; the text is for the user, with the remedy."""
+    """The server cannot start; the text tells the user why and what to do."""
 
 
 @contextmanager
@@ -63,14 +63,14 @@ def ended_by_interrupt() -> Iterator[None]:
 
 @contextmanager
 def data_folder(folder: Path, *, is_shared: bool = False) -> Iterator[None]:
-    """Makes the folder with its secret key, and holds it against servers that cannot share it.
+    """Makes the folder with its secret key, and locks it against servers that cannot share it.
 
     Args:
         folder: the data folder.
         is_shared: whether other servers may use it at the same time, as those on one PostgreSQL do.
 
     Raises:
-        ServeError: it cannot be written, or a server holds it that does not share it.
+        ServeError: it cannot be written, or another server has locked it.
     """
     make_data_folder(folder)
     lock = (folder / "serve.lock").open("a+", encoding="utf-8")
@@ -121,10 +121,10 @@ def _make_secret_key(path: Path) -> None:
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """Takes the port before anything slow happens.
+    """Binds the port before the slow parts of the start.
 
     Raises:
-        ServeError: it is in use, or not ours to take.
+        ServeError: it is in use, or not permitted.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -143,7 +143,7 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 def migrate() -> None:
-    """Brings the database up to date; a database that is gets one query."""
+    """Migrates the database; an up-to-date database costs one query."""
     import django  # noqa: PLC0415 - the environment must be set first
 
     django.setup()
@@ -159,7 +159,7 @@ def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
     """Waits for a PostgreSQL that starts at the same time.
 
     Raises:
-        ServeError: it does not come up, or refuses us.
+        ServeError: it does not start, or refuses the connection.
     """
     import psycopg  # noqa: PLC0415 - localhost does without
 
@@ -208,8 +208,8 @@ def run(
         listener: the socket.
         on_ready: called once requests are answered.
         log_level: the least severe line that is printed.
-        accepts_at_once: how many connections the event loop takes before it does something else. Who shares
-            the socket takes few, or the first to wake takes all.
+        accepts_at_once: how many connections the event loop takes before it does something else. A worker
+            that shares the socket takes few, or the first to wake takes all.
     """
     set_up(log_level, environment().log_style)
     sys.setswitchinterval(SWITCH_S)
@@ -253,7 +253,7 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
 
 
 def warm_up() -> None:
-    """Imports what the first requests would wait for, then tidies up once a day, if no other server did."""
+    """Imports what the first requests need, then cleans up once a day if no other server did."""
     from django.db import connection  # noqa: PLC0415
 
     import backend.config.urls  # noqa: F401, PLC0415

@@ -39,10 +39,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 class Inherited(socket.socket):
-    """A socket that listens already, with a queue as long as the parent has chosen."""
+    """A listening socket whose backlog the parent has set."""
 
     def listen(self, *_: object) -> None:
-        """The event loop would make the queue as short as what it accepts at once."""
+        """Does nothing: the event loop would reduce the backlog to its own number of accepts."""
 
 
 def _ready() -> None:

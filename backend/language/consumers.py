@@ -59,7 +59,7 @@ Following = Callable[[], Awaitable[dict[str, Any]]]
 
 
 async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Serves one page until a side ends."""
+    """Serves one page until either side ends."""
     place = siblings.take("language server", environment().max_language_servers)
     if place is None:
         return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
@@ -99,7 +99,7 @@ class Page(NamedTuple):
 
 
 class Relay:
-    """One page and its server."""
+    """Connects one page with its server."""
 
     def __init__(self, page: Page, server: Server) -> None:
         self._page = page

@@ -21,7 +21,7 @@ _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
 
 def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
-    """Fills a new folder."""
+    """Makes the library in a new folder."""
     folder.mkdir(parents=True)
     message_stubs.write_message_stubs(site_packages, folder)
     for package in ENGINE:
@@ -33,7 +33,7 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
 
 
 def configuration(files: str, library: str, python: str) -> str:
-    """The language server's `pyrefly.toml`: where the project's files are, and what they can import."""
+    """Returns the language server's `pyrefly.toml`: where the project is, and what it can import."""
     values = {
         "project-includes": [f"{files}/**/*.py"],
         # Neighbours are imported as `actions.<Name>` or by their bare name, as the engine's loader has it.

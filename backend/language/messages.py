@@ -1,7 +1,7 @@
-"""Which messages pass between a page and its language server; no I/O.
+"""Filters the messages between a page and its language server. No I/O.
 
-The page is not asked for its wishes about interpreters, folders or commands: what decides which programs
-run comes from the server's own configuration alone.
+The page's settings for interpreters, folders or commands are ignored: only the server's configuration decides
+which programs run.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Formatting and findings of ruff: bounded, without the user's configuration, on text alone.
 
-On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). A
-source that makes it slow is given up after some seconds.
+On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). It is
+stopped after some seconds.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Run = Callable[[list[str], str], tuple[int | None, str]]
 
 
 def format_source(source: str, filename: str, run: Run) -> str:
-    """The source as `ruff format` writes it.
+    """Returns the source as `ruff format` writes it.
 
     Raises:
         PythonRefusedError: it does not parse, is too long, or takes too long.

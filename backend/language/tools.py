@@ -37,12 +37,12 @@ _paths: Final[dict[str, str]] = {}
 
 
 def tools_id(user: User) -> str:
-    """The id of a user's tools."""
+    """Returns the id of a user's tools."""
     return str(uuid5(_NAMESPACE, str(user.pk)))
 
 
 def token(made_id: str) -> str:
-    """The secret between web server and tools."""
+    """Returns the secret that the web server and the tools share."""
     return hmac.new(settings.SECRET_KEY.encode(), f"tools {made_id}".encode(), hashlib.sha256).hexdigest()
 
 

@@ -1,9 +1,9 @@
 """The two sockets of a session, relayed verbatim between browser and manager.
 
-Nothing is read into the messages and nothing is queued: each direction takes one message and hands it
-on before it takes the next, so that a slow browser slows its manager's socket down, and the manager,
-which knows what a message supersedes, sends it less. Frames never touch the channel layer. No socket is
-served for long at a time, however much comes from it.
+Messages are neither parsed nor queued: each direction takes one message and passes it on before it takes the
+next, so that a slow browser slows its manager's socket down, and the manager, which knows what a message
+supersedes, sends it less. Frames never touch the channel layer. No socket can occupy the event loop, however
+much it sends.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def may_use(session_id: UUID, user: User) -> None:
 
 
 async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Relays one socket until a side ends."""
+    """Relays one socket until either side ends."""
     if call.user.is_guest:
         return Closed(NO_SUCH_SESSION, "There is no such session.")
     return await _serve(UUID(call.address[1]), call.user, call.address[2], call.query, receive, send)
@@ -200,7 +200,7 @@ class _Turns:
         self._messages = 0
 
     async def next(self) -> None:
-        """Call it after each message."""
+        """Gives other sockets time to run; must be called after each message."""
         self._messages += 1
         if self._messages % MESSAGES_IN_TURN == 0:
             await asyncio.sleep(0)

@@ -1,4 +1,4 @@
-"""All writes to sessions. Launching is slow, so a thread of its own does it and stores the outcome."""
+"""All writes to sessions. Launching is slow, so a separate thread does it and stores the outcome."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _launches_lock: Final = Lock()
 
 @lru_cache(maxsize=1)
 def launcher() -> Launcher:
-    """The launcher of this server; it lives as long as the process."""
+    """Returns the launcher of this server; it lives as long as the process."""
     settings = environment()
     if settings.launcher == "docker":
         return DockerLauncher(settings.keeper_folder)
@@ -64,7 +64,7 @@ def _workers() -> ThreadPoolExecutor:
 
 
 def manager_token(session: Session) -> str:
-    """The secret between relay and manager; derived, so that it is stored nowhere."""
+    """Returns the secret between relay and manager; it is derived, and so not stored."""
     return hmac.new(
         settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
     ).hexdigest()
@@ -109,14 +109,14 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
 
 
 def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
-    """Returns how many more executors may run; those in `states` have a place, or wait for one."""
+    """Returns how many more executors may run; sessions in `states` count as running."""
     limit = environment().max_sessions
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
     return limit - taken if limit else len(ROS_DOMAINS)
 
 
 def start_queued() -> int:
-    """Starts sessions that wait, the oldest first, while there are places; returns how many.
+    """Starts waiting sessions, the oldest first, while there are places; returns their number.
 
     Several web servers may do so at once: each session is taken by one of them.
     """
@@ -147,7 +147,7 @@ def _submit(session: Session) -> None:
 
 
 def refresh(session: Session) -> Session:
-    """Notes when a session's executor has died."""
+    """Stores that a session's executor has died."""
     if session.state == SessionState.READY:
         status = launcher().poll(session.launcher_state)
         if status is not None:
@@ -163,7 +163,7 @@ def refresh(session: Session) -> Session:
 
 
 def end_session(session: Session, why: str = "") -> Session:
-    """Ends the executor and everything that it started; ending twice is no error."""
+    """Ends the executor and everything that it started; may be called twice."""
     with _launches_lock:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
@@ -206,7 +206,7 @@ def _launch_lock(session_id: UUID) -> str:
 
 
 def fail_session(session_id: UUID, why: str) -> None:
-    """Ends an executor that does not answer, and fails its session with the reason."""
+    """Ends an executor that does not answer, and stores the reason."""
     try:
         ready = Session.objects.filter(id=session_id, state=SessionState.READY)
         session = ready.first()
@@ -221,13 +221,13 @@ def fail_session(session_id: UUID, why: str) -> None:
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
-    """Ends the sessions of a project that was deleted."""
+    """Ends the sessions of a deleted project."""
     for session in Session.objects.filter(project_id=project_id, state__in=LIVE_STATES):
         end_session(session)
 
 
 def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
-    """Ends the sessions of an account that is about to be deleted."""
+    """Ends the sessions of an account that will be deleted."""
     for session in Session.objects.filter(user=user, state__in=LIVE_STATES):
         end_session(session)
 
@@ -246,7 +246,7 @@ def require_right(session: Session) -> None:
 def end_sessions_without_right(
     sender: object, *, user_id: int | None, project_id: UUID | None, **_: object
 ) -> None:
-    """Ends the sessions of those who may no longer run what they run."""
+    """Ends the sessions of users who may no longer run their project."""
     rows = Session.objects.filter(state__in=LIVE_STATES).select_related("user")
     if user_id is not None:
         rows = rows.filter(user=user_id)
@@ -260,9 +260,9 @@ def end_sessions_without_right(
 
 
 def end_all_sessions() -> None:
-    """Ends every session that is not to outlive the server; for its last moments.
+    """Ends every session that must not outlive the server, at its end.
 
-    In containers they could, and for a team they do. Nothing of one user's IDE continues after its end.
+    For a team, sessions in containers continue; on a user's own IDE nothing does.
     """
     if launcher().survives_server and environment().is_team:
         return

@@ -1,4 +1,4 @@
-"""Differences of two states of a project, as unified diffs."""
+"""Differences between two states of a project, as unified diffs."""
 
 from __future__ import annotations
 

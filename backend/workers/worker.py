@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def serve(connection: socket.socket, deadline_s: float) -> None:
-    """Answers messages until there are no more."""
+    """Answers messages until the connection ends."""
     try:
         while True:
             # What came is not kept beside what is in it: the largest project has 256 MB.

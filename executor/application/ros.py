@@ -1,4 +1,4 @@
-"""The application's ROS node: it uses simulated time and is spun by the main thread."""
+"""The application's ROS node, which uses simulated time and is spun by the main thread."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The user's own account and groups over HTTP."""
+"""Views of the user's own account and of groups."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Me(APIView):
 
     @extend_schema(operation_id="get_me", responses=s.MeSerializer, tags=["accounts"])
     def get(self, request: Request) -> Response:
-        """The user, what they may, and the version of the server."""
+        """Returns the user, their rights, and the version of the server."""
         user = user_of(request)
         return Response(
             {
@@ -62,7 +62,7 @@ class Groups(ResourceViewSet):
 
     @extend_schema(operation_id="list_groups", responses=s.GroupListSerializer, tags=["accounts"])
     def list(self, request: Request) -> Response:
-        """Those that the user made or is in."""
+        """Lists the groups that the user made or is in."""
         user = user_of(request)
         return Response({"items": [groups.presented(row, user=user) for row in groups.groups_of(user)]})
 
@@ -82,7 +82,7 @@ class Groups(ResourceViewSet):
 
     @extend_schema(operation_id="get_group", responses=s.GroupSerializer, tags=["accounts"])
     def retrieve(self, request: Request, group_id: UUID) -> Response:
-        """The group; its managers also get the members and invitations."""
+        """Returns a group; its managers also get the members and invitations."""
         user = user_of(request)
         return Response(groups.presented(groups.group(group_id, user=user), user=user))
 
@@ -94,7 +94,7 @@ class Groups(ResourceViewSet):
     )
     @transaction.atomic  # with what the answer reads
     def partial_update(self, request: Request, group_id: UUID) -> Response:
-        """Gives the group another name."""
+        """Renames a group."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
         found = groups.rename(group_id, asked["name"], acting_user=user)
@@ -109,7 +109,7 @@ class Groups(ResourceViewSet):
     @extend_schema(operation_id="remove_group_member", responses={204: None}, tags=["accounts"])
     @action(detail=True, methods=["delete"], url_path="members/<str:username>")
     def remove_member(self, request: Request, group_id: UUID, username: str) -> Response:
-        """Takes someone out, or leaves."""
+        """Removes someone from the group; everyone may leave it."""
         groups.remove_member(group_id, username, acting_user=user_of(request))
         return Response(status=204)
 
@@ -122,7 +122,7 @@ class Groups(ResourceViewSet):
     @action(detail=True, methods=["post"], url_path="invitations")
     @transaction.atomic  # with what the answer reads
     def invite(self, request: Request, group_id: UUID) -> Response:
-        """Makes a link by which people make accounts and join."""
+        """Makes a link with which people create accounts and join."""
         asked = parsed(s.InviteSerializer, request.data)
         user = user_of(request)
         found = groups.group(group_id, user=user, own=True)
@@ -133,7 +133,7 @@ class Groups(ResourceViewSet):
 
 
 class OneInvitation(APIView):
-    """One link."""
+    """One invitation link."""
 
     @extend_schema(operation_id="revoke_invitation", responses={204: None}, tags=["accounts"])
     def delete(self, request: Request, invitation_id: UUID) -> Response:

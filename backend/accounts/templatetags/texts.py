@@ -11,5 +11,5 @@ register = template.Library()
 
 @register.simple_tag
 def text(key: str, **values: object) -> str:
-    """The text in the language of the page."""
+    """Renders a text in the language of the page."""
     return find(key, **values)

@@ -24,7 +24,7 @@ KIND: Final = "revision"
 
 
 def watch_revisions() -> None:
-    """From now on each change set is announced when it is committed."""
+    """Connects the notices: each committed change set is announced."""
     revision_made.connect(_announce_later, dispatch_uid="announce_revision")
 
 
@@ -41,7 +41,7 @@ def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
 
 
 def group_of(project_id: UUID) -> str:
-    """The channel layer's group of those who have the project open."""
+    """Returns the channel layer's group of everyone who has the project open."""
     return f"project.{project_id}"
 
 

@@ -1,4 +1,4 @@
-"""Projects over HTTP: parse, call, answer."""
+"""Views of projects, and of actions."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
 
 
 class Projects(ResourceViewSet):
-    """The projects of a user, and what can be done with each."""
+    """The projects of a user, and the operations on each."""
 
     lookup_url_kwarg = "project_id"
     lookup_value_converter = "uuid"
@@ -252,7 +252,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def check(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Checks the project as it would be with these files."""
+        """Checks the project with these unsaved files."""
         asked = parsed(s.CheckSerializer, request.data)
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
@@ -267,7 +267,7 @@ class Projects(ResourceViewSet):
     )
     @action(detail=True)
     def app(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The project in the form that the executor runs; 422 with `diagnostics` when it has errors."""
+        """Returns the project in the form that the executor runs; 422 with `diagnostics` if it has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
         files = queries.contents(project)
@@ -287,7 +287,7 @@ class InspectAction(APIView):
         tags=["projects"],
     )
     def post(self, request: Request) -> HttpResponseBase:
-        """The declarations in the source of an action."""
+        """Returns the declarations in the source of an action."""
         asked = parsed(s.InspectActionSerializer, request.data)
         filename = names.file_path(asked["filename"], field="filename")
         return checking.answered(

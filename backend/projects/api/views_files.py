@@ -1,4 +1,4 @@
-"""Files of a project as downloads: one file, the whole project, the tree as XML; and the way back."""
+"""Views of a project's files as downloads (one file, the whole project, the tree as XML), and of imports."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ if TYPE_CHECKING:
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
-    """Bytes that the browser saves and never shows: what users stored must not run as a page."""
+    """Returns bytes that the browser saves and never shows: stored content must not run as a page."""
     return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
 
 
 def saved_as(filename: str) -> dict[str, str]:
-    """Headers of what the browser saves under a name and never shows."""
+    """Returns the headers that make the browser save a file instead of showing it."""
     return {
         "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
         "Content-Security-Policy": "default-src 'none'; sandbox",
@@ -52,7 +52,7 @@ def saved_as(filename: str) -> dict[str, str]:
 
 
 def flag(request: Request, name: str) -> bool:
-    """A yes or no of the query."""
+    """Returns a boolean of the query."""
     wish = request.query_params.get(name, "false").lower()
     if wish not in {"", "0", "1", "true", "false"}:
         raise InvalidInputError(f"{name} is true or false.", field=name)
@@ -60,17 +60,17 @@ def flag(request: Request, name: str) -> bool:
 
 
 def zipped(name: str, made: dict[str, Any]) -> HttpResponse:
-    """A zip that a worker made."""
+    """Returns a zip that a worker made."""
     return download(made["zip"], "application/zip", f"{name}.zip")
 
 
 def packaged(made: dict[str, Any]) -> HttpResponse:
-    """A package that a worker made; it knows its name."""
+    """Returns a package that a worker made, under the package's name."""
     return zipped(made["name"], made)
 
 
 def file_response(file: queries.StoredFile) -> HttpResponse:
-    """A stored file with its revision in the ETag."""
+    """Returns a stored file, with its revision in the ETag."""
     response = download(file.data, "application/octet-stream", file.path.rpartition("/")[2])
     response.headers["ETag"] = f'"{file.sha256}"'
     response.headers["X-Revision"] = str(file.revision)
@@ -101,19 +101,19 @@ class UploadSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class RawFile(BaseParser):
-    """A file as the body itself; it is read from the file in which it lies already."""
+    """A file as the whole body; it is already in a temporary file."""
 
     media_type = "application/octet-stream"
 
     def parse(
         self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
     ) -> dict[str, str]:
-        """Leaves it where it is."""
+        """Does nothing: the view reads the temporary file."""
         return {}
 
 
 class ProjectFiles(ResourceViewSet):
-    """Downloads of a project in several forms, and the import of one."""
+    """Downloads of a project in several forms, and the import of a project."""
 
     lookup_url_kwarg = "project_id"
     lookup_value_converter = "uuid"
@@ -125,7 +125,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, url_path="files/<path:path>")
     def download_file(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
-        """The bytes of a current file."""
+        """Returns the bytes of a current file."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return file_response(queries.current_file(project, names.file_path(path)))
 
@@ -137,7 +137,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True)
     def xml(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
+        """Returns the tree as BT.CPP v4 XML; 422 with `diagnostics` if the project has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return checking.answered(
             self,
@@ -155,7 +155,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, expensive=("GET",))
     def export(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The current files as a zip; the same revision gives the same bytes."""
+        """Returns the current files as a zip; the same revision gives the same bytes."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
@@ -171,7 +171,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, expensive=("GET",))
     def package(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
+        """Returns the ROS 2 package as a zip; 422 with `diagnostics` if the project has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         files = queries.contents(project)
         if flag(request, "dockerized"):
@@ -187,7 +187,7 @@ class ProjectFiles(ResourceViewSet):
     )
     @action(detail=True, url_path="package/preview")
     def package_preview(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The files of the ROS 2 package, before it is downloaded."""
+        """Lists the files of the ROS 2 package before it is downloaded."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         name = request.query_params.get("name") or None
         files = queries.contents(project)

@@ -1,4 +1,4 @@
-"""A user's data on this server: its size, all of it as a download, and its deletion."""
+"""Views of a user's data on this server: its size, a download of all of it, and its deletion."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class UsageSerializer(serializers.Serializer[Any]):
-    """Room taken, and room given."""
+    """The space that is used, and its limits."""
 
     projects = serializers.IntegerField()
     max_projects = serializers.IntegerField()
@@ -41,7 +41,7 @@ class Mine(ResourceViewSet):
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
     @action(detail=False)
     def usage(self, request: Request) -> Response:
-        """Projects and bytes, with their limits."""
+        """Returns the number and the bytes of projects, with their limits."""
         return Response(usage.usage(user_of(request)))
 
     @extend_schema(
@@ -51,7 +51,7 @@ class Mine(ResourceViewSet):
     )
     @action(detail=False, expensive=("GET",))
     def data(self, request: Request) -> HttpResponseBase:
-        """The account, its log and its projects, as one zip."""
+        """Returns the account, its log and its projects, as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
         headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")
@@ -65,7 +65,10 @@ class Mine(ResourceViewSet):
     )
     @data.mapping.delete
     def delete_data(self, request: Request) -> Response:
-        """Deletes the account with all its projects, for good; the body is `{"username": one's own name}`."""
+        """Deletes the account with all its projects irreversibly.
+
+        The body is `{"username": the user's own name}`.
+        """
         user = user_of(request)
         if not environment().is_team:
             raise NotFoundError("There are no accounts on this server.")

@@ -1,4 +1,4 @@
-"""History of a project, and drafts that are not yet part of it."""
+"""Views of the revisions of a project, and of drafts."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Revisions(ResourceViewSet):
         tags=["revisions"],
     )
     def list(self, request: Request, project_id: UUID) -> Response:
-        """The change sets, the newest first; all, or those that touched one file."""
+        """Lists the change sets, the newest first; all, or those that changed one file."""
         asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         limit = asked["limit"]
@@ -60,7 +60,7 @@ class Revisions(ResourceViewSet):
     )
     @transaction.atomic  # with what the answer reads
     def partial_update(self, request: Request, project_id: UUID, number: int) -> Response:
-        """Gives a revision a name, or takes it away."""
+        """Gives a revision a name, or removes it."""
         asked = parsed(s.LabelSerializer, request.data)
         row = writes.label_revision(
             project_id, number, asked["label"], acting_user=user_of(request), if_match=if_match(request)
@@ -74,7 +74,7 @@ class Revisions(ResourceViewSet):
     )
     @action(detail=True, url_path="files/<path:path>")
     def download_file(self, request: Request, project_id: UUID, number: int, path: str) -> HttpResponse:
-        """The bytes of a file as it was after a revision."""
+        """Returns the bytes of a file in a revision."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return file_response(queries.file_at(project, number, names.file_path(path)))
 
@@ -111,7 +111,7 @@ class Revisions(ResourceViewSet):
     )
     @action(detail=True, methods=["post"])
     def restore(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
-        """Makes a new revision with files as they were."""
+        """Makes a new revision in which files are as they were in this one."""
         asked = parsed(s.RestoreRevisionSerializer, request.data)
         paths = [names.file_path(path, field="paths") for path in asked["paths"]]
         user, tag = user_of(request), if_match(request)
@@ -130,7 +130,7 @@ class Drafts(ResourceViewSet):
 
     @extend_schema(operation_id="list_drafts", responses=s.DraftListSerializer, tags=["drafts"])
     def list(self, request: Request, project_id: UUID) -> Response:
-        """The user's drafts in this project."""
+        """Lists the user's drafts in this project."""
         user = user_of(request)
         rows = queries.drafts(queries.project(project_id, user=user, need=Need.WRITE), user=user)
         return Response({"items": [presentation.draft(row) for row in rows]})
@@ -143,7 +143,7 @@ class Drafts(ResourceViewSet):
         tags=["drafts"],
     )
     def update(self, request: Request, project_id: UUID, path: str) -> Response:
-        """Keeps a draft; saving the file ends it."""
+        """Stores a draft; saving the file removes it."""
         asked = parsed(s.SaveDraftSerializer, request.data)
         row = draft_writes.save_draft(
             project_id, path, acting_user=user_of(request), if_match=if_match(request), **asked
@@ -154,6 +154,6 @@ class Drafts(ResourceViewSet):
         operation_id="discard_draft", parameters=[IF_MATCH], responses={204: None}, tags=["drafts"]
     )
     def destroy(self, request: Request, project_id: UUID, path: str) -> Response:
-        """Forgets a draft."""
+        """Discards a draft."""
         draft_writes.discard_draft(project_id, path, acting_user=user_of(request), if_match=if_match(request))
         return Response(status=204)

@@ -1,4 +1,4 @@
-"""Sharing over HTTP: every answer is the whole list of with whom a project is shared."""
+"""Views of sharing; every answer is the complete list of people, groups and links."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ class SharedRoleSerializer(serializers.Serializer[Any]):
 
 
 class SharePersonSerializer(SharedRoleSerializer):
-    """With whom, and what they may do."""
+    """A person, and their new role."""
 
     name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an account.")
 
 
 class TransferSerializer(serializers.Serializer[Any]):
-    """The next owner."""
+    """The person who becomes the owner."""
 
     name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an editor.")
 
@@ -55,13 +55,13 @@ class MakeLinkSerializer(serializers.Serializer[Any]):
 
 
 class SharedPersonSerializer(PersonSerializer):
-    """Someone with their role."""
+    """A person with their role."""
 
     role = serializers.ChoiceField(choices=ROLES)
 
 
 class SharedGroupSerializer(serializers.Serializer[Any]):
-    """A group with the role of all in it."""
+    """A group with the role of its members."""
 
     id = serializers.UUIDField()
     name = serializers.CharField()
@@ -78,7 +78,7 @@ class LinkSerializer(serializers.Serializer[Any]):
 
 
 class SharesSerializer(serializers.Serializer[Any]):
-    """With whom a project is shared."""
+    """Everyone with whom a project is shared."""
 
     owner = PersonSerializer()
     people = SharedPersonSerializer(many=True)
@@ -96,7 +96,7 @@ class Shares(ResourceViewSet):
 
     @extend_schema(operation_id="get_shares", responses=SharesSerializer, tags=["sharing"])
     def list(self, request: Request, project_id: UUID) -> Response:
-        """People, groups and links; for the owner."""
+        """Lists people, groups and links; for the owner."""
         return _answer(queries.project(project_id, user=user_of(request), need=Need.MANAGE))
 
     @extend_schema(
@@ -108,7 +108,7 @@ class Shares(ResourceViewSet):
     )
     @transaction.atomic  # with what the answer reads
     def create(self, request: Request, project_id: UUID) -> Response:
-        """Gives someone a role, or another one."""
+        """Gives a person a role, or changes it."""
         asked = parsed(SharePersonSerializer, request.data)
         role = Role[asked["role"].upper()]
         user, tag = user_of(request), if_match(request)
@@ -121,7 +121,7 @@ class Shares(ResourceViewSet):
     )
     @action(detail=False, methods=["delete"], url_path="people/<str:username>")
     def unshare_with_person(self, request: Request, project_id: UUID, username: str) -> Response:
-        """Takes their role away; one's own is given up."""
+        """Removes the role of a person; users can remove their own."""
         user, tag = user_of(request), if_match(request)
         memberships.unshare_with_person(project_id, username, acting_user=user, if_match=tag)
         return Response(status=204)
@@ -136,7 +136,7 @@ class Shares(ResourceViewSet):
     @action(detail=False, methods=["put"], url_path="groups/<uuid:group_id>")
     @transaction.atomic  # with what the answer reads
     def share_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Gives everybody in the group a role."""
+        """Gives all members of a group a role."""
         role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
         user, tag = user_of(request), if_match(request)
         return _answer(
@@ -148,7 +148,7 @@ class Shares(ResourceViewSet):
     )
     @share_with_group.mapping.delete
     def unshare_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Takes the role of the group away."""
+        """Removes the role of a group."""
         user, tag = user_of(request), if_match(request)
         memberships.unshare_with_group(project_id, group_id, acting_user=user, if_match=tag)
         return Response(status=204)
@@ -163,7 +163,7 @@ class Shares(ResourceViewSet):
     @action(detail=False, methods=["post"], url_path="links")
     @transaction.atomic  # with what the answer reads
     def make_link(self, request: Request, project_id: UUID) -> Response:
-        """Makes a link by which anybody may read the project."""
+        """Makes a link with which anyone can read the project."""
         asked = parsed(MakeLinkSerializer, request.data)
         user, tag = user_of(request), if_match(request)
         return _answer(
@@ -175,14 +175,14 @@ class Shares(ResourceViewSet):
     )
     @action(detail=False, methods=["delete"], url_path="links/<uuid:link_id>")
     def revoke_link(self, request: Request, project_id: UUID, link_id: UUID) -> Response:
-        """Ends the link at once, also for those who opened it."""
+        """Revokes the link immediately, also for those who have opened it."""
         user, tag = user_of(request), if_match(request)
         memberships.revoke_link(project_id, link_id, acting_user=user, if_match=tag)
         return Response(status=204)
 
 
 class Transfer(APIView):
-    """Another owner."""
+    """Changes the owner of a project."""
 
     @extend_schema(
         operation_id="transfer_project",
@@ -193,7 +193,7 @@ class Transfer(APIView):
     )
     @transaction.atomic  # with what the answer reads
     def post(self, request: Request, project_id: UUID) -> Response:
-        """Gives the project to one of its editors; who gave it stays an editor."""
+        """Makes an editor the owner; the previous owner becomes an editor."""
         asked = parsed(TransferSerializer, request.data)
         user, tag = user_of(request), if_match(request)
         return _answer(transfer.transfer_project(project_id, asked["name"], acting_user=user, if_match=tag))

@@ -1,4 +1,4 @@
-"""Trees as text that is being written; nothing is stored."""
+"""Views that convert trees between diagram and XML; nothing is stored."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MAX_TEXT = LIMITS["tree_text_characters"]
 
 
 class WriteTreeSerializer(s.StrictSerializer):
-    """A diagram to be written as XML."""
+    """A diagram to convert to XML."""
 
     diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
     base = s.TextField(
@@ -39,14 +39,14 @@ class WriteTreeSerializer(s.StrictSerializer):
 
 
 class ReadTreeSerializer(s.StrictSerializer):
-    """An edited text."""
+    """An edited XML text of a tree."""
 
     xml = s.TextField(max_length=MAX_TEXT)
     diagram = s.TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
 
 
 class NodeRangeSerializer(serializers.Serializer[Any]):
-    """Where a node stands in the text; offsets in UTF-16 code units, lines ending in one."""
+    """The range of a node in the text; offsets in UTF-16 code units, lines end with one unit."""
 
     node = serializers.CharField()
     start = serializers.IntegerField()
@@ -62,14 +62,14 @@ class TreeTextSerializer(serializers.Serializer[Any]):
 
 
 class ReadTreeDoneSerializer(TreeTextSerializer):
-    """The tree that a text stands for."""
+    """The tree that was read from a text."""
 
     diagram = serializers.CharField(allow_null=True, help_text="null: the text cannot be read.")
     diagnostics = s.DiagnosticSerializer(many=True)
 
 
 class Trees(ResourceViewSet):
-    """Trees as diagram and as text; nothing is stored."""
+    """Conversions of trees between diagram and XML; nothing is stored."""
 
     @extend_schema(
         operation_id="write_tree_xml",
@@ -80,7 +80,7 @@ class Trees(ResourceViewSet):
     # Users who may read a project may also read its trees as text: with POST, since a diagram is long.
     @action(detail=False, methods=["post"], open_to_guests=True, guests_post=True)
     def xml(self, request: Request) -> HttpResponseBase:
-        """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
+        """Converts one diagram to BT.CPP v4 XML; comments and blanks of an earlier text are kept."""
         asked = parsed(WriteTreeSerializer, request.data)
         return checking.answered(self, request, "write_tree", Response, **asked)
 
@@ -92,6 +92,6 @@ class Trees(ResourceViewSet):
     )
     @action(detail=False, methods=["post"])
     def diagram(self, request: Request) -> HttpResponseBase:
-        """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
+        """Reads the XML of one tree; nodes keep their ids. `diagnostics` say why it cannot be read."""
         asked = parsed(ReadTreeSerializer, request.data)
         return checking.answered(self, request, "read_tree", Response, **asked)

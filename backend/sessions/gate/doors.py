@@ -1,4 +1,4 @@
-"""The doors: `<32 random hex>/gate.sock`, a folder for each session that is on its way.
+"""The doors: `<32 random hex>/gate.sock`, a folder for each session that is starting.
 
 Every session sees the whole volume, since Docker before 25 cannot mount a part of one. The root may be
 entered but not read (0711), so that a door is found by those who were given its name and by nobody else.
@@ -53,7 +53,7 @@ class Doors:
         """Makes a door; returns the socket that listens there.
 
         Raises:
-            OSError: there is such a door, or no room or descriptor for another.
+            OSError: the door exists already, or there is no space or descriptor for it.
         """
         folder = self._root / name
         folder.mkdir(mode=ENTER_ONLY)
@@ -67,16 +67,16 @@ class Doors:
         return listener
 
     def remove(self, name: str) -> None:
-        """Removes a door; one that is gone is no error."""
+        """Removes a door, if it exists."""
         shutil.rmtree(self._root / name, ignore_errors=True)
 
     def close(self) -> None:
-        """Leaves the folder to another gate."""
+        """Releases the folder for another gate."""
         os.close(self._lock)
 
 
 def listen_at(path: Path, mode: int = EVERYBODY) -> socket.socket:
-    """A socket that listens at a path, in place of an older one."""
+    """Returns a socket that listens at a path; replaces an older one."""
     path.unlink(missing_ok=True)
     listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:

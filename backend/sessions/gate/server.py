@@ -1,4 +1,4 @@
-"""The loop of the gate: one thread, and nothing that a connection does can end it.
+"""The loop of the gate: one thread, which no connection can end.
 
 The keeper's entrance takes one line of JSON and a listening socket: `{"door", "session", "token"}`. The
 answer is `open`, and `taken` when a session has fetched the socket; the door is open for as long as the
@@ -55,11 +55,11 @@ class Limits:
     """The limits of the gate. All doors and callers together take fewer than 1,024 descriptors.
 
     Attributes:
-        doors: sessions on their way at once; each takes three descriptors.
+        doors: sessions that start at the same time; each takes three descriptors.
         per_door: connections at a door that have shown no token yet.
         callers: the same at all doors.
-        hand_over_s: until when a connection must have shown its token.
-        age_s: until when a session must have come.
+        hand_over_s: the time in which a connection must show its token.
+        age_s: the time in which a session must connect.
     """
 
     doors: int = 256
@@ -85,7 +85,7 @@ class GateServer:
 
     Args:
         doors: the folder of the doors.
-        control: where the keeper comes; only keeper and gate see the folder.
+        control: the path of the keeper's entrance; only keeper and gate see its folder.
     """
 
     def __init__(
@@ -121,13 +121,13 @@ class GateServer:
         self._close()
 
     def end(self) -> None:
-        """Ends `serve`; may be called by a signal or another thread."""
+        """Makes `serve` return; may be called by a signal handler or another thread."""
         self._is_ended = True
         with suppress(OSError):  # it has ended
             self._waker.send(b"e")
 
     def step(self, timeout_s: float) -> None:
-        """One round: everything that is ready, then everything whose time is up."""
+        """Handles everything that is ready, then everything whose time is over."""
         for key, _ in self._selector.select(timeout_s):
             try:
                 key.data()

@@ -31,7 +31,7 @@ class FollowLine(py_trees.behaviour.Behaviour):
         self.lost = 0
 
     def line_offset(self):
-        """Where the line is in the lower part of the picture, from -1 to 1, or None."""
+        """Returns the position of the line in the lower part of the picture, from -1 to 1, or None."""
         image = self.image
         pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
         pixels = pixels[:, : image.width * 3].reshape(image.height, image.width, 3)

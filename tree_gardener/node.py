@@ -184,7 +184,7 @@ class Node:
         self.ticks = tuple([child.entry() for child in self.children])
 
     def prepare(self) -> None:
-        """Sets the node's state to its start; called once, when the tree is complete."""
+        """Initialises the node's state; called once, when the tree is complete."""
 
     def stop(self) -> None:
         """Halts the node as its parent does: its ``_onHalted`` runs afterwards."""

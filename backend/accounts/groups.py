@@ -27,11 +27,11 @@ def groups_of(user: User) -> QuerySet[Group]:
 
 
 def group(group_id: UUID, *, user: User, own: bool = False) -> Group:
-    """One of them; with `own`, only for who made it, or an administrator.
+    """Returns a group of the user; with `own`, only to its maker or an administrator.
 
     Raises:
         NotFoundError: there is none, or none that this user is in.
-        TeacherRequiredError: the user is in it, and did not make it.
+        TeacherRequiredError: the user is in it, but did not make it.
     """
     rows = Group.objects.select_related("owner") if user.is_superuser else groups_of(user)
     found = rows.filter(pk=group_id).first()

@@ -16,7 +16,7 @@ MAX_TOKEN: Final = 120
 
 
 def token_of(kind: str, identity: UUID) -> str:
-    """The secret part of the link of an invitation (`join`) or of a project (`shared`)."""
+    """Returns the secret part of the link of an invitation (`join`) or of a project (`shared`)."""
     return Signer(salt=f"bt-studio {kind}", sep=".").sign(identity.hex)
 
 

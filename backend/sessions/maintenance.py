@@ -112,7 +112,7 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
 
 
 def begin() -> None:
-    """Ends, before a server's first request, what a killed server left, unless other servers do so."""
+    """Ends what a killed server left, unless other servers do so; called before the first request."""
     if is_alone():
         writes.end_orphans()
 

@@ -61,7 +61,7 @@ class Graph:
         self._executor.add_node(self.node)
 
     def now(self) -> float:
-        """Simulated seconds."""
+        """Returns the simulated time in s."""
         return self._time_s
 
     def sleep(self, duration_s: float) -> None:

@@ -34,7 +34,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         return environment().registration == "open" or invitations.of_browser(request) is not None
 
     def clean_email(self, email: str) -> str:
-        """An invitation vouches for any address; without one the domain must be allowed."""
+        """Checks the domain of the address, unless the user has an invitation."""
         if not domain_is_allowed(email) and invitations.of_browser(self.request) is None:
             domains = ", ".join(environment().allowed_email_domains)
             raise ValidationError(text("domain_refused", domains=domains))

@@ -59,7 +59,7 @@ class Browser:
 
 
 def bounds(account: int | str, address: str | None, browser: Browser | None) -> tuple[Bound, ...]:
-    """The limit of the next attempt to sign in to an account; its key is the account, or the typed name."""
+    """Returns the limits of the next attempt to sign in; the key is the account, or the typed name."""
     if browser is not None and account in browser.accounts:
         return (Bound(f"browser {browser.identity} {account}", 10, 5 * MINUTE_S),)
     place = network_of(address)
@@ -123,7 +123,7 @@ def _cookie_name() -> str:
 
 
 def browser_of(request: HttpRequest) -> Browser | None:
-    """The browser that a request comes from, if someone signed in there before."""
+    """Returns the browser that sent a request, if someone signed in there before."""
     try:
         found: Any = _signer().unsign_object(
             request.COOKIES.get(_cookie_name(), ""), max_age=KNOWN_DAYS * 24 * 3600

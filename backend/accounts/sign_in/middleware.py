@@ -40,7 +40,7 @@ class PageCsrf(OnPages, CsrfViewMiddleware):
     """Checks a token in every form, in addition to the Origin that the guard checks for all requests."""
 
     def process_view(self, request: HttpRequest, *args: Any, **kwargs: Any) -> Any:
-        """Django calls this for each view."""
+        """Checks the token; called by Django for each view."""
         if request.path_info.startswith(PAGES):
             return super().process_view(request, *args, **kwargs)
         return None

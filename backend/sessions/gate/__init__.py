@@ -10,8 +10,9 @@ The gate is a program and a container of its own, because every session may spea
 no Docker socket, no secrets, one thread, and bounds on everything. The standard library is all it uses:
 
     doors       `<32 random hex>/gate.sock`, a folder for each session, in a volume that nobody can list
-    callers     connections that have not yet shown a token: how many, and who gives way
-    server      the loop: the keeper has doors opened, sessions come to them
-    client      the keeper's messages to the gate probe       the health check, which goes through the gate as
-    a session does errors      errors with a code and a hint
+    callers     connections that have not yet shown a token: their limits, and which are closed first
+    server      the loop: opens doors for the keeper, and passes sockets to sessions
+    client      the keeper's messages to the gate
+    probe       the health check, which goes through the gate as a session does
+    errors      errors with a code and a hint
 """

@@ -6,8 +6,9 @@ that the code with root's power over the host can be read in one sitting:
 
     docker      the Docker Engine's API over its socket
     plan        what an executor's container may do, and its limits
-    gate        requests that the gate, a separate program, passes sockets to executors service     starts,
-    inspects and stops executors, and ends those that run too long tools       containers that read users'
-    files for the editor group whether Docker's socket may be used server      the five requests that the web
-    server may make
+    gate        requests doors from the gate, a separate program that passes sockets to executors
+    service     starts, inspects and stops executors, and ends those that run too long
+    tools       containers that read users' files for the editor
+    group       whether Docker's socket may be used
+    server      the five requests that the web server may make
 """

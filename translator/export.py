@@ -1,4 +1,4 @@
-"""From a project to XML: plain, and with the actions inside."""
+"""Writes a project as XML: plain, or with the actions inside."""
 
 from __future__ import annotations
 

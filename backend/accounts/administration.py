@@ -147,7 +147,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     ) -> tuple[list[str], dict[str, int], set[str], list[str]]:
         """Shows how many projects are deleted with each user, in place of a list of all their files.
 
-        What goes along is what nobody may delete by itself: sessions, invitations.
+        Sessions and invitations of the user are deleted too, although nobody may delete them alone.
         """
         rows = list(objs)
         lines = [f"{row.username}, with all projects ({row.projects.count()})" for row in rows]

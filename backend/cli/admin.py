@@ -1,4 +1,4 @@
-"""`bt-studio admin`: accounts of a team's server, from the terminal of its machine."""
+"""`bt-studio admin`: manages the accounts of a team's server from the terminal of its machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`bt-studio backup` and `bt-studio restore`: everything that a server stores, as one file."""
+"""`bt-studio backup` and `bt-studio restore`: copy all data of a server to and from one file."""
 
 from __future__ import annotations
 

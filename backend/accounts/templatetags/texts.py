@@ -1,4 +1,4 @@
-"""`{% text "key" name=value %}` in templates."""
+"""The template tag `{% text "key" name=value %}`, which renders a text in the page's language."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ X32: Final = 0x40000000  # the same calls under other numbers
 
 ARCHITECTURES: Final = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 SOCKET: Final = {"x86_64": 41, "aarch64": 198}
-# What none of them needs: tracing others, mounts, namespaces, keys, the kernel's own programs and modules,
+# Calls that no program needs: tracing others, mounts, namespaces, keys, the kernel's programs and modules,
 # asynchronous I/O in the kernel.
 NEVER: Final = {
     "x86_64": (

@@ -58,7 +58,7 @@ class VerbGroup(TyperGroup):
         verb = VERBS[cmd_name]
         module = importlib.import_module(f"backend.cli.{verb.module}")
         found = getattr(module, verb.function)
-        if isinstance(found, typer.Typer):  # a verb with verbs of its own
+        if isinstance(found, typer.Typer):  # a command with subcommands
             return command_of(found)
         app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         app.command(name=cmd_name)(found)

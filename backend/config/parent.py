@@ -87,7 +87,7 @@ class Child:
             self._command,
             cwd=REPOSITORY,
             pass_fds=self._descriptors,
-            # Nothing is ever written: its end tells the worker that the parent has gone.
+            # Nothing is ever written: when the pipe closes, the worker knows that the parent has ended.
             stdin=subprocess.PIPE,
             start_new_session=True,  # Ctrl+C is for the parent, which passes it on
         )
@@ -249,7 +249,7 @@ class _Alarm:
         self._before = {number: signal.getsignal(number) for number in (*ENDING, signal.SIGCHLD)}
         for number in ENDING:
             signal.signal(number, lambda which, _: self._on_end(signal.Signals(which)))
-        signal.signal(signal.SIGCHLD, lambda *_: None)  # only what is handled wakes
+        signal.signal(signal.SIGCHLD, lambda *_: None)  # only handled signals wake the process
         return self
 
     def __exit__(self, *_: object) -> None:

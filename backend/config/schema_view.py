@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @lru_cache(maxsize=1)
 def document() -> dict[str, Any]:
     """Returns the OpenAPI document of this version."""
-    # Imported at the first request for the document, so that the server starts sooner.
+    # Imported at the first request for the document, so that the server starts faster.
     from drf_spectacular.generators import SchemaGenerator  # noqa: PLC0415
 
     from backend.accounts.api import schema  # noqa: F401, PLC0415 - importing it registers it

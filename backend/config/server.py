@@ -166,7 +166,7 @@ def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
     deadline = time.monotonic() + patience_s
     while True:
         try:
-            # Not by Django, whose pool would tell each attempt.
+            # Not by Django, whose pool would log each attempt.
             psycopg.connect(url, connect_timeout=5).close()
             return
         except psycopg.OperationalError as error:
@@ -213,7 +213,7 @@ def run(
     """
     set_up(log_level, environment().log_style)
     sys.setswitchinterval(SWITCH_S)
-    if siblings.family is None:  # else the parent has said so
+    if siblings.family is None:  # otherwise the parent has logged it
         proxies.at_start()
     with ended_by_interrupt():
         server = _make_server(on_ready, accepts_at_once)
@@ -246,7 +246,7 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
         ws_ping_interval=20,
         ws_ping_timeout=40,
         server_header=False,
-        proxy_headers=False,  # `clients.address_of` alone says whom we believe
+        proxy_headers=False,  # only `clients.address_of` decides which proxies are trusted
         timeout_graceful_shutdown=GRACE_S,
     )
     return Server(config)
@@ -261,7 +261,7 @@ def warm_up() -> None:
     from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
     from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
-    # All that was imported stays: Python need not look through it again and again for what is in no use.
+    # Imported objects live as long as the process: the garbage collector need not scan them.
     gc.collect()
     gc.freeze()
     while True:

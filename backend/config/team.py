@@ -191,7 +191,7 @@ def database(url: str, data_dir: Path) -> dict[str, Any]:
     return {
         "ENGINE": "django.db.backends.sqlite3",
         "NAME": Path(parts.path[1:]) if parts.scheme else data_dir / "bt-studio.sqlite3",
-        "CONN_MAX_AGE": None,  # the threads that answer requests stay
+        "CONN_MAX_AGE": None,  # request threads live as long as the process
         "OPTIONS": {
             # A writer takes its lock at BEGIN, so that no transaction fails half way with "locked".
             "transaction_mode": "IMMEDIATE",

@@ -54,7 +54,7 @@ def _end_with_parent(folder: Path) -> None:
     """The parent never writes; where it ends, whatever way, so does this."""
     while os.read(STDIN, 1):
         pass
-    shutil.rmtree(folder, ignore_errors=True)  # a parent that was killed could not
+    shutil.rmtree(folder, ignore_errors=True)  # a killed parent could not do it
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(GRACE_S + ORPHAN_S)
     os._exit(1)

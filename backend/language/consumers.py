@@ -76,7 +76,7 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
 
 async def _serve(page: Page, following: Following) -> Closed | None:
     starting = launcher()
-    # Nobody starts a server on a project that is not theirs.
+    # Only users of the project may start a server on it.
     contents = await sync_to_async(_contents)(page)
     server = await starting.start(page.project_id, page.user, contents)
     try:

@@ -107,7 +107,7 @@ def _library_key(site_packages: Path) -> str:
 
 def _make_library(site_packages: Path, folder: Path) -> None:
     partial = folder.with_name(f"{folder.name}.{uuid4().hex}")
-    # A process of its own: it reads hundreds of modules, and one thread at a time may read Python.
+    # In a separate process: it parses hundreds of modules, and only one thread at a time may parse Python.
     command = (sys.executable, "-m", "backend.language.library", site_packages, REPOSITORY, partial)
     subprocess.run(command, cwd=REPOSITORY, check=True)
     try:

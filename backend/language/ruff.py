@@ -19,12 +19,12 @@ from backend.language.errors import PythonRefusedError
 LINE_LENGTH: Final = 100
 TIMEOUT_S: Final = 5
 MAX_SOURCE_BYTES: Final = 1024 * 1024
-# What is likely wrong. Style is the formatter's; undefined names are found by the language server, too.
+# Rules for probable errors. The formatter handles style; the language server finds undefined names, too.
 RULES: Final = "F,B,E7,E9,W605,PLE,RUF100"
 IGNORED: Final = "F821,F405,F811,B027"
 _MAX_FINDINGS: Final = 200
 
-# Arguments and source to exit status and output; a status of None: it took too long.
+# From arguments and source to exit status and output; the status is None after a timeout.
 Run = Callable[[list[str], str], tuple[int | None, str]]
 
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
 
-# Address space, not memory: it is a bound on runaways, the watch below is the limit proper.
+# Address space, not memory: this stops a runaway; the limit of memory is enforced below.
 ADDRESS_SPACE_BYTES: Final = 8 * 1024**3
 STOP_S: Final = 2.0
 _CHUNK_BYTES: Final = 64 * 1024

@@ -41,7 +41,7 @@ LONGEST_PING: Final = 100
 MESSAGES_IN_TURN: Final = 4
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
-# A container with many processes takes seconds to end after its sockets, on a busy host many.
+# A container with many processes ends seconds after its sockets, and later on a busy host.
 LOST_POLL_S: Final = 0.1
 LOST_POLLS: Final = 150
 
@@ -134,7 +134,7 @@ async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | Non
     """Returns the session when it neither waits nor starts; a waiting browser receives its place."""
     find = sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
-    # Another web server may be starting it, so the database tells, and no event of this process.
+    # Another web server may be starting it: so this polls the database and waits for no local event.
     while (session := await find()).state in {SessionState.QUEUED, SessionState.STARTING}:
         is_queued = session.state == SessionState.QUEUED
         place = await sync_to_async(queries.position)(session) if is_queued else None
@@ -190,7 +190,7 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
     except ConnectionClosed as error:
         return _closed_by(error)
     except OSError:
-        return None  # the browser has gone
+        return None  # the browser has disconnected
 
 
 class _Turns:

@@ -107,7 +107,7 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
     message = {"id": "", "command": command, "data": data, "seq": 0, "t": 0}
     try:
         await send({"type": "websocket.send", "text": json.dumps(message), "bytes": None})
-    except (OSError, RuntimeError) as error:  # it has gone
+    except (OSError, RuntimeError) as error:  # the browser has disconnected
         log.debug("a browser was not told: %s", error)
 
 

@@ -99,9 +99,9 @@ async def _ask(session: Session, silence: Silence) -> None:
                     await asyncio.sleep(PING_EVERY_S)
                     await (await socket.ping())
         except InvalidStatus:
-            silence.heard()  # one of an older version knows no such socket, but says so
+            silence.heard()  # a manager of an older version has no such socket, but its refusal is an answer
         except (ConnectionClosed, TimeoutError, InvalidHandshake):
-            pass  # it is reached, and that is all
+            pass  # it can be reached, which is enough
         except OSError:
             silence.not_reached()
         await asyncio.sleep(PING_EVERY_S)
@@ -146,7 +146,7 @@ async def _look_after(session: Session) -> None:
     try:
         await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
-        # The next round of maintenance begins again.
+        # The next round of maintenance starts it again.
         log.exception("session %s: a silent executor was not ended", session.id)
 
 

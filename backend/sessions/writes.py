@@ -41,7 +41,7 @@ log = logging.getLogger(__name__)
 # Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
 ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
-# What hangs does not end when it is asked to.
+# A hanging executor does not end on request.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
 PLACES: Final = "places of sessions"
 """The lock of those who count the places and take one."""
@@ -97,7 +97,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
                 )
             break
         except IntegrityError:
-            # Another request was faster: its session is the one, or only its domain is taken.
+            # Another request was faster: it has made this session, or has only taken the domain.
             running = queries.live_session(project_id, user=acting_user)
             if running is not None:
                 return running
@@ -155,10 +155,10 @@ def refresh(session: Session) -> Session:
             why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
             died = f"The executor ended by itself (status {status}).{why}" if status else ""
             _look_again(session)
-            died = session.error or died  # who ended it has said why
+            died = session.error or died  # the caller that ended it has stored the reason
             state = SessionState.FAILED if died else SessionState.ENDED
             if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
-                _look_again(session)  # it did not end by itself: somebody ended it
+                _look_again(session)  # it did not end by itself, but was ended
     return session
 
 
@@ -187,7 +187,7 @@ def _await_launch(session: Session) -> None:
     It sees that the session has ended when the executor is there. While it works it holds a lock of the
     database, which goes with its connection.
     """
-    # In a transaction of the caller nobody sees the end of the session yet.
+    # Inside the caller's transaction, others do not see the end of the session yet.
     if connection.vendor == "postgresql" and not connection.in_atomic_block:
         longest_s = 2 * environment().session_start_timeout_s
         try:
@@ -196,7 +196,7 @@ def _await_launch(session: Session) -> None:
                 transaction_lock(_launch_lock(session.id))
         except OperationalError:
             log.warning("session %s: the server that starts it does not come to an end", session.id)
-    if launcher().survives_server:  # what a server started that was killed is there still
+    if launcher().survives_server:  # an executor of a killed server still exists
         state = launcher().state_of(str(session.id))
         launcher().stop(state, timeout_s=environment().session_stop_timeout_s)
 
@@ -210,7 +210,7 @@ def fail_session(session_id: UUID, why: str) -> None:
     try:
         ready = Session.objects.filter(id=session_id, state=SessionState.READY)
         session = ready.first()
-        # Others see its end before we do, and give this reason for it.
+        # Other servers may notice its end first, and then report this reason.
         if session is None or not ready.update(error=why):
             return
         log.warning("session %s: %s", session.id, why)
@@ -298,7 +298,7 @@ def end_orphans() -> None:
             if state:
                 launcher().stop(state, timeout_s=timeout_s)
             _finish(session, SessionState.ENDED, "The server was restarted.")
-    running = set(launcher().running())  # first, since another server may start one at this moment
+    running = set(launcher().running())  # first, since another server may be starting one
     known = {str(session.id) for session in queries.live_sessions()}
     for orphan in running - known:
         log.warning("the executor %s belongs to no session and is ended", orphan)
@@ -325,7 +325,7 @@ def _launch(session: Session) -> None:
             return
         started = launcher().start(spec)
     except HostFullError as error:
-        # The host knows better than our count. The session keeps its turn.
+        # The host's refusal counts more than our number. The session keeps its place in the queue.
         log.info("session %s waits: %s", session.id, error.detail)
         _moved(session, SessionState.STARTING, state=SessionState.QUEUED, ros_domain_id=None)
     except LaunchError as error:
@@ -354,7 +354,7 @@ def _begins(session: Session) -> bool:
 
 
 def _look_again(session: Session) -> None:
-    with suppress(Session.DoesNotExist):  # it has gone with its project or user
+    with suppress(Session.DoesNotExist):  # it was deleted with its project or user
         session.refresh_from_db()
 
 
@@ -374,7 +374,7 @@ def _finish(session: Session, state: SessionState, error: str = "") -> None:
 
 def _free_domain() -> int:
     taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
-    # Where to begin differs among servers on one host, so that their first sessions do not meet.
+    # The first domain differs among servers on one host, so that their first sessions do not collide.
     offset = os.getpid() % len(ROS_DOMAINS)
     candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
     free: int | None = next((domain for domain in candidates if domain not in taken), None)

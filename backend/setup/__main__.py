@@ -77,7 +77,7 @@ def say(sentence: str) -> None:
     print(f"set-up: {sentence}", flush=True)
 
 
-# --- what the machine must have -------------------------------------------------------------------
+# --- requirements of the machine ------------------------------------------------------------------
 
 
 def check_machine() -> None:
@@ -239,7 +239,7 @@ def interfaces_step() -> Step:
     )
 
 
-# --- taking a step --------------------------------------------------------------------------------
+# --- running a step -------------------------------------------------------------------------------
 
 
 def take(step: Step) -> None:

@@ -66,7 +66,7 @@ class Aside:
             result, error = None, None
             try:
                 result = task.work()
-            except BaseException as raised:  # the one who waits gets it
+            except BaseException as raised:  # the waiting caller gets the error
                 error = raised
             finally:
                 connection.close()
@@ -77,7 +77,7 @@ class Aside:
                 task.future.set_result(result)
             else:
                 task.future.set_exception(error)
-            del task, result, error  # what came with a request ends with it
+            del task, result, error  # the request's files are closed with the request
 
     def _taken(self) -> tuple[str, _Task]:
         with self._changed:

@@ -29,7 +29,7 @@ class Deferred(HttpResponse):
             Deferred.
     """
 
-    streaming = True  # there is nothing yet that a middleware could look at
+    streaming = True  # there is no content yet for a middleware
 
     def __init__(
         self,

@@ -122,7 +122,7 @@ class Pool:
                     hint="Try again in a few seconds.",
                 ) from None
             self._going[key] = future
-            # One more than is needed, so that the next owner's job meets a process that has begun.
+            # One more than is needed, so that the next owner's job finds a running process.
             if self._idle < 2 and len(self._workers) < self._limits.workers:
                 self._workers.append(_Worker(self, f"worker_{len(self._workers)}"))
             self._changed.notify()
@@ -222,14 +222,14 @@ class _Worker:
             answer: bytearray | Exception
             try:
                 answer = self._done(job)
-            except Exception as error:  # the one who waits must hear of everything
+            except Exception as error:  # the waiting caller must get every error
                 answer = error
             self._pool.done(owner, job, answer)
         self._end()
 
     def _next(self) -> tuple[str, _Job] | None:
         """The next job; the process begins before it comes, for it needs a second to do so."""
-        with suppress(OSError):  # the job's own attempt tells of it
+        with suppress(OSError):  # the job's own attempt reports it
             self._connected(self._pool.limits)
         return self._pool.next()
 
@@ -285,7 +285,7 @@ class _Worker:
         return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
 
 
-# A worker reads users' files: it gets what Python needs, and none of the server's secrets.
+# A worker reads users' files: its environment has what Python needs, and no secret of the server.
 _ENVIRONMENT: Final = {
     name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH") if name in os.environ
 }

@@ -103,7 +103,7 @@ class _Line:
                 answer = msgspec.msgpack.decode(frames.receive(self._connection))
                 with self._lock:
                     future = self._asked.pop(answer["number"], None)
-                if future is None:  # the line ended meanwhile
+                if future is None:  # the connection ended meanwhile
                     break
                 if "error" in answer:
                     kind = _ERRORS.get(answer["error"], WorkFailedError)

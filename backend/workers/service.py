@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--page", type=Path, required=True, help="where it reports that it is alive")
     options = parser.parse_args(arguments)
     set_up(environment().log_level, environment().log_style)
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # the end of its input comes when nobody asks any more
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # its standard input closes when the parent ends
     lanes = make_lanes()
     threading.Thread(target=serve, args=(listening(options.socket), lanes), daemon=True).start()
     threading.Thread(target=beat, args=(lanes, read_page(options.page)), daemon=True).start()
@@ -67,7 +67,7 @@ def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
 
 def listening(path: Path) -> socket.socket:
     """Returns the socket at this path, in a folder that only we can access."""
-    path.unlink(missing_ok=True)  # that of one before us, which was killed
+    path.unlink(missing_ok=True)  # the socket of a killed predecessor
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(str(path))
     listener.listen(BACKLOG)

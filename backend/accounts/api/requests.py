@@ -24,7 +24,7 @@ def parsed(serializer: type[serializers.Serializer[Any]], data: Any) -> dict[str
     try:
         return dict(_reader(serializer).run_validation(data))
     except ValidationError:
-        # Rare, so that it may take its time: DRF words it by a serializer of its own.
+        # Rare, and so allowed to be slow: a new serializer makes DRF's error text.
         bound = serializer(data=data)
         bound.is_valid(raise_exception=True)
         return dict(bound.validated_data)

@@ -72,7 +72,7 @@ class Groups(ResourceViewSet):
         responses={201: s.GroupSerializer},
         tags=["accounts"],
     )
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def create(self, request: Request) -> Response:
         """Makes a group; for teachers."""
         asked = parsed(s.NamedSerializer, request.data)
@@ -92,7 +92,7 @@ class Groups(ResourceViewSet):
         responses=s.GroupSerializer,
         tags=["accounts"],
     )
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def partial_update(self, request: Request, group_id: UUID) -> Response:
         """Renames a group."""
         asked = parsed(s.NamedSerializer, request.data)
@@ -120,7 +120,7 @@ class Groups(ResourceViewSet):
         tags=["accounts"],
     )
     @action(detail=True, methods=["post"], url_path="invitations")
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def invite(self, request: Request, group_id: UUID) -> Response:
         """Makes a link with which people create accounts and join."""
         asked = parsed(s.InviteSerializer, request.data)

@@ -103,7 +103,7 @@ def forget(limits: Iterable[Bound]) -> None:
 def _more(key: str, number: int) -> int:
     try:
         return int(cache.incr(key, number))
-    except ValueError:  # its time was over just now
+    except ValueError:  # it expired a moment ago
         return max(number, 0)
 
 

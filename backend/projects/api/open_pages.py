@@ -33,7 +33,7 @@ class Pages:
             notice = json.dumps({"type": "server", "text": text})
             try:
                 await send({"type": "websocket.send", "text": notice, "bytes": None})
-            except (OSError, RuntimeError) as error:  # it has gone
+            except (OSError, RuntimeError) as error:  # the page has closed
                 log.debug("a page was not told: %s", error)
 
 

@@ -58,7 +58,7 @@ class Revisions(ResourceViewSet):
         responses=s.RevisionSerializer,
         tags=["revisions"],
     )
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def partial_update(self, request: Request, project_id: UUID, number: int) -> Response:
         """Gives a revision a name, or removes it."""
         asked = parsed(s.LabelSerializer, request.data)

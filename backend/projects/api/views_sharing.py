@@ -106,7 +106,7 @@ class Shares(ResourceViewSet):
         responses={200: SharesSerializer},
         tags=["sharing"],
     )
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def create(self, request: Request, project_id: UUID) -> Response:
         """Gives a person a role, or changes it."""
         asked = parsed(SharePersonSerializer, request.data)
@@ -134,7 +134,7 @@ class Shares(ResourceViewSet):
         tags=["sharing"],
     )
     @action(detail=False, methods=["put"], url_path="groups/<uuid:group_id>")
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def share_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
         """Gives all members of a group a role."""
         role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
@@ -161,7 +161,7 @@ class Shares(ResourceViewSet):
         tags=["sharing"],
     )
     @action(detail=False, methods=["post"], url_path="links")
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def make_link(self, request: Request, project_id: UUID) -> Response:
         """Makes a link with which anyone can read the project."""
         asked = parsed(MakeLinkSerializer, request.data)
@@ -191,7 +191,7 @@ class Transfer(APIView):
         responses=SharesSerializer,
         tags=["sharing"],
     )
-    @transaction.atomic  # with what the answer reads
+    @transaction.atomic  # includes the reads for the answer
     def post(self, request: Request, project_id: UUID) -> Response:
         """Makes an editor the owner; the previous owner becomes an editor."""
         asked = parsed(TransferSerializer, request.data)

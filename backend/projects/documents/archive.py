@@ -38,7 +38,7 @@ def unpack(data: IO[bytes]) -> dict[str, bytes]:
         zipfile.BadZipFile,
         zlib.error,
         EOFError,
-        NotImplementedError,  # zipfile, of a compression that it does not know
+        NotImplementedError,  # zipfile raises it for an unknown compression
         RuntimeError,
         UnicodeError,
     ) as error:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"
-# Of all other files a check needs to know only that they are there.
+# A check only needs to know that the other files exist.
 _CHECKED: Final = ("project.json", "trees/", "actions/", "imports/")
 
 

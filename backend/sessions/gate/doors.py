@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 DOOR_NAME: Final = re.compile(r"[0-9a-f]{32}")
 DOOR_SOCKET: Final = "gate.sock"
 ENTER_ONLY: Final = 0o711
-EVERYBODY: Final = 0o666  # anyone who finds the folder; it is mounted where it is meant to be seen
+EVERYBODY: Final = 0o666  # any user: the folder is mounted only where it may be seen
 BACKLOG: Final = 128
 
 
@@ -44,7 +44,7 @@ class Doors:
         except OSError as error:
             hint = "The volume must belong to the user that the gate runs as: remove it and start again."
             raise GateError("gate_folder", f"{root} cannot be used: {error}.", hint) from error
-        # Doors do not outlive their gate: the keeper has those opened again that it still needs.
+        # Doors do not outlive their gate: the keeper opens those again that it still needs.
         for left in root.iterdir():
             if DOOR_NAME.fullmatch(left.name):
                 shutil.rmtree(left, ignore_errors=True)
@@ -63,7 +63,7 @@ class Doors:
             self.remove(name)
             raise
         listener.settimeout(0)
-        folder.chmod(ENTER_ONLY)  # the umask had a say in it
+        folder.chmod(ENTER_ONLY)  # the umask has restricted the mode
         return listener
 
     def remove(self, name: str) -> None:

@@ -149,7 +149,7 @@ class Plan:
             "User": USER,
             "Env": [f"{TOKEN_VARIABLE}={token}"],
             "Labels": {STACK_LABEL: self.stack} | labels,
-            "Healthcheck": {"Test": ["NONE"]},  # the keeper itself looks
+            "Healthcheck": {"Test": ["NONE"]},  # the keeper itself checks the number of processes
             "HostConfig": {
                 "NetworkMode": "none",
                 "ReadonlyRootfs": True,

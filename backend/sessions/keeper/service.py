@@ -77,7 +77,7 @@ class Keeper:
         """Returns whether an executor runs, and how it ended."""
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
-            # A caller that asks while another clears up gets the same answer.
+            # A request during the clean-up of another one gets the same answer.
             reason = self._reasons.get(session_id, "There is no executor of this session.")
             return {"running": False, "status": None, "reason": reason}
         state = found["State"]

@@ -48,7 +48,7 @@ class ToolsKeeper:
         """
         name = self._plan.tools_name(tools_id)
         with self._changed:
-            # Two pages of one user open at once.
+            # Two pages of one user open at the same time.
             self._changed.wait_for(lambda: tools_id not in self._opening)
             if self._runs(name):
                 return {"socket": str(self._gate.path(tools_id))}

@@ -37,7 +37,7 @@ def ask(
     try:
         data = None if body is None else json.dumps(body).encode()
         headers = {} if body is None else {"Content-Type": "application/json"}
-        with suppress(BrokenPipeError):  # who refuses a request may answer before all of it is read
+        with suppress(BrokenPipeError):  # a refusal may come before the request is read
             connection.request(method, target, data, headers)
         response = connection.getresponse()
         return response.status, response.read()

@@ -112,7 +112,7 @@ class ProcessLauncher(Launcher):
                 (*self._command, *arguments, *options),
                 cwd=REPOSITORY,
                 env=_environment(spec),
-                # The pipe is never written to: its end tells the child that the server is gone.
+                # Nothing is written to the pipe: when it closes, the child knows that the server has ended.
                 stdin=subprocess.PIPE,
                 stdout=output,
                 stderr=subprocess.STDOUT,

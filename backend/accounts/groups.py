@@ -75,7 +75,7 @@ def delete(group_id: UUID, *, acting_user: User) -> None:
 
 @transaction.atomic
 def remove_member(group_id: UUID, name: str, *, acting_user: User) -> None:
-    """Takes someone out; everybody may leave by themselves.
+    """Removes someone from the group; everyone may leave it.
 
     Raises:
         NotFoundError: nobody of this name is in it.

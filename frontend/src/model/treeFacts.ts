@@ -3,7 +3,7 @@ import type { PortDirection, PortSpec } from './ports';
 
 /** Facts about a tree for other trees of the project. */
 export interface TreeFacts {
-  /** The trees that it calls, except from drafts. */
+  /** The trees that the tree calls, except from drafts. */
   readonly calls: ReadonlySet<string>;
   /** Its ports as a SubTree. */
   readonly ports: readonly PortSpec[];

@@ -6,7 +6,7 @@ import type { Vocabulary } from '@/model/vocabulary';
 import { paletteOf, type Theme } from './palette';
 import { TreeImage } from './TreeImage';
 
-/** Two pixels a point: sharp on such screens and in print. */
+/** The scale of pictures: two pixels a point are sharp on high-resolution screens and in print. */
 const SCALE = 2;
 /** Browsers refuse larger canvases; larger trees are drawn at a smaller scale. */
 const MAX_PIXELS = 8192;

@@ -1,9 +1,9 @@
 """System calls that our own programs in containers give up: `python -m backend.confine web PROGRAM…`.
 
-Sessions have a seccomp profile that Docker applies (`backend/sessions/keeper/seccomp.json`). For the
-containers of the compose file that is no way: docker-compose 1.29 looks for a profile's file where it was
-called, Compose v2 beside the compose file, and Docker's own profile of 20.10 admits AF_VSOCK and io_uring. So
-these programs refuse to themselves what they never need; the kernel keeps it so, for their children too.
+Sessions have a seccomp profile that Docker applies (`backend/sessions/keeper/seccomp.json`). The containers
+of the compose file cannot use one: docker-compose 1.29 looks for a profile's file where it was called,
+Compose v2 beside the compose file, and Docker's own profile of 20.10 admits AF_VSOCK and io_uring. So these
+programs give up the calls that they never need; the kernel enforces this for their children too.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ X32: Final = 0x40000000  # the same calls under other numbers
 
 ARCHITECTURES: Final = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 SOCKET: Final = {"x86_64": 41, "aarch64": 198}
-# What none of them needs: tracing others, mounts, namespaces, keys, the kernel's own programs and modules,
+# Calls that no program needs: tracing others, mounts, namespaces, keys, the kernel's programs and modules,
 # asynchronous I/O in the kernel.
 NEVER: Final = {
     "x86_64": (
@@ -56,7 +56,7 @@ UNIX_IP_NETLINK: Final = (1, 2, 10, 16)
 
 
 def confine(role: str) -> None:
-    """Gives up, for good, what a program of this role never needs.
+    """Gives up irrevocably the system calls that a program of this role never needs.
 
     Args:
         role: `gate` starts nothing and calls nobody, `keeper` starts no program and calls unix sockets alone,
@@ -103,7 +103,7 @@ def _apply(program: bytes) -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Becomes a program that is confined."""
+    """Applies the filter and executes the program."""
     role, program, *rest = arguments
     try:
         confine(role)

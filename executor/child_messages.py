@@ -264,23 +264,23 @@ class Failed(_Asked, tag="error"):
 
 
 class Sim(messages.Sim, tag_field="type", tag="sim", kw_only=True):
-    """Event `sim` at the simulated time `t`; the session adds the load of the ticks."""
+    """Becomes the event `sim` at the simulated time `t`; the session adds the load of the ticks."""
 
     t: float
 
 
 class TopicMismatch(messages.TopicMismatch, tag_field="type", tag="topic_mismatch"):
-    """Event `topic_mismatch`."""
+    """Becomes the event `topic_mismatch` for clients."""
 
 
 class Topics(_Asked, tag="topics"):
-    """Event `topics`."""
+    """Becomes the event `topics` for clients."""
 
     topics: list[messages.TopicInfo]
 
 
 class TopicMessage(_Asked, tag="topic_message"):
-    """Event `topic_message`, whose `type` is `message_type` here."""
+    """Becomes the event `topic_message`, whose `type` is `message_type` here."""
 
     topic: str
     message_type: str
@@ -290,7 +290,7 @@ class TopicMessage(_Asked, tag="topic_message"):
 
 
 class TypeDescription(_Asked, tag="type_description"):
-    """Event `type_description`, whose `type` is `message_type` here."""
+    """Becomes the event `type_description`, whose `type` is `message_type` here."""
 
     message_type: str
     fields: dict[str, str]
@@ -336,25 +336,25 @@ class BlackboardSet(_Message, tag="blackboard_set"):
 
 
 class Tree(messages.Tree, tag_field="type", tag="tree"):
-    """Event `tree`."""
+    """Becomes the event `tree` for clients."""
 
 
 class Tick(messages.Tick, tag_field="type", tag="tick", kw_only=True):
-    """Event `tick` at the simulated time `t`."""
+    """Becomes the event `tick` at the simulated time `t`."""
 
     t: float
 
 
 class Blackboard(messages.Blackboard, tag_field="type", tag="blackboard"):
-    """Event `blackboard`."""
+    """Becomes the event `blackboard` for clients."""
 
 
 class Fault(messages.Fault, tag_field="type", tag="fault"):
-    """Event `fault`."""
+    """Becomes the event `fault` for clients."""
 
 
 class Finished(messages.Finished, tag_field="type", tag="finished"):
-    """Event `finished`."""
+    """Becomes the event `finished` for clients."""
 
 
 WorldCommand = (

@@ -1,4 +1,4 @@
-"""From diagrams to BehaviorTree.CPP XML and ROS 2 packages, and back: pure functions, no ROS, no Django."""
+"""Translates diagrams to BehaviorTree.CPP XML and ROS 2 packages, and back, without ROS and Django."""
 
 from translator.action import ActionModel, inspect_action
 from translator.check import check

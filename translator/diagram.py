@@ -35,7 +35,7 @@ def restore(raw: bytes | str, *, file: str) -> tuple[Tree | None, tuple[Diagnost
 
 
 def restore_document(document: Any, *, file: str) -> tuple[Tree | None, tuple[Diagnostic, ...]]:
-    """Like `restore`, for a document that is already parsed."""
+    """Reads a diagram as `restore` does, from a parsed document."""
     reader = _Reader(file)
     tree = reader.read(document)
     return tree, tuple(reader.found)

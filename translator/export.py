@@ -1,4 +1,4 @@
-"""From a project to XML: plain, and with the actions inside."""
+"""Writes a project as XML: plain, or with the actions inside."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def unwritten_actions(project: Project) -> list[str]:
 
 
 def write_self_contained(project: Project) -> str:
-    """Like `self_contained`, for a project that is known to be sound."""
+    """Returns the document of `self_contained`, for a project without errors."""
     return write_document(project, after=_code_lines(project))
 
 

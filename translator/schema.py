@@ -21,7 +21,7 @@ class _Document(BaseModel):
 
 
 class PortDocument(_Document):
-    """A port of the tree, for callers of it as a SubTree."""
+    """A port of the tree, which callers set on their SubTree node."""
 
     name: str
     direction: Literal["input", "output", "inout"] = "input"

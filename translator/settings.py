@@ -63,7 +63,7 @@ def read_settings(raw: bytes | str) -> tuple[Settings, tuple[Diagnostic, ...]]:
 
 
 def restore_settings(document: Any) -> tuple[Settings, tuple[Diagnostic, ...]]:
-    """Like `read_settings`, for a document that is already parsed."""
+    """Reads the settings as `read_settings` does, from a parsed document."""
     place = Place(PROJECT_FILE)
     if not isinstance(document, dict):
         return Settings(), (diagnostic("BT0004", place, kind="no object"),)

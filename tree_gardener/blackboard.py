@@ -95,7 +95,7 @@ class Blackboard(MutableMapping[str, Any]):
         return self.locate()
 
     def scope(self, path: str) -> "Blackboard":
-        """The scope of the SubTree with this path.
+        """Returns the scope of the SubTree with this path.
 
         Raises:
             KeyError: no SubTree has this path.
@@ -107,7 +107,7 @@ class Blackboard(MutableMapping[str, Any]):
         return self.root.scopes(path)
 
     def child(self) -> "Blackboard":
-        """A scope inside this one, of the same class."""
+        """Makes a scope inside this one, of the same class."""
         return type(self)(self)
 
     def find(self, key: str) -> Entry | None:

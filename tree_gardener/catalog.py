@@ -52,7 +52,7 @@ def _spec(port: CatalogPort) -> PortSpec:
 
 @functools.cache
 def load() -> dict[str, CatalogNode]:
-    """The built-in nodes by type, in the order of the catalogue."""
+    """Returns the built-in nodes by type, in the order of the catalogue."""
     nodes = json.loads(PATH.read_text(encoding="utf-8"))["nodes"]
     return {node["type"]: _node(node) for node in nodes}
 

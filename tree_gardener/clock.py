@@ -14,7 +14,7 @@ class Clock(Protocol):
         """Seconds since some fixed moment; never goes back."""
 
     def sleep(self, duration_s: float) -> None:
-        """Waits."""
+        """Waits for this many seconds."""
 
 
 class SystemClock:
@@ -25,7 +25,7 @@ class SystemClock:
         return time.monotonic()
 
     def sleep(self, duration_s: float) -> None:
-        """Waits."""
+        """Waits for this many seconds."""
         time.sleep(duration_s)
 
 
@@ -87,7 +87,7 @@ class Timers:
                 callback()
 
     def next_s(self) -> float | None:
-        """When the next call is due, or None."""
+        """Returns when the next call is due, or None."""
         while self.heap and self.heap[0][2].callback is None:
             heapq.heappop(self.heap)
         return self.heap[0][0] if self.heap else None

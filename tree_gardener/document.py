@@ -199,7 +199,7 @@ class _Reader:
 
 
 def embedded_sources(document: Document) -> dict[str, str]:
-    """The sources of the actions in ``<Code>``, by action; both forms of self-contained documents."""
+    """Returns the sources of the actions in ``<Code>``, by action; both forms of self-contained documents."""
     sources = {}
     for code in document.root.children:
         if code.tag != "Code":

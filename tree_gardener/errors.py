@@ -58,7 +58,7 @@ class Diagnostic:
         return f"{self.file}:{self.line}:{self.column}: {self.code} {self.message}{hint}"
 
     def to_json(self) -> dict[str, Any]:
-        """The fields as a JSON object."""
+        """Returns the fields as a JSON object."""
         return dataclasses.asdict(self)
 
 

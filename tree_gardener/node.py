@@ -184,7 +184,7 @@ class Node:
         self.ticks = tuple([child.entry() for child in self.children])
 
     def prepare(self) -> None:
-        """Sets the node's state to its start; called once, when the tree is complete."""
+        """Initialises the node's state; called once, when the tree is complete."""
 
     def stop(self) -> None:
         """Halts the node as its parent does: its ``_onHalted`` runs afterwards."""
@@ -307,7 +307,7 @@ class Control(Node):
         return status
 
     def finish_all(self, status: Status) -> Status:
-        """As `finish`, but faster: every child has just succeeded or failed, so none has to be halted."""
+        """Does the same as `finish`, but faster: every child is done, so that none must be halted."""
         if self.journal is not None:
             self.journal.reset_done(self.children)
             self.journal.results.append(self.marks[0] if status is SUCCESS else self.marks[1])

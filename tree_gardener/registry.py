@@ -98,7 +98,7 @@ class NodeType:
 
 @functools.cache
 def built_in_types() -> dict[str, NodeType]:
-    """The built-in nodes."""
+    """Returns the built-in node types by tag."""
     return {
         entry.type: NodeType(
             entry.type, BUILT_IN[entry.type], entry.manifest, entry.min_children, entry.max_children

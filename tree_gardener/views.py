@@ -38,7 +38,7 @@ class _View:
         self.qualified_name = f"{node.type}/{node.name}"
 
     def update(self) -> Any:
-        """The node's status; the engine ticks it, not py_trees."""
+        """Returns the node's status; the engine ticks the node, not py_trees."""
         return to_py_trees(self.node.status)
 
     def tick(self) -> Iterator[Any]:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Site(admin.AdminSite):
-    """Django's administration, with the sign-in of everybody, second factor included."""
+    """Django's administration; administrators sign in as all users do, second factor included."""
 
     site_header = "BT Studio – administration"
     site_title = "BT Studio"
@@ -72,21 +72,21 @@ site.login = secure_admin_login(site.login)  # type: ignore[method-assign]
 
 
 class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
-    """Writes to the audit log what administrators change."""
+    """Writes changes by administrators to the audit log."""
 
     def log_addition(self, request: HttpRequest, obj: Any, message: Any) -> Any:
-        """After adding."""
+        """Writes to the audit log after an object was added."""
         self._note("add", request, obj)
         return super().log_addition(request, obj, message)
 
     def log_change(self, request: HttpRequest, obj: Any, message: Any) -> Any:
-        """After changing; the names of the fields, never their values."""
+        """Writes to the audit log after a change: the names of the fields, never their values."""
         changed = [row["changed"].get("fields", []) for row in message if "changed" in row]
         self._note("change", request, obj, fields=[str(name) for names in changed for name in names])
         return super().log_change(request, obj, message)
 
     def log_deletions(self, request: HttpRequest, queryset: QuerySet[Any]) -> Any:
-        """Before deleting."""
+        """Writes to the audit log before objects are deleted."""
         for row in queryset:
             self._note("delete", request, row)
         return super().log_deletions(request, queryset)
@@ -99,18 +99,15 @@ class Audited(admin.ModelAdmin):  # type: ignore[type-arg]
 
 
 class ReadOnly(admin.ModelAdmin):  # type: ignore[type-arg]
-    """Looks, and changes nothing."""
+    """Shows objects without any permission to change them."""
 
     def has_add_permission(self, request: HttpRequest, obj: Any = None) -> bool:
-        """Nobody."""
         return False
 
     def has_change_permission(self, request: HttpRequest, obj: Any = None) -> bool:
-        """Nobody."""
         return False
 
     def has_delete_permission(self, request: HttpRequest, obj: Any = None) -> bool:
-        """Nobody."""
         return False
 
 
@@ -130,17 +127,17 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     readonly_fields = ("last_login", "date_joined")
 
     def get_queryset(self, request: HttpRequest) -> QuerySet[User]:
-        """With what each one stores."""
+        """Adds the number of projects and the stored bytes of each user."""
         kept = Q(projects__deleted_at=None)
         rows: QuerySet[User] = super().get_queryset(request)
         return rows.annotate(kept=Count("projects", filter=kept), used=Sum("projects__size", filter=kept))
 
     def delete_model(self, request: HttpRequest, obj: User) -> None:
-        """As the user would: their robots end, too."""
+        """Deletes a user as the users' own page does: their robots end, too."""
         delete_account(obj)
 
     def delete_queryset(self, request: HttpRequest, queryset: QuerySet[User]) -> None:
-        """The same for several; refused as a whole when no administrator would be left."""
+        """Deletes several users; refuses all of them if no administrator would be left."""
         with transaction.atomic():
             for user in queryset:
                 delete_account(user)
@@ -150,14 +147,14 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
     ) -> tuple[list[str], dict[str, int], set[str], list[str]]:
         """Shows how many projects are deleted with each user, in place of a list of all their files.
 
-        What goes along is what nobody may delete by itself: sessions, invitations.
+        Sessions and invitations of the user are deleted too, although nobody may delete them alone.
         """
         rows = list(objs)
         lines = [f"{row.username}, with all projects ({row.projects.count()})" for row in rows]
         return lines, {"accounts": len(rows)}, set(), []
 
     def delete_view(self, request: HttpRequest, object_id: str, extra_context: Any = None) -> HttpResponse:
-        """Reports why the last administrator stays."""
+        """Shows the reason if the last administrator cannot be deleted."""
         try:
             return super().delete_view(request, object_id, extra_context)
         except LastAdministratorError as error:
@@ -165,7 +162,7 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
             return HttpResponseRedirect(request.path)
 
     def response_action(self, request: HttpRequest, queryset: QuerySet[User]) -> HttpResponse | None:  # type: ignore[override]
-        """The same for several."""
+        """Shows the reason if the last administrator is among several users to delete."""
         try:
             return super().response_action(request, queryset)
         except LastAdministratorError as error:
@@ -174,29 +171,28 @@ class Users(Audited, UserAdmin):  # type: ignore[type-arg]
 
     @admin.display(description="role")
     def role(self, row: User) -> str:
-        """The highest right."""
+        """Returns the user's highest right."""
         return "administrator" if row.is_superuser else "teacher" if row.is_teacher else "user"
 
     @admin.display(description="projects", ordering="kept")
     def projects_kept(self, row: Any) -> int:
-        """The number of the user's projects."""
         return int(row.kept)
 
     @admin.display(description="room", ordering="used")
     def room_used(self, row: Any) -> str:
-        """Bytes of the current files."""
+        """Returns the bytes of the current files."""
         return str(filesizeformat(row.used or 0))
 
     @admin.action(description="Make a link that sets a new password")
     def make_password_link(self, request: HttpRequest, rows: QuerySet[User]) -> None:
-        """For people who get no mail; the link works once, for three days."""
+        """Makes a link for people without e-mail; it works once, for three days."""
         for user in rows:
             note("password.link", actor=_actor(request), subject=user.username, subject_id=user.pk)
             messages.info(request, f"{user.username}: {passwords.link(user)}")
 
     @admin.action(description="Deactivate (projects are kept)")
     def deactivate(self, request: HttpRequest, rows: QuerySet[User]) -> None:
-        """Ends every right of these accounts at once."""
+        """Ends all rights of these accounts immediately."""
         for user in rows.exclude(pk=request.user.pk or 0):
             user.is_active = False
             user.save(update_fields=["is_active"])
@@ -216,7 +212,7 @@ class Members(admin.TabularInline):  # type: ignore[type-arg]
 
 
 class Groups(Audited):
-    """Classes."""
+    """Groups of users, such as classes."""
 
     list_display = ("name", "owner", "created_at")
     search_fields = ("name", "owner__username")
@@ -225,14 +221,14 @@ class Groups(Audited):
 
 
 class Invitations(ReadOnly):
-    """Links that still let people in, and those that did."""
+    """Invitation links, valid and used ones."""
 
     list_display = ("created_by", "group", "created_at", "expires_at", "uses", "max_uses", "revoked_at")
     list_filter = ("group",)
 
 
 class AuditLog(ReadOnly):
-    """The audit log."""
+    """Entries of the audit log, read-only."""
 
     list_display = ("at", "actor_name", "action", "subject", "address")
     list_filter = ("action",)

@@ -4,13 +4,13 @@ from django.apps import AppConfig
 
 
 class AccountsConfig(AppConfig):
-    """Users."""
+    """Configuration of the app of users."""
 
     name = "backend.accounts"
     label = "accounts"
 
     def ready(self) -> None:
-        """Listens to sign-ins, on servers that have them."""
+        """Connects the signals of sign-in on servers with accounts."""
         from backend.config.environment import environment  # noqa: PLC0415
 
         if environment().is_team:

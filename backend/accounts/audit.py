@@ -1,4 +1,4 @@
-"""The audit log. Nothing is written on localhost, where there is one user."""
+"""The audit log. It is empty on localhost, where there is one user."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def note(
     subject_id: object = "",
     **detail: object,
 ) -> None:
-    """Adds an entry, in the transaction of what it tells about.
+    """Adds an entry in the transaction of the action that it records.
 
     Args:
         action: `noun.verb`, such as `project.delete`.
-        actor: who did it; guests and failed sign-ins have a name at most.
-        actor_name: what a failed sign-in called itself.
-        subject: the name of what it was done to, as it was then.
+        actor: the user who did it; of guests and failed sign-ins at most the name is stored.
+        actor_name: the name that a failed sign-in gave.
+        subject: the name of the changed object at that time.
         subject_id: its key.
         detail: whatever else explains the entry; nothing secret.
     """
@@ -56,6 +56,9 @@ def note(
 
 
 def forget_old(now: datetime) -> int:
-    """Removes ended sign-ins, and entries older than `BT_STUDIO_AUDIT_DAYS`; returns how many of these."""
+    """Removes expired sign-ins, and old entries; returns the number of these.
+
+    Entries are kept for `BT_STUDIO_AUDIT_DAYS`.
+    """
     Session.objects.filter(expire_date__lt=now).delete()
     return AuditEntry.objects.filter(at__lt=now - timedelta(days=environment().audit_days)).delete()[0]

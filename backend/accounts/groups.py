@@ -1,4 +1,4 @@
-"""Writes to groups, such as classes; and who is in them."""
+"""Writes to groups, such as classes, and reads of their members."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ if TYPE_CHECKING:
 
 
 def groups_of(user: User) -> QuerySet[Group]:
-    """Those that the user made or is in."""
+    """Returns the groups that the user made or is in."""
     mine = Q(owner=user) | Q(pk__in=GroupMember.objects.filter(user=user).values("group"))
     return Group.objects.filter(mine).select_related("owner").order_by("name", "id")
 
 
 def group(group_id: UUID, *, user: User, own: bool = False) -> Group:
-    """One of them; with `own`, only for who made it, or an administrator.
+    """Returns a group of the user; with `own`, only to its maker or an administrator.
 
     Raises:
         NotFoundError: there is none, or none that this user is in.
-        TeacherRequiredError: the user is in it, and did not make it.
+        TeacherRequiredError: the user is in it, but did not make it.
     """
     rows = Group.objects.select_related("owner") if user.is_superuser else groups_of(user)
     found = rows.filter(pk=group_id).first()
@@ -58,7 +58,7 @@ def create(name: str, *, acting_user: User) -> Group:
 
 @transaction.atomic
 def rename(group_id: UUID, name: str, *, acting_user: User) -> Group:
-    """Gives a group another name."""
+    """Renames a group."""
     found = group(group_id, user=acting_user, own=True)
     found.name = name
     found.save(update_fields=["name"])
@@ -67,7 +67,7 @@ def rename(group_id: UUID, name: str, *, acting_user: User) -> Group:
 
 @transaction.atomic
 def delete(group_id: UUID, *, acting_user: User) -> None:
-    """Removes a group: what was shared with it is no longer, its invitations end; accounts stay."""
+    """Removes a group: its shares and invitations end; accounts stay."""
     found = group(group_id, user=acting_user, own=True)
     note("group.delete", actor=acting_user, subject=found.name, subject_id=found.id)
     found.delete()
@@ -75,7 +75,7 @@ def delete(group_id: UUID, *, acting_user: User) -> None:
 
 @transaction.atomic
 def remove_member(group_id: UUID, name: str, *, acting_user: User) -> None:
-    """Takes someone out; everybody may leave by themselves.
+    """Removes someone from the group; everyone may leave it.
 
     Raises:
         NotFoundError: nobody of this name is in it.
@@ -104,12 +104,12 @@ def presented(found: Group, *, user: User) -> dict[str, Any]:
 
 
 def person(user: User) -> dict[str, str]:
-    """Someone as others see them."""
+    """Returns a person as other users see them."""
     return {"username": user.username, "name": user.get_full_name()}
 
 
 def presented_invitation(row: Invitation) -> dict[str, Any]:
-    """An invitation with its link."""
+    """Returns an invitation with its link."""
     return {
         "id": str(row.id),
         "url": links.link_of("join", row.id),

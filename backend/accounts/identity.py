@@ -1,4 +1,4 @@
-"""Finds the user of a request by the browser's session; for the API and for sockets alike."""
+"""Finds the user of a request or a socket by the browser's session."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LINKS: Final = "links"
 
 
 def identify(cookies: Mapping[str, str]) -> User | None:
-    """Returns the local user, the user who is signed in, a guest with a link, or nobody."""
+    """Returns the local user, the user who is signed in, a guest with a link, or None."""
     if not environment().is_team:
         return the_local_user()
     key = cookies.get(settings.SESSION_COOKIE_NAME)
@@ -39,7 +39,7 @@ def identify(cookies: Mapping[str, str]) -> User | None:
 
 
 def last_seen(cookies: Mapping[str, str]) -> int | None:
-    """Whose account these cookies were when they were last shown here; no right follows from it."""
+    """Returns the account whose cookies these were at the last check; it grants no right."""
     known = _known.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
     return None if known is None else known.user_id
 
@@ -115,7 +115,7 @@ def _remember(key: str, user: User, session: Any) -> None:
 
 @lru_cache(maxsize=1)
 def the_local_user() -> User:
-    """On localhost nobody can change the one user, so one look is enough."""
+    """Returns the one user of localhost; looked up once, since nobody can change it."""
     return local_user()
 
 

@@ -1,4 +1,4 @@
-"""Invitations: links that let people make an account and join a group."""
+"""Invitations: links with which people create an account and join a group."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SESSION_KEY: Final = "invitation"
 
 
 def may_invite(user: User) -> bool:
-    """Teachers and administrators bring people to the server."""
+    """Whether the user may invite people: teachers and administrators may."""
     return user.is_teacher or user.is_superuser
 
 
@@ -71,7 +71,7 @@ def revoke(invitation_id: UUID, *, acting_user: User) -> None:
 
 
 def usable(identity: UUID | None) -> Invitation | None:
-    """The invitation, while it works: not expired, not used up, not taken back, by someone still here."""
+    """Returns the invitation if it is not expired, used up or revoked, and its author is active."""
     if identity is None:
         return None
     return (
@@ -88,21 +88,21 @@ def usable(identity: UUID | None) -> Invitation | None:
 
 
 def of_token(token: str) -> Invitation | None:
-    """The invitation that a link names, while it works."""
+    """Returns the valid invitation that a link names."""
     return usable(links.identity_of("join", token))
 
 
 def of_browser(request: HttpRequest) -> Invitation | None:
-    """The invitation that this browser opened last, while it works."""
+    """Returns the valid invitation that this browser opened last."""
     token = request.session.get(SESSION_KEY)
     return of_token(token) if isinstance(token, str) else None
 
 
 @transaction.atomic
 def accept(token: str, *, acting_user: User, new_account: bool) -> Group | None:
-    """Counts the invitation as used and lets the user into its group; returns the group.
+    """Counts the invitation as used and adds the user to its group; returns the group.
 
-    Someone who is a member already uses nothing up.
+    A member of the group does not use it up.
     """
     identity = links.identity_of("join", token)
     if identity is None:

@@ -1,4 +1,7 @@
-"""Links that carry a right: signed with the server's key, so that the database alone opens nothing."""
+"""Links that grant a right, signed with the server's key.
+
+A copy of the database alone opens nothing.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,12 @@ MAX_TOKEN: Final = 120
 
 
 def token_of(kind: str, identity: UUID) -> str:
-    """The secret part of the link of an invitation (`join`) or of a project (`shared`)."""
+    """Returns the secret part of the link of an invitation (`join`) or of a project (`shared`)."""
     return Signer(salt=f"bt-studio {kind}", sep=".").sign(identity.hex)
 
 
 def identity_of(kind: str, token: str) -> UUID | None:
-    """The row that a link names, if this server made the link."""
+    """Returns the id of the row that a link names, or None if this server did not sign it."""
     if len(token) > MAX_TOKEN:
         return None
     try:
@@ -28,5 +31,5 @@ def identity_of(kind: str, token: str) -> UUID | None:
 
 
 def link_of(kind: str, identity: UUID) -> str:
-    """The whole link, as users copy it."""
+    """Returns the complete URL of the link."""
     return f"{environment().public_url}/{kind}/{token_of(kind, identity)}"

@@ -1,6 +1,6 @@
-"""Users, classes, invitations, and who did what.
+"""Users, groups, invitations and the audit log.
 
-On localhost there is one user without a password, and none of the other tables is used.
+On localhost there is one user without a password, and the other tables are empty.
 """
 
 from __future__ import annotations
@@ -34,12 +34,12 @@ class User(AbstractUser):
 
     @property
     def is_guest(self) -> bool:
-        """Came by a read-only link, without an account."""
+        """Whether the user has a read-only link and no account."""
         return self.pk is None
 
 
 class Group(models.Model):
-    """People with whom projects are shared at once, such as a class."""
+    """People with whom projects are shared together, such as a class."""
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     name = models.CharField(max_length=MAX_GROUP_NAME)
@@ -52,7 +52,7 @@ class Group(models.Model):
 
 
 class GroupMember(models.Model):
-    """One person in one group."""
+    """The membership of one person in one group."""
 
     group = models.ForeignKey(Group, on_delete=models.CASCADE, related_name="member_rows")
     user = models.ForeignKey(User, on_delete=models.CASCADE, related_name="member_rows")
@@ -63,7 +63,7 @@ class GroupMember(models.Model):
 
 
 class Invitation(models.Model):
-    """A link that lets people make an account, and join a group. The link is signed, not stored."""
+    """A link with which people create an account and join a group. The link is signed, not stored."""
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     created_by = models.ForeignKey(User, on_delete=models.CASCADE, related_name="invitations")
@@ -76,7 +76,7 @@ class Invitation(models.Model):
 
 
 class AuditEntry(models.Model):
-    """One thing that someone did; what was done to files is in the projects' own history."""
+    """One entry of the audit log; changes of files are in the projects' own history."""
 
     at = models.DateTimeField(db_index=True)
     actor = models.ForeignKey(User, on_delete=models.SET_NULL, null=True, blank=True)

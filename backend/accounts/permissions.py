@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class SignInRequiredError(StudioError):
-    """Nobody is signed in."""
+    """The request has no signed-in user."""
 
     status = 401
     code = "sign_in_required"
@@ -32,7 +32,7 @@ class SignInRequiredError(StudioError):
 
 
 class AccountRequiredError(StudioError):
-    """A guest, who came by a read-only link, wants something that takes an account."""
+    """A guest with a read-only link tried something that requires an account."""
 
     status = 403
     code = "account_required"
@@ -40,7 +40,7 @@ class AccountRequiredError(StudioError):
 
 
 class TeacherRequiredError(StudioError):
-    """Groups and invitations are for teachers and administrators."""
+    """Only teachers and administrators may manage groups and invitations."""
 
     status = 403
     code = "teacher_required"
@@ -48,14 +48,14 @@ class TeacherRequiredError(StudioError):
 
 
 class MayAsk(BasePermission):
-    """Users may ask anything; guests may read projects, and what a view says is `open_to_guests`.
+    """Users may call all views; guests may read projects, and views that are `open_to_guests`.
 
-    Of such a view they may use the methods that read, and POST where it says `guests_post`: what is asked
-    with a body because it is long, and changes nothing.
+    Guests may use the methods that read. If the view also has `guests_post`, they may use POST: such a
+    request changes nothing and has a body only because it is long.
     """
 
     def has_permission(self, request: Request, view: APIView) -> bool:
-        """Raises the error that the user sees."""
+        """Returns True, or raises the error for the user."""
         user = request.user
         if not isinstance(user, User):
             raise SignInRequiredError("Nobody is signed in.", hint="Sign in, then try again.")
@@ -70,34 +70,34 @@ class MayAsk(BasePermission):
 
 
 class ExpensiveCalls(SimpleRateThrottle):
-    """Bounds the calls a minute to views that say they are `expensive`; on team servers only."""
+    """Limits the calls a minute of views that are `expensive`, on servers with accounts only."""
 
     scope = "expensive"
 
     def get_rate(self) -> str:
-        """From the environment."""
+        """Returns the rate from the environment."""
         return f"{environment().expensive_calls_per_minute}/min"
 
     def allow_request(self, request: Request, view: APIView) -> bool:
-        """Whether there is a call left."""
+        """Whether the user has a call left."""
         methods: Any = getattr(view, "expensive", ())
         if not environment().is_team or request.method not in methods:
             return True
         return super().allow_request(request, view)
 
     def get_cache_key(self, request: Request, view: APIView) -> str | None:
-        """One count a user; of guests, one a session."""
+        """Returns the key of the count: one a user; of guests, one a session."""
         session = request.COOKIES.get(settings.SESSION_COOKIE_NAME, "")
         return f"expensive-{request.user.pk or hashlib.sha256(session.encode()).hexdigest()}"
 
 
 class ExpensiveCallsOfGuests(ExpensiveCalls):
-    """Bounds those of all guests behind one address, who get as many sessions as they ask for."""
+    """Limits all guests behind one address together, since each can open many sessions."""
 
     def get_rate(self) -> str:
-        """For a class of them."""
+        """Returns ten times the rate of a user, enough for a class."""
         return f"{10 * environment().expensive_calls_per_minute}/min"
 
     def get_cache_key(self, request: Request, view: APIView) -> str | None:
-        """None for users, whom this does not bound."""
+        """Returns None for users, whom this does not limit."""
         return None if request.user.pk else f"guests-{network_of(client_address.get())}"

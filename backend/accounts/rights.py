@@ -31,9 +31,9 @@ lessened = Signal()
 
 
 def lessen(*, user_id: int | None = None, project_id: UUID | None = None) -> None:
-    """Announces it for one user, or for everybody in one project, after the transaction is committed."""
+    """Sends a notice for one user, or for everybody in one project, after the transaction."""
     if environment().is_team:
-        # Robust: the commit stands, also when the notice cannot be sent.
+        # Robust: a notice that cannot be sent must not make the committed write look as if it had failed.
         transaction.on_commit(lambda: _tell(user_id, project_id), robust=True)
 
 

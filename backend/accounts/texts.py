@@ -1,4 +1,4 @@
-"""The words of the pages that Django draws, in every language of the IDE; allauth brings its own."""
+"""Texts of the pages that Django renders, in every language of the IDE; allauth has its own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FALLBACK: Final = "en"
 
 @lru_cache(maxsize=1)
 def catalogue() -> dict[str, dict[str, str]]:
-    """Each text by its key, then by its language."""
+    """Returns all texts: by key, then by language."""
     found: dict[str, dict[str, str]] = json.loads(
         Path(__file__).with_name("texts.json").read_text(encoding="utf-8")
     )
@@ -22,7 +22,7 @@ def catalogue() -> dict[str, dict[str, str]]:
 
 
 def text(key: str, **values: object) -> str:
-    """A text in the language of the page.
+    """Returns a text in the language of the page.
 
     Raises:
         KeyError: there is no such text, or one of its values is missing.

@@ -1,4 +1,4 @@
-"""allauth's app as it is in local mode, where its tables exist and nothing of it is used."""
+"""allauth's app in local mode, where its tables exist but are not used."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from django.conf import settings
 
 
 class Account(AccountConfig):  # type: ignore[misc]
-    """Asks for its middleware only where its pages exist."""
+    """Requires its middleware only on servers with accounts."""
 
     def ready(self) -> None:
-        """As allauth does, on servers with accounts."""
+        """Sets allauth up on servers with accounts."""
         if settings.ENVIRONMENT.is_team:
             super().ready()

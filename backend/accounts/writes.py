@@ -19,7 +19,7 @@ LOCAL_USER_NAME: Final = "local"
 
 
 class AccountTakenError(StudioError):
-    """Somebody else has the name or the address."""
+    """Another account has the name or the address."""
 
     status = 409
     code = "account_taken"
@@ -27,7 +27,7 @@ class AccountTakenError(StudioError):
 
 
 class LastAdministratorError(StudioError):
-    """The server would be without an administrator."""
+    """The change would leave the server without an administrator."""
 
     status = 409
     code = "last_administrator"
@@ -35,7 +35,7 @@ class LastAdministratorError(StudioError):
 
 
 def local_user() -> User:
-    """The one implicit user of a server on localhost, made when it is first asked for."""
+    """Returns the one implicit user of a server on localhost; creates it at the first call."""
     user = User.objects.filter(username=LOCAL_USER_NAME).first()
     if user is None:
         user, made = User.objects.get_or_create(username=LOCAL_USER_NAME)
@@ -46,12 +46,12 @@ def local_user() -> User:
 
 
 def user_named(name: str) -> User | None:
-    """The active or inactive account of this name or e-mail address."""
+    """Returns the active or inactive account with this name or e-mail address."""
     return User.objects.filter(Q(username=name) | Q(email__iexact=name or "-")).first()
 
 
 def an_administrator() -> User | None:
-    """An active administrator, of several one who has a password."""
+    """Returns an active administrator, preferably one with a password."""
     found = list(User.objects.filter(is_superuser=True, is_active=True).order_by("pk"))
     return next((user for user in found if user.has_usable_password()), next(iter(found), None))
 

@@ -4,7 +4,7 @@ from django.apps import AppConfig
 
 
 class CatalogConfig(AppConfig):
-    """Catalog."""
+    """Configuration of the app of the catalogue."""
 
     name = "backend.catalog"
     label = "catalog"

@@ -1,4 +1,4 @@
-"""Behaviours to reuse: subtrees with ports, each with the trees and actions that it needs.
+"""The library of behaviours: subtrees with ports, each with the trees and actions that it needs.
 
 They are files in `behaviours/`: `library.json` says what there is; `trees/`, `actions/` are what is inserted.
 Which files a behaviour needs follows from its tree, so that nothing can be forgotten.
@@ -32,7 +32,7 @@ class Behaviour:
 
 @lru_cache(maxsize=1)
 def behaviours() -> tuple[Behaviour, ...]:
-    """All behaviours, in the order of the table."""
+    """Returns all behaviours, in the order of the table."""
     table = json.loads((LIBRARY / "library.json").read_bytes())
     return tuple(
         Behaviour(**row, diagram=_diagram(row["id"]), files=files_of(row["id"]))
@@ -41,7 +41,7 @@ def behaviours() -> tuple[Behaviour, ...]:
 
 
 def files_of(behaviour_id: str) -> dict[str, str]:
-    """The files that a behaviour needs, by their paths in a project: its tree, those below, their actions."""
+    """Returns the files that a behaviour needs, by path: its tree, subtrees and actions."""
     files: dict[str, str] = {}
     waiting = [behaviour_id]
     while waiting:

@@ -1,4 +1,4 @@
-"""The parts of projects: nodes, universes, robots. Read from the files that the other packages own."""
+"""Reads of the catalogue: nodes, universes and robots, from files of the other packages."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ OUTSIDE_DESCRIPTION: Final = (
 
 @lru_cache(maxsize=1)
 def nodes() -> dict[str, Any]:
-    """The catalogue of built-in nodes, as it is on disk."""
+    """Returns the catalogue of built-in nodes."""
     catalogue: dict[str, Any] = json.loads(NODES.read_bytes())
     return catalogue
 
 
 @lru_cache(maxsize=1)
 def universes() -> list[dict[str, str]]:
-    """The built-in universes, by id, and last the outside graph in place of one."""
+    """Returns the built-in universes by id, and last the outside graph."""
     return [
         *(_entry("universes", path.stem, path) for path in sorted(UNIVERSES.glob("*.yaml"))),
         {"id": OUTSIDE, "name": OUTSIDE_NAME, "description": OUTSIDE_DESCRIPTION, "preview": ""},
@@ -42,36 +42,36 @@ def universes() -> list[dict[str, str]]:
 
 @lru_cache(maxsize=1)
 def robots() -> list[dict[str, str]]:
-    """The built-in robots, by id: each is a folder with its description."""
+    """Returns the built-in robots by id; each is a folder with its description."""
     return [_entry("robots", path.parent.name, path) for path in sorted(ROBOTS.glob("*/robot.yaml"))]
 
 
 def universe_preview(universe_id: str) -> Path | None:
-    """Where the picture of a built-in universe is, if there is one."""
+    """Returns the path of the picture of a built-in universe, if there is one."""
     known = {entry["id"] for entry in universes()}
     return UNIVERSES / "previews" / f"{universe_id}.webp" if universe_id in known else None
 
 
 def universe_text(universe_id: str) -> Path | None:
-    """Where the document of a built-in universe is, if there is one."""
+    """Returns the path of the document of a built-in universe, if there is one."""
     known = {entry["id"] for entry in universes()}
     return UNIVERSES / f"{universe_id}.yaml" if universe_id in known else None
 
 
 def robot_config(robot_id: str) -> Path | None:
-    """Where the `robot.yaml` of a built-in robot is, if there is one."""
+    """Returns the path of the `robot.yaml` of a built-in robot, if there is one."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / "robot.yaml" if robot_id in known else None
 
 
 def robot_urdf(robot_id: str) -> Path | None:
-    """Where the URDF of a built-in robot is, if there is one."""
+    """Returns the path of the URDF of a built-in robot, if there is one."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / f"{robot_id}.urdf" if robot_id in known else None
 
 
 def robot_preview(robot_id: str) -> Path | None:
-    """Where the picture of a built-in robot is, if there is one."""
+    """Returns the path of the picture of a built-in robot, if there is one."""
     known = {entry["id"] for entry in robots()}
     return ROBOTS / robot_id / "preview.webp" if robot_id in known else None
 

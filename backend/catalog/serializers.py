@@ -1,4 +1,4 @@
-"""Answers of the catalogue."""
+"""Serializers of the catalogue."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from backend.projects.api.serializers import ObjectField
 
 
 class NodesSerializer(serializers.Serializer[Any]):
-    """`tree_gardener/catalog.json`."""
+    """The nodes of `tree_gardener/catalog.json`."""
 
     format = serializers.CharField()
     version = serializers.IntegerField()
@@ -18,7 +18,7 @@ class NodesSerializer(serializers.Serializer[Any]):
 
 
 class NamedSerializer(serializers.Serializer[Any]):
-    """Something to choose."""
+    """An item with a name in all languages."""
 
     id = serializers.CharField()
     name = serializers.CharField()
@@ -38,7 +38,7 @@ class EntryListSerializer(serializers.Serializer[Any]):
 
 
 class TemplateSerializer(NamedSerializer):
-    """A project that new ones start from."""
+    """A template of new projects."""
 
     universe = serializers.CharField()
     root_diagram = ObjectField(allow_null=True)

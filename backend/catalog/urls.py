@@ -1,18 +1,19 @@
-"""Addresses of the catalogue, below `/api/v1/`."""
+"""Paths of the catalogue, below `/api/v1/`."""
+
+from __future__ import annotations
 
 from django.urls import path
 
+from backend.accounts.api.viewsets import resource_router
 from backend.catalog import views
 
+router = resource_router()
+router.register("catalog/universes", views.Universes, basename="universes")
+router.register("catalog/robots", views.Robots, basename="robots")
+
 urlpatterns = [
+    *router.urls,
     path("catalog/nodes", views.Nodes.as_view()),
-    path("catalog/universes", views.Universes.as_view()),
-    path("catalog/universes/<str:universe_id>/preview", views.UniversePreview.as_view()),
-    path("catalog/universes/<str:universe_id>/text", views.UniverseText.as_view()),
-    path("catalog/robots", views.Robots.as_view()),
-    path("catalog/robots/<str:robot_id>/preview", views.RobotPreview.as_view()),
-    path("catalog/robots/<str:robot_id>/config", views.RobotConfig.as_view()),
-    path("catalog/robots/<str:robot_id>/urdf", views.RobotUrdf.as_view()),
     path("catalog/behaviours", views.Behaviours.as_view()),
     path("catalog/templates", views.Templates.as_view()),
 ]

@@ -1,4 +1,4 @@
-"""The catalogue over HTTP."""
+"""Views of the catalogue."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.catalog import library, queries
 from backend.catalog import serializers as s
 from backend.core.problems import NotFoundError
@@ -29,127 +31,104 @@ class Nodes(APIView):
 
     @extend_schema(operation_id="list_nodes", responses=s.NodesSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """Every built-in node with its ports."""
+        """Lists every built-in node with its ports."""
         return Response(queries.nodes())
 
 
-class Universes(APIView):
-    """Built-in worlds."""
+class Universes(ResourceViewSet):
+    """Built-in universes."""
 
+    lookup_url_kwarg = "universe_id"
     open_to_guests = True
 
     @extend_schema(operation_id="list_universes", responses=s.EntryListSerializer, tags=["catalog"])
-    def get(self, request: Request) -> Response:
-        """Every built-in universe."""
+    def list(self, request: Request) -> Response:
+        """Lists every built-in universe."""
         return Response({"items": queries.universes()})
-
-
-class UniversePreview(APIView):
-    """The picture of a built-in universe."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_universe_preview",
         responses={(200, "image/webp"): OpenApiTypes.BINARY},
         tags=["catalog"],
     )
-    def get(self, request: Request, universe_id: str) -> HttpResponse:
-        """A picture of 480 by 270 pixels."""
+    @action(detail=True)
+    def preview(self, request: Request, universe_id: str) -> HttpResponse:
+        """Returns a picture of 480 by 270 pixels."""
         return _picture(queries.universe_preview(universe_id), f"universe {universe_id!r}")
-
-
-class UniverseText(APIView):
-    """The source of a built-in universe."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_universe_text",
         responses={(200, "application/yaml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, universe_id: str) -> HttpResponse:
-        """Its YAML, to make a project's own of."""
+    @action(detail=True)
+    def text(self, request: Request, universe_id: str) -> HttpResponse:
+        """Returns its YAML, from which a project can make its own universe."""
         path = queries.universe_text(universe_id)
         return _text(path, "application/yaml", f"There is no universe {universe_id!r}.")
 
 
-class Robots(APIView):
+class Robots(ResourceViewSet):
     """Built-in robots."""
 
+    lookup_url_kwarg = "robot_id"
     open_to_guests = True
 
     @extend_schema(operation_id="list_robots", responses=s.EntryListSerializer, tags=["catalog"])
-    def get(self, request: Request) -> Response:
-        """Every built-in robot."""
+    def list(self, request: Request) -> Response:
+        """Lists every built-in robot."""
         return Response({"items": queries.robots()})
-
-
-class RobotPreview(APIView):
-    """The picture of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_preview",
         responses={(200, "image/webp"): OpenApiTypes.BINARY},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
-        """A picture of 480 by 270 pixels."""
+    @action(detail=True)
+    def preview(self, request: Request, robot_id: str) -> HttpResponse:
+        """Returns a picture of 480 by 270 pixels."""
         return _picture(queries.robot_preview(robot_id), f"robot {robot_id!r}")
-
-
-class RobotConfig(APIView):
-    """The drive and the sensors of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_config",
         responses={(200, "application/yaml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
-        """Its `robot.yaml`, to make a project's own of."""
+    @action(detail=True)
+    def config(self, request: Request, robot_id: str) -> HttpResponse:
+        """Returns its `robot.yaml`, from which a project can make its own robot."""
         return _text(queries.robot_config(robot_id), "application/yaml", f"There is no robot {robot_id!r}.")
-
-
-class RobotUrdf(APIView):
-    """The description of a built-in robot."""
-
-    open_to_guests = True
 
     @extend_schema(
         operation_id="get_robot_urdf",
         responses={(200, "text/xml"): OpenApiTypes.STR},
         tags=["catalog"],
     )
-    def get(self, request: Request, robot_id: str) -> HttpResponse:
-        """Its URDF, to draw it."""
+    @action(detail=True)
+    def urdf(self, request: Request, robot_id: str) -> HttpResponse:
+        """Returns its URDF, with which the browser draws the robot."""
         return _text(queries.robot_urdf(robot_id), "text/xml", f"There is no robot {robot_id!r}.")
 
 
 class Templates(APIView):
-    """Projects that new ones start from."""
+    """Templates of new projects."""
 
     open_to_guests = True
 
     @extend_schema(operation_id="list_templates", responses=s.TemplateListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """The empty project and the examples."""
+        """Lists the empty project and the examples."""
         return Response({"items": [asdict(template) for template in templates()]})
 
 
 class Behaviours(APIView):
-    """Behaviours to reuse."""
+    """Behaviours that projects can reuse."""
 
     open_to_guests = True
 
     @extend_schema(operation_id="list_behaviours", responses=s.BehaviourListSerializer, tags=["catalog"])
     def get(self, request: Request) -> Response:
-        """The built-in library, with every file that a behaviour brings."""
+        """Lists the built-in library, with every file of each behaviour."""
         return Response({"items": [asdict(behaviour) for behaviour in library.behaviours()]})
 
 

@@ -1,1 +1,1 @@
-"""The `bt-studio` program, the one place that imports every part."""
+"""The `bt-studio` program, the only package that imports all others."""

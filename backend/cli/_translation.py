@@ -1,4 +1,4 @@
-"""Shared by the verbs of the translator: opens the named files and prints the findings."""
+"""Functions for the commands that translate: they open files and print diagnostics."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 def open_project(
     name: str, *, actions: Path | None = None, stubs: bool = True, repair: bool = False
 ) -> Project:
-    """Opens a folder, a zip, a file, or a stored project of that name."""
+    """Opens a folder, a zip, a file, or the stored project with that name."""
     from translator import open_path
 
     path = Path(name)
@@ -53,7 +53,7 @@ def _stored_files(name: str) -> Mapping[str, bytes] | None:
 
 
 def fail(diagnostics: Iterable[Diagnostic], *, as_json: bool) -> CliError:
-    """Returns the error that ends a verb whose work is refused by diagnostics."""
+    """Returns the error that ends a command because of diagnostics."""
     found = list(diagnostics)
     if as_json:
         print_json({"diagnostics": [item.to_json() for item in found]})
@@ -62,13 +62,13 @@ def fail(diagnostics: Iterable[Diagnostic], *, as_json: bool) -> CliError:
 
 
 def tell(diagnostics: Iterable[Diagnostic]) -> None:
-    """Prints diagnostics that do not end the work, on stderr."""
+    """Prints diagnostics that do not end the command, on stderr."""
     for item in diagnostics:
         print(f"{item.severity.value}: {item}", file=sys.stderr)
 
 
 def print_json(document: dict[str, Any]) -> None:
-    """Prints what `--json` asks for."""
+    """Prints the output of `--json`."""
     print(json.dumps(document, ensure_ascii=False, indent=2))
 
 

@@ -1,4 +1,4 @@
-"""`bt-studio admin`: accounts of a team's server, from the terminal of its machine."""
+"""`bt-studio admin`: manages the accounts of a team's server from the terminal of its machine."""
 
 from __future__ import annotations
 
@@ -147,7 +147,7 @@ def export_user(
     name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")],
     file: Annotated[Path, typer.Argument(help="The zip to write.")],
 ) -> None:
-    """Writes all that is kept of a user to a zip: account, log, drafts and projects."""
+    """Writes all data of a user to a zip: account, log, drafts and projects."""
     with _accounts():
         from backend.accounts.audit import note
         from backend.projects.documents.personal_data import write_archive
@@ -167,7 +167,7 @@ def delete_user(
     name: Annotated[str, typer.Argument(help="Name or e-mail of the account.")],
     yes: Annotated[bool, typer.Option("--yes", help="Do not ask.")] = False,  # noqa: FBT002
 ) -> None:
-    """Deletes an account with all its projects, for good; what it wrote elsewhere stays, without a name."""
+    """Deletes an account with all its projects; its changes elsewhere stay, without a name."""
     with _accounts():
         from backend.accounts.writes import delete_account
         from backend.core.problems import StudioError

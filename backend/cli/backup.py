@@ -1,4 +1,4 @@
-"""`bt-studio backup` and `bt-studio restore`: everything that a server stores, as one file."""
+"""`bt-studio backup` and `bt-studio restore`: copy all data of a server to and from one file."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from backend.cli.stored import stored_projects
 def backup(
     output: Annotated[Path, typer.Argument(help="The zip to write; - writes to the standard output.")],
 ) -> None:
-    """Writes all accounts, projects and revisions to one file; the server may continue to run."""
+    """Writes all accounts, projects and revisions to one file; the server may keep running."""
     with stored_projects():
         from backend.cli.backup_file import write_backup
 
@@ -41,7 +41,7 @@ def backup(
 def restore(
     source: Annotated[Path, typer.Argument(help="A file that backup wrote; - reads the standard input.")],
 ) -> None:
-    """Takes a backup into an empty server; end the server before, or start it afterwards."""
+    """Reads a backup into an empty server, which must not be running."""
     with stored_projects():
         from backend.cli.backup_file import BackupError, read_backup
 

@@ -1,7 +1,7 @@
-"""Everything that a server stores, as one file that any database of the same version can take in.
+"""All data of a server in one file, which any database of the same version can read.
 
 A backup is a zip: `manifest.json`, and one `tables/<model>.jsonl` for each table, a row a line. It is read
-in one transaction, so that it is the state of one moment, also while people work. Left out is what has a
+in one transaction, so that it is the state of one moment, also while people work. It omits data that have a
 meaning only while a server runs: sign-ins, executors, a drain, leases, answers kept for repeated requests.
 """
 
@@ -48,7 +48,7 @@ MAX_LINE_BYTES: Final = 512 * 1024 * 1024
 
 
 class BackupError(Exception):
-    """The backup cannot be read, or not here; the text says why and what to do."""
+    """The backup cannot be read, or not into this database; the text says why and what to do."""
 
 
 def write_backup(target: IO[bytes]) -> dict[str, int]:
@@ -170,7 +170,7 @@ def _load(archive: zipfile.ZipFile, manifest: dict[str, Any]) -> dict[str, int]:
         )
     with transaction.atomic():
         connection.check_constraints()
-        for model in reversed(models):  # what a first start made: the local user
+        for model in reversed(models):  # the local user, which the first start creates
             model._base_manager.all().delete()
         with connection.constraint_checks_disabled():
             counts = {model._meta.label_lower: _fill(archive, model) for model in models}

@@ -1,4 +1,4 @@
-"""`bt-studio check`: every diagnostic that the editor shows."""
+"""`bt-studio check`: prints every diagnostic that the editor shows."""
 
 from __future__ import annotations
 

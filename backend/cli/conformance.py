@@ -20,7 +20,7 @@ def conformance(
 ) -> None:
     """Runs engine conformance cases; prints the first differences, and last how many passed and failed.
 
-    A case that differs for a known reason has not failed: how many and why is said apart.
+    A case that differs for a known reason is not a failure; these are listed with their reasons.
     """
     from collections import Counter
 

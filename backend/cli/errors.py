@@ -1,4 +1,4 @@
-"""The errors of the command line: one sentence a problem, never a traceback."""
+"""Errors of the command line: one sentence for each problem, and never a traceback."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ BAD_ARGUMENTS = 2
 
 
 class CliError(Exception):
-    """A verb could not do its work; `lines` are for stderr, one problem each."""
+    """A command failed; `lines` are for stderr, one problem each."""
 
     def __init__(self, *lines: str, status: int = WORK_FAILED) -> None:
         super().__init__("\n".join(lines))

@@ -1,4 +1,4 @@
-"""`bt-studio export`: a stored project as a zip."""
+"""`bt-studio export`: writes a stored project to a zip."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`bt-studio import`: trees and projects of other programs as a project of ours."""
+"""`bt-studio import`: makes a project of trees and projects of other programs."""
 
 from __future__ import annotations
 

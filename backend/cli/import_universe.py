@@ -1,4 +1,4 @@
-"""`bt-studio import-universe`: an SDF world as a universe of ours."""
+"""`bt-studio import-universe`: makes a universe of an SDF world."""
 
 from __future__ import annotations
 

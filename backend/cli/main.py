@@ -1,4 +1,4 @@
-"""`bt-studio`: each verb is a plain function in a module of its own, imported only when it is used."""
+"""`bt-studio`: each command is a function in its own module, imported only when it is used."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Verb(NamedTuple):
-    """Where a verb is written, and what it does in one line."""
+    """The module of a command, and its description in one line."""
 
     module: str
     function: str
@@ -45,20 +45,20 @@ VERBS: Final[dict[str, Verb]] = {
 
 
 class VerbGroup(TyperGroup):
-    """Finds a verb's module by name, so that `check` does not load ROS and `run` not Django."""
+    """Finds a command's module by name, so that `check` does not load ROS and `run` not Django."""
 
     def list_commands(self, ctx: Context) -> list[str]:
-        """The verbs, in the order of the table."""
+        """Returns the commands, in the order of the table."""
         return list(VERBS)
 
     def get_command(self, ctx: Context, cmd_name: str) -> Command | None:
-        """The verb's command, made from its function's signature."""
+        """Returns a command, made from its function's signature."""
         if cmd_name not in VERBS:
             return None
         verb = VERBS[cmd_name]
         module = importlib.import_module(f"backend.cli.{verb.module}")
         found = getattr(module, verb.function)
-        if isinstance(found, typer.Typer):  # a verb with verbs of its own
+        if isinstance(found, typer.Typer):  # a command with subcommands
             return command_of(found)
         app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
         app.command(name=cmd_name)(found)
@@ -81,7 +81,7 @@ def _root() -> None:
 
 
 def main() -> None:
-    """Runs one verb. Exit status: 0 done, 1 the work failed, 2 bad arguments."""
+    """Runs one command. Exit status: 0 success, 1 failure, 2 bad arguments."""
     try:
         app()
     except CliError as error:

@@ -1,4 +1,4 @@
-"""`bt-studio manager`: the executor's manager alone, for the back end or for another client."""
+"""`bt-studio manager`: runs the executor's manager alone, for the back end or for another client."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`bt-studio new`: a project from a template."""
+"""`bt-studio new`: creates a project from a template."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`bt-studio package`: the ROS 2 package, or the app for the manager, as a zip."""
+"""`bt-studio package`: writes the ROS 2 package, or the app for the manager, to a zip."""
 
 from __future__ import annotations
 

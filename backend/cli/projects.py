@@ -1,4 +1,4 @@
-"""`bt-studio projects`: what is stored."""
+"""`bt-studio projects`: lists the stored projects."""
 
 from __future__ import annotations
 

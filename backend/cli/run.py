@@ -1,4 +1,4 @@
-"""`bt-studio run`: a project with its simulated world, from the terminal."""
+"""`bt-studio run`: runs a project with its simulated world in the terminal."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def run(  # noqa: PLR0913, PLR0917 - one an option
     try:
         opened = cli.open_project(project)
         stubs = unwritten_actions(opened)
-        if stubs and lockstep:  # else the session says so
+        if stubs and lockstep:  # otherwise the session reports it
             sys.stderr.write(f"{stubs_sentence(stubs)}\n")
         if lockstep:
             from executor.headless.lockstep import LockstepOptions

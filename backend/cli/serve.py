@@ -1,4 +1,4 @@
-"""`bt-studio serve`: the IDE."""
+"""`bt-studio serve`: starts the IDE."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def serve(  # noqa: PLR0913, PLR0917 - one parameter an option
     for name, value in options.items():
         if value is not None:
             os.environ[f"BT_STUDIO_{name}"] = str(value)
-    if not os.environ.get("BT_STUDIO_TOKEN"):  # compose files pass one that is not set as empty
+    if not os.environ.get("BT_STUDIO_TOKEN"):  # compose files pass an unset variable as empty
         os.environ["BT_STUDIO_TOKEN"] = secrets.token_urlsafe(24)
     from backend.config.environment import InvalidEnvironmentError, environment
     from backend.config.server import ServeError

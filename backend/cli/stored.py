@@ -1,4 +1,4 @@
-"""Shared by the verbs that work on stored projects."""
+"""Functions for the commands that work on stored projects."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def stored_projects() -> Iterator[None]:
 
 
 def find_project(name_or_id: str) -> Project:
-    """The stored project of this name or id."""
+    """Returns the stored project with this name or id."""
     from uuid import UUID
 
     from backend.accounts.writes import local_user

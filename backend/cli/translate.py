@@ -1,4 +1,4 @@
-"""`bt-studio translate`: diagrams to BehaviorTree.CPP XML, plain or with the actions inside."""
+"""`bt-studio translate`: translates diagrams to BehaviorTree.CPP XML, plain or with the actions inside."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ASGI application: Django for HTTP, raw relays for sockets, and what happens at start and end."""
+"""The ASGI application: Django for HTTP, relays for sockets, and the start and end of the server."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from backend.sessions.writes import end_all_sessions  # noqa: E402
 
 
 async def lifespan(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Clears up after a server that was killed, looks after sessions, and ends them when it stops."""
+    """Cleans up after a killed server, maintains sessions while it runs, and ends them when it stops."""
     tasks: list[asyncio.Task[None]] = []
     while True:
         message = await receive()
@@ -66,7 +66,7 @@ routes: Final = {
 
 
 async def sockets(scope: WebSocketScope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
-    """Every websocket."""
+    """Serves every websocket."""
     await serve(routes, scope, receive, send)
 
 

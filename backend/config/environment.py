@@ -1,4 +1,4 @@
-"""The settings from the environment: one typed table, prefix `BT_STUDIO_`, wrong values refused by name."""
+"""Settings from the environment: one typed table, with the prefix `BT_STUDIO_`."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MEBIBYTE = 1024 * 1024
 
 
 class InvalidEnvironmentError(ValueError):
-    """A setting has a value that cannot be used; the text names the variable."""
+    """A setting has an invalid value; the text names the variable."""
 
 
 class Environment(TeamSettings):
@@ -147,9 +147,9 @@ class Environment(TeamSettings):
 
     @property
     def may_be_several(self) -> bool:
-        """Whether several servers may be at work on one data folder, one database and one host at once.
+        """Whether several servers may share one data folder, one database and one host.
 
-        A server with SQLite is alone with its file, and one that starts children ends with them.
+        Two servers cannot share an SQLite file, nor the child processes of one of them.
         """
         return self.is_team and self.is_postgresql and self.launcher == "docker"
 
@@ -160,7 +160,7 @@ class Environment(TeamSettings):
 
 
 def sentence(error: ValidationError) -> str:
-    """Reports in one line which variables are wrong, and why."""
+    """Returns one line that names the invalid variables and the reasons."""
     parts = []
     for problem in error.errors():
         cause = problem.get("ctx", {}).get("error")

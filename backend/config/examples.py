@@ -1,4 +1,4 @@
-"""Puts examples into the OpenAPI document: what a real server was asked and answered.
+"""Adds examples to the OpenAPI document: recorded requests to a real server, with their answers.
 
 `examples.json` is recorded by `tests/backend/test_examples.py`, which plays the same story at each run and
 fails when an endpoint answers otherwise than it shows.
@@ -28,7 +28,7 @@ PARAMETERS: Final = {
 
 @lru_cache(maxsize=1)
 def recorded() -> dict[str, dict[str, Any]]:
-    """By operation: `request`, and `answers` by their status."""
+    """Returns the examples by operation: `request`, and `answers` by status."""
     if not RECORDED.exists():
         return {}
     found: dict[str, dict[str, Any]] = json.loads(RECORDED.read_text(encoding="utf-8"))

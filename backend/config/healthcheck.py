@@ -1,4 +1,4 @@
-"""`python -m backend.config.healthcheck`: whether the web server of this container is ready.
+"""`python -m backend.config.healthcheck`: checks whether the web server of this container is ready.
 
 It runs every few seconds, so it imports little.
 """
@@ -14,7 +14,7 @@ TIMEOUT_S = 4
 
 
 def main() -> int:
-    """Asks this machine's own server; returns the exit status."""
+    """Sends a request to the server of this machine; returns the exit status."""
     connection = http.client.HTTPConnection(
         "127.0.0.1", int(os.environ.get("BT_STUDIO_PORT") or 8000), timeout=TIMEOUT_S
     )

@@ -47,13 +47,13 @@ ENDING: Final = (signal.SIGTERM, signal.SIGINT)
 
 
 class Child:
-    """One worker, and those that take its place.
+    """One worker process, and its replacements.
 
     Args:
-        name: what it is called in the log.
-        command: what starts it.
-        page: its page of numbers.
-        descriptors: what it inherits.
+        name: its name in the log.
+        command: its command line.
+        page: its page of counters.
+        descriptors: the file descriptors that it inherits.
     """
 
     def __init__(
@@ -75,11 +75,11 @@ class Child:
 
     @property
     def has_started(self) -> bool:
-        """Whether it answers, or did until it hung."""
+        """Whether the worker answers, or did until it hung."""
         return self._process is not None and bool(self._page[STARTED])
 
     def start_if_due(self, now_s: float) -> None:
-        """Starts it, unless it runs or its pause is not over."""
+        """Starts the worker, unless it is running or its pause is not over."""
         if self._process is not None or now_s < self._due_s:
             return
         self._page[STARTED] = self._page[STUCK] = self._page[BEAT] = 0
@@ -87,14 +87,14 @@ class Child:
             self._command,
             cwd=REPOSITORY,
             pass_fds=self._descriptors,
-            # Nothing is ever written: its end tells the worker that the parent has gone.
+            # Nothing is ever written: when the pipe closes, the worker knows that the parent has ended.
             stdin=subprocess.PIPE,
             start_new_session=True,  # Ctrl+C is for the parent, which passes it on
         )
         self._since_s, self._beat, self._is_given_up = now_s, (0.0, 0.0), False
 
     def ended(self, now_s: float) -> int | None:
-        """The exit status, once, when it has ended; it is then due for another start."""
+        """Returns the exit status once after the worker has ended; another start is due then."""
         if self._process is None or (status := self._process.poll()) is None:
             return None
         has_lived = self.has_started and now_s - self._since_s >= SHORT_LIFE_S
@@ -104,10 +104,10 @@ class Child:
         return status
 
     def hangs(self, passed_s: float) -> bool:
-        """Whether it made no progress for too long; reported once.
+        """Whether the worker made no progress for too long; reported once.
 
         Args:
-            passed_s: since the last look; of a longer time the parent itself was not awake.
+            passed_s: since the last call; if it is long, the parent itself was suspended.
         """
         if self._process is None or not self._page[STARTED] or self._is_given_up:
             return False
@@ -118,18 +118,18 @@ class Child:
         return self._is_given_up
 
     def tell(self, number: signal.Signals) -> None:
-        """Sends it a signal."""
+        """Sends a signal to the worker."""
         if self._process is not None:
             with suppress(ProcessLookupError):
                 self._process.send_signal(number)
 
     def close_input(self) -> None:
-        """Notifies the worker that the parent ends."""
+        """Closes the worker's standard input, which tells it that the parent ends."""
         if self._process is not None and self._process.stdin is not None:
             self._process.stdin.close()
 
     def end(self, deadline_s: float) -> None:
-        """Waits for its end, and kills it when that does not come."""
+        """Waits for the end of the worker, and kills it after a timeout."""
         if self._process is None:
             return
         try:
@@ -151,7 +151,7 @@ def _pause_s(failures: int) -> float:
 
 
 class Parent:
-    """Keeps so many workers running until it receives a signal to end."""
+    """Keeps a number of workers running until it receives a signal to end."""
 
     def __init__(self, listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
         self._listener, self._count, self._on_ready = listener, count, on_ready
@@ -160,7 +160,7 @@ class Parent:
         self._told: signal.Signals | None = None
 
     def run(self) -> signal.Signals | None:
-        """Serves; returns the signal that ended it.
+        """Serves until a signal arrives; returns the signal.
 
         Raises:
             ServeError: the workers do not start, or none does any more.
@@ -249,7 +249,7 @@ class _Alarm:
         self._before = {number: signal.getsignal(number) for number in (*ENDING, signal.SIGCHLD)}
         for number in ENDING:
             signal.signal(number, lambda which, _: self._on_end(signal.Signals(which)))
-        signal.signal(signal.SIGCHLD, lambda *_: None)  # only what is handled wakes
+        signal.signal(signal.SIGCHLD, lambda *_: None)  # only handled signals wake the process
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -261,7 +261,7 @@ class _Alarm:
         self._theirs.close()
 
     def wait(self, seconds: float) -> None:
-        """Returns at the next signal, or when the time is over."""
+        """Returns at the next signal, or after a timeout."""
         if self._selector.select(seconds):
             with suppress(BlockingIOError):
                 while self._ours.recv(4096):
@@ -269,7 +269,7 @@ class _Alarm:
 
 
 def serve_by_several(listener: socket.socket, count: int, *, on_ready: Callable[[], None]) -> None:
-    """Serves by so many workers until SIGINT or SIGTERM; ends by the latter as one server does.
+    """Serves with several workers until SIGINT or SIGTERM; ends like a single server.
 
     Raises:
         ServeError: the workers do not start, or none does any more.

@@ -55,11 +55,11 @@ NOT_LIVE_S: Final = 60.0
 
 
 def probed(application: ASGI3Application, threads: Threads) -> ASGI3Application:
-    """The application with the probes before it, measured and logged.
+    """Returns the application with the probes before it, measured and logged.
 
     Args:
-        application: what is behind the probes.
-        threads: those that answer its requests.
+        application: the application behind the probes.
+        threads: the threads that answer its requests.
     """
 
     async def entry(scope: Scope, receive: ASGIReceiveCallable, send: ASGISendCallable) -> None:
@@ -107,7 +107,7 @@ async def _http(
         seconds = time.perf_counter() - started
         metrics.requests.add(f"{status // 100}xx")
         metrics.request_seconds.observe(seconds)
-        # The query is left out: links with a token are nobody's business.
+        # The query is left out: it may contain a token.
         facts = {"method": scope["method"], "path": path, "status": status, "ms": round(1000 * seconds, 1)}
         log.debug("request", extra={"facts": facts})
 
@@ -139,7 +139,7 @@ def _health(trouble: str) -> tuple[int, str, str]:
 
 
 def _judge_host(host: str) -> guard.Refusal | None:
-    if not host:  # no browser leaves it out
+    if not host:  # every browser sends it
         return None
     with contextlib.suppress(ValueError):
         ip_address(guard.host_name(host).strip("[]"))

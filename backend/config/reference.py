@@ -1,6 +1,6 @@
-"""Writes the reference pages that come from code: `python -m backend.config.reference`.
+"""Writes the reference pages that are generated from code: `python -m backend.config.reference`.
 
-A test compares the pages with what this would write.
+A test compares the pages with the output of this module.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ the name of its variable.
 
 
 def settings_page() -> str:
-    """The page of all settings."""
+    """Returns the page of all settings."""
     rows = [
         f"| `{PREFIX}{name.upper()}` | {_default(field)} | {field.description} |"
         for name, field in Environment.model_fields.items()
@@ -52,7 +52,7 @@ def _default(field: FieldInfo) -> str:
 
 
 def openapi_page() -> str:
-    """The OpenAPI document as the file that clients are generated from."""
+    """Returns the OpenAPI document, from which clients are generated."""
     os.environ.setdefault("DJANGO_SETTINGS_MODULE", "backend.config.settings")
     import django  # noqa: PLC0415 - the settings must be named first
 
@@ -63,7 +63,7 @@ def openapi_page() -> str:
 
 
 def pages() -> dict[Path, str]:
-    """Every generated page of this part by its path."""
+    """Returns every generated page of this part by its path."""
     return {FOLDER / "settings.md": settings_page(), FOLDER / "openapi.json": openapi_page()}
 
 

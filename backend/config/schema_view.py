@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 @lru_cache(maxsize=1)
 def document() -> dict[str, Any]:
-    """The OpenAPI document of this version."""
-    # Imported at the first request for the document, so that the server starts sooner.
+    """Returns the OpenAPI document of this version."""
+    # Imported at the first request for the document, so that the server starts faster.
     from drf_spectacular.generators import SchemaGenerator  # noqa: PLC0415
 
     from backend.accounts.api import schema  # noqa: F401, PLC0415 - importing it registers it
@@ -37,16 +37,16 @@ def document() -> dict[str, Any]:
 
 @require_safe
 def docs(request: HttpRequest) -> HttpResponse:
-    """The document as a page to browse and try, without the internet; anonymous users sign in first."""
+    """Shows the document as a page to browse and try, without the internet; anonymous users sign in first."""
     if identify(request.COOKIES) is None:
         return HttpResponseRedirect(f"{settings.LOGIN_URL}?{urlencode({'next': request.path})}")
     return render(request, "config/api_docs.html")
 
 
 class OpenApi(APIView):
-    """Describes itself."""
+    """The view of the OpenAPI document."""
 
     @extend_schema(exclude=True)
     def get(self, request: Request) -> Response:
-        """The OpenAPI 3.1 document of the API."""
+        """Returns the OpenAPI 3.1 document of the API."""
         return Response(document())

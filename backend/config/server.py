@@ -42,7 +42,7 @@ MIGRATION_LOCK: Final = 0x62742D73747564
 
 
 class ServeError(Exception):
-    """The server cannot start; the text is for the user, with the remedy."""
+    """The server cannot start; the text tells the user why and what to do."""
 
 
 @contextmanager
@@ -63,14 +63,14 @@ def ended_by_interrupt() -> Iterator[None]:
 
 @contextmanager
 def data_folder(folder: Path, *, is_shared: bool = False) -> Iterator[None]:
-    """Makes the folder with its secret key, and holds it against servers that cannot share it.
+    """Makes the folder with its secret key, and locks it against servers that cannot share it.
 
     Args:
         folder: the data folder.
         is_shared: whether other servers may use it at the same time, as those on one PostgreSQL do.
 
     Raises:
-        ServeError: it cannot be written, or a server holds it that does not share it.
+        ServeError: it cannot be written, or another server has locked it.
     """
     make_data_folder(folder)
     lock = (folder / "serve.lock").open("a+", encoding="utf-8")
@@ -121,10 +121,10 @@ def _make_secret_key(path: Path) -> None:
 
 
 def bind(host: str, port: int) -> socket.socket:
-    """Takes the port before anything slow happens.
+    """Binds the port before the slow parts of the start.
 
     Raises:
-        ServeError: it is in use, or not ours to take.
+        ServeError: it is in use, or not permitted.
     """
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
@@ -143,7 +143,7 @@ def bind(host: str, port: int) -> socket.socket:
 
 
 def migrate() -> None:
-    """Brings the database up to date; a database that is gets one query."""
+    """Migrates the database; an up-to-date database costs one query."""
     import django  # noqa: PLC0415 - the environment must be set first
 
     django.setup()
@@ -159,14 +159,14 @@ def await_database(url: str, patience_s: float = DATABASE_PATIENCE_S) -> None:
     """Waits for a PostgreSQL that starts at the same time.
 
     Raises:
-        ServeError: it does not come up, or refuses us.
+        ServeError: it does not start, or refuses the connection.
     """
     import psycopg  # noqa: PLC0415 - localhost does without
 
     deadline = time.monotonic() + patience_s
     while True:
         try:
-            # Not by Django, whose pool would tell each attempt.
+            # Not by Django, whose pool would log each attempt.
             psycopg.connect(url, connect_timeout=5).close()
             return
         except psycopg.OperationalError as error:
@@ -208,12 +208,12 @@ def run(
         listener: the socket.
         on_ready: called once requests are answered.
         log_level: the least severe line that is printed.
-        accepts_at_once: how many connections the event loop takes before it does something else. Who shares
-            the socket takes few, or the first to wake takes all.
+        accepts_at_once: how many connections the event loop takes before it does something else. A worker
+            that shares the socket takes few, or the first to wake takes all.
     """
     set_up(log_level, environment().log_style)
     sys.setswitchinterval(SWITCH_S)
-    if siblings.family is None:  # else the parent has said so
+    if siblings.family is None:  # otherwise the parent has logged it
         proxies.at_start()
     with ended_by_interrupt():
         server = _make_server(on_ready, accepts_at_once)
@@ -246,14 +246,14 @@ def _make_server(on_ready: Callable[[], None], accepts_at_once: int) -> uvicorn.
         ws_ping_interval=20,
         ws_ping_timeout=40,
         server_header=False,
-        proxy_headers=False,  # `clients.address_of` alone says whom we believe
+        proxy_headers=False,  # only `clients.address_of` decides which proxies are trusted
         timeout_graceful_shutdown=GRACE_S,
     )
     return Server(config)
 
 
 def warm_up() -> None:
-    """Imports what the first requests would wait for, then tidies up once a day, if no other server did."""
+    """Imports what the first requests need, then cleans up once a day if no other server did."""
     from django.db import connection  # noqa: PLC0415
 
     import backend.config.urls  # noqa: F401, PLC0415
@@ -261,7 +261,7 @@ def warm_up() -> None:
     from backend.projects.storage.writes import collect_garbage  # noqa: PLC0415
     from backend.sessions.lease import GARBAGE, holder, is_alone  # noqa: PLC0415
 
-    # All that was imported stays: Python need not look through it again and again for what is in no use.
+    # Imported objects live as long as the process: the garbage collector need not scan them.
     gc.collect()
     gc.freeze()
     while True:

@@ -25,10 +25,10 @@ def _secret_key() -> str:
 
 SECRET_KEY = _secret_key()
 DEBUG = False
-# The guard judges hosts, for pages and sockets alike (`backend/core/guard.py`).
+# The guard checks hosts, for pages and sockets alike (`backend/core/guard.py`).
 ALLOWED_HOSTS = ["*"]
 ASGI_APPLICATION = "backend.config.asgi.application"
-# The same apps, and so the same tables, in both modes; what differs is who answers which address.
+# The same apps, and so the same tables, in both modes; only the URLs and their views differ.
 INSTALLED_APPS = [
     "django.contrib.auth",
     "django.contrib.contenttypes",
@@ -57,7 +57,7 @@ LOCAL_MIDDLEWARE = [
     "django.middleware.http.ConditionalGetMiddleware",
     "backend.workers.deferred.Waiting",
 ]
-# The API reads its session itself; what pages need costs it nothing.
+# The API reads its session itself, without the cost of the pages' middleware.
 TEAM_MIDDLEWARE = [
     *LOCAL_MIDDLEWARE,
     "backend.accounts.sign_in.middleware.PageSession",
@@ -135,7 +135,7 @@ SESSION_COOKIE_NAME = ("__Host-" if ENVIRONMENT.is_https else "") + "bt_studio_s
 SESSION_COOKIE_AGE = 14 * 24 * 3600
 SESSION_COOKIE_SECURE = ENVIRONMENT.is_https
 SESSION_COOKIE_HTTPONLY = True
-SESSION_COOKIE_SAMESITE = "Lax"  # a link in a mail must find its reader signed in
+SESSION_COOKIE_SAMESITE = "Lax"  # a link in a mail must open with the user signed in
 CSRF_COOKIE_NAME = ("__Host-" if ENVIRONMENT.is_https else "") + "bt_studio_csrf"
 CSRF_COOKIE_SECURE = ENVIRONMENT.is_https
 CSRF_COOKIE_HTTPONLY = True

@@ -1,4 +1,4 @@
-"""Hands out the built front end."""
+"""Serves the built front end."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
-    """WhiteNoise, answering from memory: its file iterator would block the event loop."""
+    """WhiteNoise with files in memory: its file iterator would block the event loop."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponse]) -> None:
         super().__init__(get_response, settings)
@@ -30,12 +30,12 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
         return answer
 
     def immutable_file_test(self, path: str, url: str) -> bool:
-        """Vite puts a hash of the content into the names of all assets."""
+        """Whether a file never changes: Vite puts a hash of the content into the names of all assets."""
         return url.startswith("/assets/")
 
     @staticmethod
     def serve(static_file: Any, request: HttpRequest) -> HttpResponse:
-        """Answers one file, or a part of it."""
+        """Returns one file, or a part of it."""
         found = static_file.get_response(request.method, request.META)
         content = b""
         if found.file is not None:
@@ -51,7 +51,7 @@ class FrontEndFiles(WhiteNoiseMiddleware):  # type: ignore[misc]
 
 @require_safe
 def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
-    """The page of every address that the front end routes itself."""
+    """Returns the page for every path that the front end handles."""
     index = settings.ENVIRONMENT.frontend_dir / "index.html"
     try:
         content = index.read_bytes()
@@ -64,7 +64,7 @@ def page(request: HttpRequest, project_id: object = None) -> HttpResponse:
 
 @require_safe
 def signed_in_page(request: HttpRequest, project_id: object = None) -> HttpResponse:
-    """The page for users who are signed in or came by a link; others sign in first."""
+    """Returns the page for signed-in users and guests with a link; redirects others to the sign-in."""
     user = identify(request.COOKIES)
     if user is None or (user.is_guest and request.path_info == "/"):
         following = urlencode({"next": request.get_full_path()}) if request.path_info != "/" else ""

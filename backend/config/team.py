@@ -1,4 +1,4 @@
-"""The settings of a server with accounts: what a team's server needs, and what must not be missing."""
+"""Settings of servers with accounts, and a check that none is missing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DEFAULT_PORTS = {"smtp": 25, "smtp+starttls": 587, "smtps": 465}
 
 
 class MissingSettingError(ValueError):
-    """A setting that the others ask for is missing; `name` is the field."""
+    """A setting that another setting requires is missing; `name` is the field."""
 
     def __init__(self, name: str, sentence: str) -> None:
         super().__init__(sentence)
@@ -25,7 +25,7 @@ class MissingSettingError(ValueError):
 
 
 class TeamSettings(BaseSettings):
-    """Local or team, and the services that a team's server uses."""
+    """The mode (local or team), and the services of a team's server."""
 
     mode: Literal["local", "team"] = Field(
         default="local",
@@ -164,7 +164,7 @@ class TeamSettings(BaseSettings):
 
     @property
     def is_team(self) -> bool:
-        """Whether there are accounts."""
+        """Whether the server has accounts."""
         return self.mode == "team"
 
     @property
@@ -174,7 +174,7 @@ class TeamSettings(BaseSettings):
 
     @property
     def is_https(self) -> bool:
-        """Whether users come by TLS, so that cookies may ask for it."""
+        """Whether users connect by TLS, so that cookies must be secure."""
         return self.public_url.startswith("https://")
 
     @property
@@ -184,14 +184,14 @@ class TeamSettings(BaseSettings):
 
 
 def database(url: str, data_dir: Path) -> dict[str, Any]:
-    """Django's settings of the database that `url` names; of SQLite in the data folder without one."""
+    """Returns Django's settings of the database that `url` names, or of SQLite in the data folder."""
     parts = urlsplit(url)
     if parts.scheme.startswith("postgres"):
         return postgresql(url)
     return {
         "ENGINE": "django.db.backends.sqlite3",
         "NAME": Path(parts.path[1:]) if parts.scheme else data_dir / "bt-studio.sqlite3",
-        "CONN_MAX_AGE": None,  # the threads that answer requests stay
+        "CONN_MAX_AGE": None,  # request threads live as long as the process
         "OPTIONS": {
             # A writer takes its lock at BEGIN, so that no transaction fails half way with "locked".
             "transaction_mode": "IMMEDIATE",
@@ -206,7 +206,7 @@ def database(url: str, data_dir: Path) -> dict[str, Any]:
 
 
 def postgresql(url: str) -> dict[str, Any]:
-    """Django's settings of a PostgreSQL server; the threads that answer requests keep their connections."""
+    """Returns Django's settings of a PostgreSQL server; threads keep their connections."""
     parts = urlsplit(url)
     query = {name: values[-1] for name, values in parse_qs(parts.query).items()}
     host = unquote(parts.hostname or query.pop("host", ""))
@@ -229,7 +229,7 @@ def postgresql(url: str) -> dict[str, Any]:
 
 
 def mail(url: str, sender: str) -> dict[str, Any]:
-    """Django's settings of the mail server that `url` names."""
+    """Returns Django's settings of the mail server that `url` names."""
     if not url:
         return {"EMAIL_BACKEND": "django.core.mail.backends.dummy.EmailBackend"}
     parts = urlsplit(url)

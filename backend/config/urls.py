@@ -1,4 +1,4 @@
-"""All addresses of the server; sockets are in `asgi`."""
+"""All URLs of the server; sockets are in `asgi`."""
 
 from __future__ import annotations
 

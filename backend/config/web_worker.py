@@ -39,10 +39,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 class Inherited(socket.socket):
-    """A socket that listens already, with a queue as long as the parent has chosen."""
+    """A listening socket whose backlog the parent has set."""
 
     def listen(self, *_: object) -> None:
-        """The event loop would make the queue as short as what it accepts at once."""
+        """Does nothing: the event loop would reduce the backlog to its own number of accepts."""
 
 
 def _ready() -> None:
@@ -54,7 +54,7 @@ def _end_with_parent(folder: Path) -> None:
     """The parent never writes; where it ends, whatever way, so does this."""
     while os.read(STDIN, 1):
         pass
-    shutil.rmtree(folder, ignore_errors=True)  # a parent that was killed could not
+    shutil.rmtree(folder, ignore_errors=True)  # a killed parent could not do it
     os.kill(os.getpid(), signal.SIGTERM)
     time.sleep(GRACE_S + ORPHAN_S)
     os._exit(1)

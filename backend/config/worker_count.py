@@ -1,4 +1,4 @@
-"""The number of web workers, and the cases where there can be one only."""
+"""The number of web workers, and the cases in which there can be only one."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SPARE: Final = 10
 
 
 def judge_workers(settings: Environment) -> None:
-    """Refuses several workers where only one can be.
+    """Refuses several workers where only one is possible.
 
     Raises:
         ServeError: why, and what to do.

@@ -1,1 +1,1 @@
-"""Help for writing Python: a language server for each open page, and ruff."""
+"""Support for writing Python: a language server for each open page, and ruff."""

@@ -19,11 +19,11 @@ _MARKERS: Final = ("site-packages/", "typeshed/", "library/", "lib/python3.11/")
 
 
 class ForeignAddressError(ValueError):
-    """The page named a file that is not of its project."""
+    """The page named a file outside of its project."""
 
 
 class Addresses:
-    """Translates the messages about one folder.
+    """Translates the paths in messages about one folder.
 
     Args:
         root: the absolute path of the folder that holds the project's files.
@@ -34,7 +34,7 @@ class Addresses:
         self._plain = root.rstrip("/")
 
     def inward(self, message: Any) -> Any:
-        """A message of the page, for the server.
+        """Translates a message of the page for the server.
 
         Raises:
             ForeignAddressError: it names a file outside the project, or is nested beyond reason.
@@ -42,11 +42,11 @@ class Addresses:
         return _mapped(message, self._real, 0)
 
     def outward(self, message: Any) -> Any:
-        """A message of the server, for the page."""
+        """Translates a message of the server for the page."""
         return _mapped(message, self._shown, 0)
 
     def hidden(self, text: str) -> str:
-        """A text for the user, without the place of the folder."""
+        """Returns a text for the user without the path of the folder."""
         return text.replace(self._plain + "/", "")
 
     def _real(self, uri: str) -> str:

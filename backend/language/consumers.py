@@ -59,7 +59,7 @@ Following = Callable[[], Awaitable[dict[str, Any]]]
 
 
 async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Serves one page until a side ends."""
+    """Serves one page until either side ends."""
     place = siblings.take("language server", environment().max_language_servers)
     if place is None:
         return Closed(TOO_MANY, "Too many editors use the language server of this machine.")
@@ -76,7 +76,7 @@ async def serve_language(call: Call, receive: ASGIReceiveCallable, send: ASGISen
 
 async def _serve(page: Page, following: Following) -> Closed | None:
     starting = launcher()
-    # Nobody starts a server on a project that is not theirs.
+    # Only users of the project may start a server on it.
     contents = await sync_to_async(_contents)(page)
     server = await starting.start(page.project_id, page.user, contents)
     try:
@@ -99,7 +99,7 @@ class Page(NamedTuple):
 
 
 class Relay:
-    """One page and its server."""
+    """Connects one page with its server."""
 
     def __init__(self, page: Page, server: Server) -> None:
         self._page = page

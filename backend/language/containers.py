@@ -1,4 +1,4 @@
-"""Language servers in their users' containers: files and bytes go there, and nothing is read here."""
+"""Language servers in their users' containers; the web server only sends files and relays bytes."""
 
 from __future__ import annotations
 
@@ -34,16 +34,16 @@ class ContainerServer:
 
     @property
     def root(self) -> str:
-        """The folder inside the container."""
+        """Returns the project's folder inside of the container."""
         return f"{self._home}/files"
 
     async def begin(self, contents: Mapping[str, bytes], library: str, python: str) -> None:
-        """Sends the first files, on which the server is started."""
+        """Sends the first files, with which the server starts."""
         await self._send_files({"pyrefly.toml": configuration(self.root, library, python)})
         await self.sync(contents)
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
-        """Sends what has changed since the last time."""
+        """Sends the files that have changed since the last call."""
         before, wanted = self._sent, python_of(contents)
         self._sent = now = {path: hashlib.sha256(data).digest() for path, data in wanted.items()}
         changed = {path for path in now.keys() & before.keys() if now[path] != before[path]}
@@ -63,11 +63,10 @@ class ContainerServer:
             raise BrokenPipeError("the language server has ended") from error
 
     async def write(self, data: bytes) -> None:
-        """Hands bytes over."""
         await self._send(data)
 
     async def read(self) -> bytes:
-        """Returns the next bytes; reports of the memory in use are noted."""
+        """Returns the next bytes; stores reports of the memory in use."""
         try:
             while isinstance(message := await self._connection.recv(), str):
                 self._memory_bytes = int(json.loads(message)["memory_bytes"])
@@ -76,19 +75,19 @@ class ContainerServer:
         return message
 
     def memory_bytes(self) -> int:
-        """Returns the last reported size, a second old at most."""
+        """Returns the last reported size, at most a second old."""
         return self._memory_bytes
 
     async def stop(self) -> None:
-        """Closes the socket, at which the server ends and its folder goes."""
+        """Closes the socket; the server ends, and its folder is removed."""
         await self._connection.close()
 
     async def forget(self) -> None:
-        """Nothing is kept anyway."""
+        """Does nothing: no files are kept."""
 
 
 class ContainerLauncher:
-    """Starts language servers where a user's tools are."""
+    """Starts language servers in a user's tools container."""
 
     async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
         """Opens a socket to the tools, and sends the files."""

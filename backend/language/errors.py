@@ -1,4 +1,4 @@
-"""Why there is no help with Python."""
+"""Errors of the support for Python."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from backend.core.problems import StudioError
 
 
 class UnavailableError(Exception):
-    """There is no language server for this project here; the text is for the user."""
+    """No language server is available for this project; the text is for the user."""
 
 
 class PythonRefusedError(StudioError):
-    """The source is not Python that could be formatted or read; `diagnostics` says where."""
+    """The source is not valid Python; `diagnostics` says where."""
 
     status = 422
     code = "python_refused"
@@ -18,7 +18,7 @@ class PythonRefusedError(StudioError):
 
 
 class CheckerUnavailableError(StudioError):
-    """Nothing can format or check Python here, or not now."""
+    """No formatter or linter is available at the moment."""
 
     status = 503
     code = "python_help_unavailable"

@@ -43,7 +43,7 @@ class Sync:
 
 
 class Folder:
-    """The folder of one project; several servers may read it."""
+    """The folder of one project, which several language servers can read."""
 
     def __init__(self, project_id: UUID) -> None:
         self.home = environment().data_dir / "language" / "projects" / str(project_id)
@@ -56,7 +56,7 @@ class Folder:
         _write(self.home / "pyrefly.toml", text.encode())
 
     def sync(self, contents: Mapping[str, bytes]) -> Sync:
-        """Makes the folder hold exactly the Python among these files."""
+        """Makes the folder contain exactly the Python files among these files."""
         wanted = python_of(contents)
         created: list[str] = []
         changed: list[str] = []
@@ -76,7 +76,7 @@ class Folder:
         return Sync(tuple(sorted(created)), tuple(sorted(changed)), tuple(sorted(deleted)))
 
     def remove(self) -> None:
-        """Takes the folder away; for a project that was deleted."""
+        """Removes the folder of a deleted project."""
         shutil.rmtree(self.home, ignore_errors=True)
 
     def _paths(self) -> set[str]:
@@ -84,12 +84,12 @@ class Folder:
 
 
 def python_of(contents: Mapping[str, bytes]) -> dict[str, bytes]:
-    """The Python among a project's files."""
+    """Returns the Python files of a project."""
     return {path: data for path, data in contents.items() if path.endswith(SUFFIXES)}
 
 
 def library() -> Path:
-    """The folder of what every project can import; made when it is missing."""
+    """Returns the folder of the libraries that every project can import; makes it if it is missing."""
     with _lock:
         site_packages = Path(sysconfig.get_path("purelib"))
         folder = environment().data_dir / "language" / f"library-{_library_key(site_packages)}"
@@ -107,7 +107,7 @@ def _library_key(site_packages: Path) -> str:
 
 def _make_library(site_packages: Path, folder: Path) -> None:
     partial = folder.with_name(f"{folder.name}.{uuid4().hex}")
-    # A process of its own: it reads hundreds of modules, and one thread at a time may read Python.
+    # In a separate process: it parses hundreds of modules, and only one thread at a time may parse Python.
     command = (sys.executable, "-m", "backend.language.library", site_packages, REPOSITORY, partial)
     subprocess.run(command, cwd=REPOSITORY, check=True)
     try:

@@ -1,4 +1,4 @@
-"""The framing of the language server protocol, without I/O: JSON bodies behind a `Content-Length` header."""
+"""The framing of the language server protocol: JSON bodies behind a `Content-Length` header. No I/O."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _END: Final = b"\r\n\r\n"
 
 
 class FramingError(ValueError):
-    """The stream is not what the protocol says; nothing after it can be trusted."""
+    """The stream violates the protocol; the rest of it is useless."""
 
 
 def framed(body: bytes) -> bytes:
-    """A body with its header."""
+    """Returns a body with its header."""
     return b"Content-Length: %d\r\n\r\n%b" % (len(body), body)
 
 
@@ -25,7 +25,7 @@ class Unframer:
         self._buffer = bytearray()
 
     def feed(self, data: bytes) -> list[bytes]:
-        """Takes what arrived, and returns the bodies that are complete.
+        """Takes received bytes, and returns the bodies that are complete.
 
         Raises:
             FramingError: a header cannot be read, or a body is too large.

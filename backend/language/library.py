@@ -14,14 +14,14 @@ from typing import Final
 from backend.language import message_stubs
 
 ENGINE: Final = ("tree_gardener",)
-# Python parts of ROS that have no wheel, as actions import them.
+# Python parts of ROS without wheels, under the names that actions import.
 ROS_PYTHON: Final = "executor/ros_python"
 # `tree_tools` is what actions of JdeRobot's projects import; the engine installs it under that name.
 _TREE_TOOLS: Final = "from tree_gardener.tree_tools import *\n"
 
 
 def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
-    """Fills a new folder."""
+    """Makes the library in a new folder."""
     folder.mkdir(parents=True)
     message_stubs.write_message_stubs(site_packages, folder)
     for package in ENGINE:
@@ -33,14 +33,14 @@ def make_library(site_packages: Path, repository: Path, folder: Path) -> None:
 
 
 def configuration(files: str, library: str, python: str) -> str:
-    """The language server's `pyrefly.toml`: where the project's files are, and what they can import."""
+    """Returns the language server's `pyrefly.toml`: where the project is, and what it can import."""
     values = {
         "project-includes": [f"{files}/**/*.py"],
-        # Neighbours are imported as `actions.<Name>` or by their bare name, as the engine's loader has it.
+        # Other actions are imported as `actions.<Name>` or by their bare name, as in the engine's loader.
         "search-path": [files, f"{files}/actions", library],
         "python-interpreter-path": python,
     }
-    # JSON's strings and lists are TOML's.
+    # JSON strings and lists are valid TOML.
     return "".join(f"{name} = {json.dumps(value)}\n" for name, value in values.items())
 
 

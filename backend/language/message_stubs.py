@@ -34,7 +34,7 @@ _MESSAGE: Final = re.compile(r"^(\w+)/(\w+)$")
 
 
 class Interface(NamedTuple):
-    """One generated class: its fields with ROS types, its constants, and what is nested in it."""
+    """One generated class: its fields with ROS types, its constants, and its nested classes."""
 
     name: str
     fields: dict[str, str]
@@ -62,7 +62,7 @@ def write_message_stubs(site_packages: Path, target: Path) -> list[str]:
 
 
 def stub_of(folder: Path) -> str:
-    """The stub of one folder of generated modules; empty when there are none."""
+    """Returns the stub of one folder of generated modules; empty if there are none."""
     interfaces = [each for path in sorted(folder.glob("_*.py")) for each in interfaces_of(path)]
     if not interfaces:
         return ""
@@ -74,7 +74,7 @@ def stub_of(folder: Path) -> str:
 
 
 def interfaces_of(path: Path) -> Iterator[Interface]:
-    """The classes of a generated module, in the order of the file."""
+    """Returns the classes of a generated module, in the order of the file."""
     if path.name == "__init__.py":
         return
     constants: dict[str, object] = {}

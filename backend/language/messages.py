@@ -1,7 +1,7 @@
-"""Which messages pass between a page and its language server; no I/O.
+"""Filters the messages between a page and its language server. No I/O.
 
-The page is not asked for its wishes about interpreters, folders or commands: what decides which programs
-run comes from the server's own configuration alone.
+The page's settings for interpreters, folders or commands are ignored: only the server's configuration decides
+which programs run.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _FROM_PAGE: Final = frozenset(
 _TO_PAGE: Final = frozenset({"textDocument/publishDiagnostics"})
 _METHOD_NOT_FOUND: Final = -32601
 _INVALID_REQUEST: Final = -32600
-# `Go to [Twist](file:///…)`: the place is one of this machine, and opens nothing in a browser.
+# `Go to [Twist](file:///…)`: the path is on this machine, and cannot be opened in a browser.
 _GO_TO: Final = re.compile(r"\n*^Go to (?:\[[^\]]*\]\(file:[^)]*\)(?: \| |, )?)+$", re.MULTILINE)
 _FILE_LINK: Final = re.compile(r"\[([^\]]*)\]\(file:[^)]*\)")
 # A configuration that a finding mentions is ours, not the user's.
@@ -30,7 +30,7 @@ def for_server(message: Any, root_uri: str) -> tuple[Message | None, Message | N
         return None, _error(None, _INVALID_REQUEST, "A message is an object.")
     method = message.get("method")
     if method is None:
-        return None, None  # an answer to a request: we pass none on
+        return None, None  # an answer to a request of the server: such requests are not passed on
     if method == "initialize":
         return message | {"params": _initialize(message.get("params"), root_uri)}, None
     if isinstance(method, str) and (method.startswith("textDocument/") or method in _FROM_PAGE):
@@ -48,7 +48,7 @@ def _initialize(params: Any, root_uri: str) -> Message:
         "clientInfo": {"name": "bt-studio"},
         "rootUri": root_uri,
         "workspaceFolders": [{"uri": root_uri, "name": "project"}],
-        # Without these the server asks for no configuration, and is given none.
+        # Without these capabilities the server does not request the page's configuration.
         "capabilities": {"textDocument": known.get("textDocument", {})}
         | ({"general": known["general"]} if "general" in known else {}),
     }

@@ -1,4 +1,4 @@
-"""Where help with Python comes from: a child process on localhost, a container where there are containers."""
+"""Selects the support for Python: child processes on localhost, containers on servers that have them."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ _MISSING = "This server has no containers, and without them it offers no help wi
 
 
 def launcher() -> Launcher:
-    """Returns the starter of language servers here.
+    """Returns the launcher of language servers.
 
     Raises:
-        UnavailableError: nothing does.
+        UnavailableError: there is none on this server.
     """
     if environment().launcher == "docker":
         return ContainerLauncher()
@@ -31,10 +31,10 @@ def launcher() -> Launcher:
 
 
 def checker(user: User) -> ruff.Run:
-    """Returns the runner of ruff here.
+    """Returns the function that runs ruff.
 
     Raises:
-        CheckerUnavailableError: nothing does.
+        CheckerUnavailableError: there is none on this server.
     """
     if environment().launcher == "docker":
         return partial(tools.run_ruff, user)

@@ -1,7 +1,7 @@
 """Formatting and findings of ruff: bounded, without the user's configuration, on text alone.
 
-On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). A
-source that makes it slow is given up after some seconds.
+On localhost ruff is a child of the web server; elsewhere it runs in the user's container (`places.py`). It is
+stopped after some seconds.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from backend.language.errors import PythonRefusedError
 LINE_LENGTH: Final = 100
 TIMEOUT_S: Final = 5
 MAX_SOURCE_BYTES: Final = 1024 * 1024
-# What is likely wrong. Style is the formatter's; undefined names are found by the language server, too.
+# Rules for probable errors. The formatter handles style; the language server finds undefined names, too.
 RULES: Final = "F,B,E7,E9,W605,PLE,RUF100"
 IGNORED: Final = "F821,F405,F811,B027"
 _MAX_FINDINGS: Final = 200
 
-# Arguments and source to exit status and output; a status of None: it took too long.
+# From arguments and source to exit status and output; the status is None after a timeout.
 Run = Callable[[list[str], str], tuple[int | None, str]]
 
 
 def format_source(source: str, filename: str, run: Run) -> str:
-    """The source as `ruff format` writes it.
+    """Returns the source as `ruff format` writes it.
 
     Raises:
         PythonRefusedError: it does not parse, is too long, or takes too long.

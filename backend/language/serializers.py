@@ -26,7 +26,7 @@ class PlaceSerializer(serializers.Serializer[dict[str, int]]):
 
 
 class EditSerializer(serializers.Serializer[dict[str, object]]):
-    """A piece of text to be replaced."""
+    """A range of a text, and its replacement."""
 
     start = PlaceSerializer()
     end = PlaceSerializer()

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from backend.accounts.models import User
 
-# Address space, not memory: it is a bound on runaways, the watch below is the limit proper.
+# Address space, not memory: this stops a runaway; the limit of memory is enforced below.
 ADDRESS_SPACE_BYTES: Final = 8 * 1024**3
 STOP_S: Final = 2.0
 _CHUNK_BYTES: Final = 64 * 1024
@@ -37,25 +37,25 @@ class Server(Protocol):
 
     @property
     def root(self) -> str:
-        """The absolute path of the project's files, as the server sees them."""
+        """Returns the absolute path of the project's files in the server's view."""
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
-        """Makes it read exactly the Python among these files."""
+        """Makes the server's folder contain exactly the Python files among these files."""
 
     async def write(self, data: bytes) -> None:
-        """Hands bytes over; returns when the server takes them."""
+        """Sends bytes to the server; returns when it accepts them."""
 
     async def read(self) -> bytes:
-        """The next bytes; empty at the end."""
+        """Returns the next bytes; empty at the end."""
 
     def memory_bytes(self) -> int:
         """Returns the memory that the server uses now; 0 when it has ended."""
 
     async def stop(self) -> None:
-        """Ends it; ending twice is no error."""
+        """Ends the server; may be called twice."""
 
     async def forget(self) -> None:
-        """Removes its files; for a project that was deleted."""
+        """Removes the files of a deleted project."""
 
 
 class Launcher(Protocol):
@@ -70,7 +70,7 @@ class Launcher(Protocol):
 
 
 class ProcessServer:
-    """A child process."""
+    """A language server in a child process."""
 
     def __init__(self, process: asyncio.subprocess.Process, folder: Folder) -> None:
         self._process = process
@@ -78,33 +78,29 @@ class ProcessServer:
 
     @property
     def root(self) -> str:
-        """Where the project's folder is."""
         return str(self._folder.files)
 
     async def sync(self, contents: Mapping[str, bytes]) -> Sync:
-        """Brings the folder in step."""
         return await asyncio.to_thread(self._folder.sync, contents)
 
     async def write(self, data: bytes) -> None:
-        """Hands bytes over."""
         assert self._process.stdin is not None  # noqa: S101 - for the type checker
         self._process.stdin.write(data)
         await self._process.stdin.drain()
 
     async def read(self) -> bytes:
-        """The next bytes."""
         assert self._process.stdout is not None  # noqa: S101 - for the type checker
         return await self._process.stdout.read(_CHUNK_BYTES)
 
     def memory_bytes(self) -> int:
-        """Resident memory."""
+        """Returns the resident memory."""
         try:
             return int(psutil.Process(self._process.pid).memory_info().rss)
         except psutil.Error:
             return 0
 
     async def stop(self) -> None:
-        """Closes its input, at which it ends by itself; kills it when it does not."""
+        """Closes the server's input, after which it should end; kills it if it does not."""
         if self._process.stdin is not None:
             self._process.stdin.close()
         try:
@@ -115,21 +111,20 @@ class ProcessServer:
             await self._process.wait()
 
     async def forget(self) -> None:
-        """Takes the folder away."""
+        """Removes the folder."""
         await asyncio.to_thread(self._folder.remove)
 
 
 class ProcessLauncher:
-    """Starts `pyrefly lsp` as a child, with one thread, low priority, and nothing of our environment.
+    """Starts `pyrefly lsp` as a child process with one thread, low priority, and an empty environment.
 
-    The child ends when its input does, so it never outlives the web server.
+    The child ends when its input ends, so it never outlives the web server.
     """
 
     def __init__(self, command: tuple[str, ...] = ()) -> None:
         self._command = command or (str(Path(sys.executable).with_name("pyrefly")), "lsp", "-j", "1")
 
     async def start(self, project_id: UUID, user: User, contents: Mapping[str, bytes]) -> Server:
-        """Starts the child."""
         folder = Folder(project_id)
         await asyncio.to_thread(folder.prepare)
         await asyncio.to_thread(folder.sync, contents)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _NAMESPACE: Final = UUID("1d0a2f0e-6f0b-5c5e-9b57-0f6a1a8f6c11")
 ANSWER_S: Final = 15.0
-# Tools that end just now are found ended a moment later.
+# Tools that are just ending are found ended a moment later.
 _ATTEMPTS: Final = 3
 _PAUSE_S: Final = 0.3
 _MAX_BYTES: Final = 16 << 20
@@ -38,12 +38,12 @@ paths: Final[dict[str, str]] = {}
 
 
 def tools_id(user: User) -> str:
-    """The id of a user's tools."""
+    """Returns the id of a user's tools."""
     return str(uuid5(_NAMESPACE, str(user.pk)))
 
 
 def token(made_id: str) -> str:
-    """The secret between web server and tools."""
+    """Returns the secret that the web server and the tools share."""
     return hmac.new(settings.SECRET_KEY.encode(), f"tools {made_id}".encode(), hashlib.sha256).hexdigest()
 
 

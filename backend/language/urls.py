@@ -1,4 +1,4 @@
-"""Addresses of help with Python, below `/api/v1/`; the socket is in `consumers`."""
+"""Paths of the support for Python, below `/api/v1/`; the socket is in `consumers`."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Format(APIView):
-    """Ruff's formatter."""
+    """Formats Python with ruff."""
 
     @extend_schema(
         operation_id="format_python",
@@ -32,14 +32,14 @@ class Format(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """The source in the usual style; 422 when it does not parse."""
+        """Formats a source; answers 422 if it does not parse."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.format_source, **given, run=checker(user_of(request)))
         return _answered(self, request, "source", work)
 
 
 class Lint(APIView):
-    """Ruff's findings."""
+    """Finds problems with ruff."""
 
     @extend_schema(
         operation_id="lint_python",
@@ -48,7 +48,7 @@ class Lint(APIView):
         tags=["language"],
     )
     def post(self, request: Request) -> Deferred:
-        """Probable errors, with the edits that fix them."""
+        """Lists probable errors, with the edits that fix them."""
         given = parsed(s.SourceSerializer, request.data)
         work = partial(ruff.findings, **given, run=checker(user_of(request)))
         return _answered(self, request, "findings", work)

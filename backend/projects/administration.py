@@ -1,4 +1,4 @@
-"""The administrator's page of projects: who owns what, and how large it is; never what is in it."""
+"""The administrator's page of projects: owners and sizes, but no content."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Projects(ReadOnly):
     fields = ("id", "name", "owner", "room", "revision", "created_at", "updated_at")
 
     def room(self, row: Project) -> str:
-        """Size of the current files."""
+        """Returns the size of the current files."""
         return str(filesizeformat(row.size))
 
 

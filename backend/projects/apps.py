@@ -4,13 +4,13 @@ from django.apps import AppConfig
 
 
 class ProjectsConfig(AppConfig):
-    """Projects."""
+    """Configuration of the app of projects."""
 
     name = "backend.projects"
     label = "projects"
 
     def ready(self) -> None:
-        """Connects the notices to users who lose a role: they must not continue to listen."""
+        """Connects the notices to users who lose a role, so that their sockets close."""
         from backend.projects.sharing.demotions import watch_roles  # noqa: PLC0415 - models must be loaded
 
         watch_roles()

@@ -1,4 +1,4 @@
-"""Closed sets of this app."""
+"""Enumerations of projects."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Role(IntEnum):
 
     @property
     def label(self) -> str:
-        """The name that the API and the database's forms show."""
+        """Returns the name in the API and in the administration."""
         return self.name.lower()
 
 

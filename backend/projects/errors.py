@@ -14,7 +14,7 @@ class RevisionConflictError(StudioError):
 
 
 class NameTakenError(StudioError):
-    """The user has another project of this name."""
+    """The user has another project with this name."""
 
     status = 409
     code = "name_taken"
@@ -22,7 +22,7 @@ class NameTakenError(StudioError):
 
 
 class QuotaExceededError(StudioError):
-    """The write would take more room than there is for it."""
+    """The write would exceed the quota."""
 
     status = 413
     code = "quota_exceeded"
@@ -38,7 +38,7 @@ class PreconditionFailedError(StudioError):
 
 
 class CheckFailedError(StudioError):
-    """The project has errors that keep it from running; they are in `diagnostics`."""
+    """The project has errors that prevent it from running; they are in `diagnostics`."""
 
     status = 422
     code = "check_failed"
@@ -46,7 +46,7 @@ class CheckFailedError(StudioError):
 
 
 class ArchiveError(StudioError):
-    """A file that is imported is no archive that we open."""
+    """An imported file is not an archive that can be read."""
 
     status = 422
     code = "bad_archive"

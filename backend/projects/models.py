@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 class Blob(models.Model):
-    """Bytes, named by their SHA-256."""
+    """Content, named by its SHA-256."""
 
     sha256 = models.CharField(max_length=64, primary_key=True)
     size = models.PositiveBigIntegerField()
@@ -91,7 +91,7 @@ class GroupShare(models.Model):
 
 
 class ShareLink(models.Model):
-    """A link by which anybody may read a project. The link is signed, not stored."""
+    """A link with which anyone can read a project. The link is signed, not stored."""
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     project = models.ForeignKey(Project, on_delete=models.CASCADE, related_name="links")

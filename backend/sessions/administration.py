@@ -1,4 +1,4 @@
-"""The administrator's page of sessions: who runs what, and how to end it."""
+"""The administrator's page of sessions: who runs which project, and a button to end it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Sessions(ReadOnly):
-    """Executors, the newest first."""
+    """All executors, the newest first."""
 
     list_display = ("created_at", "user", "project", "state", "launcher", "ros_domain_id", "ended_at")
     list_filter = ("state",)
@@ -32,17 +32,17 @@ class Sessions(ReadOnly):
     change_list_template = "admin/sessions.html"
 
     def get_urls(self) -> list[Any]:
-        """Adds the button that lets no robot start any more."""
+        """Adds the button that prevents robots from starting."""
         button = path("drain/", self.admin_site.admin_view(self.drain), name="drain")
         return [button, *super().get_urls()]
 
     def changelist_view(self, request: HttpRequest, extra_context: dict[str, Any] | None = None) -> Any:
-        """With how many run, and whether more may start."""
+        """Adds the number of running sessions, and whether more may start."""
         more = {"drain": drain.current(), "counts": queries.counts()}
         return super().changelist_view(request, more | (extra_context or {}))
 
     def drain(self, request: HttpRequest) -> HttpResponse:
-        """Stops robots from starting, or allows it again."""
+        """Prevents robots from starting, or allows it again."""
         actor = request.user if isinstance(request.user, User) else None
         if request.method == "POST" and "off" in request.POST:
             drain.lift(acting_user=actor)

@@ -11,7 +11,7 @@ class SessionsConfig(AppConfig):
     verbose_name = "Sessions"
 
     def ready(self) -> None:
-        """A deleted project needs no robot, nor does an account that leaves."""
+        """Connects the end of sessions to the deletion of projects and accounts."""
         from backend.accounts.rights import lessened  # noqa: PLC0415
         from backend.accounts.signals_out import account_leaves  # noqa: PLC0415
         from backend.projects.signals import project_deleted  # noqa: PLC0415 - models must be loaded

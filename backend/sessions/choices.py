@@ -1,4 +1,4 @@
-"""Closed sets of the sessions app."""
+"""Enumerations of sessions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from django.db import models
 
 
 class SessionState(models.TextChoices):
-    """`queued` until there is a place; `starting` becomes `ready` or `failed`.
+    """`queued` until a place is free; `starting` becomes `ready` or `failed`.
 
     `ready` becomes `ended`, or `failed` when the process dies.
     """

@@ -1,9 +1,9 @@
 """The two sockets of a session, relayed verbatim between browser and manager.
 
-Nothing is read into the messages and nothing is queued: each direction takes one message and hands it
-on before it takes the next, so that a slow browser slows its manager's socket down, and the manager,
-which knows what a message supersedes, sends it less. Frames never touch the channel layer. No socket is
-served for long at a time, however much comes from it.
+Messages are neither parsed nor queued: each direction takes one message and passes it on before it takes the
+next, so that a slow browser slows its manager's socket down, and the manager, which knows what a message
+supersedes, sends it less. Frames never touch the channel layer. No socket can occupy the event loop, however
+much it sends.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ LONGEST_PING: Final = 100
 MESSAGES_IN_TURN: Final = 4
 POLL_S: Final = 0.03
 QUEUE_POLL_S: Final = 1.0
-# A container with many processes takes seconds to end after its sockets, on a busy host many.
+# A container with many processes ends seconds after its sockets, and later on a busy host.
 LOST_POLL_S: Final = 0.1
 LOST_POLLS: Final = 150
 
@@ -57,7 +57,7 @@ def may_use(session_id: UUID, user: User) -> None:
 
 
 async def relay(call: Call, receive: ASGIReceiveCallable, send: ASGISendCallable) -> Closed | None:
-    """Relays one socket until a side ends."""
+    """Relays one socket until either side ends."""
     if call.user.is_guest:
         return Closed(NO_SUCH_SESSION, "There is no such session.")
     return await _serve(UUID(call.address[1]), call.user, call.address[2], call.query, receive, send)
@@ -134,7 +134,7 @@ async def _when_ready(session_id: UUID, user: User, send: ASGISendCallable | Non
     """Returns the session when it neither waits nor starts; a waiting browser receives its place."""
     find = sync_to_async(lambda: queries.session(session_id, user=user))
     told: int | None = None
-    # Another web server may be starting it, so the database tells, and no event of this process.
+    # Another web server may be starting it: so this polls the database and waits for no local event.
     while (session := await find()).state in {SessionState.QUEUED, SessionState.STARTING}:
         is_queued = session.state == SessionState.QUEUED
         place = await sync_to_async(queries.position)(session) if is_queued else None
@@ -190,7 +190,7 @@ async def _manager_to_browser(manager: ClientConnection, send: ASGISendCallable)
     except ConnectionClosed as error:
         return _closed_by(error)
     except OSError:
-        return None  # the browser has gone
+        return None  # the browser has disconnected
 
 
 class _Turns:
@@ -200,7 +200,7 @@ class _Turns:
         self._messages = 0
 
     async def next(self) -> None:
-        """Call it after each message."""
+        """Gives other sockets time to run; must be called after each message."""
         self._messages += 1
         if self._messages % MESSAGES_IN_TURN == 0:
             await asyncio.sleep(0)

@@ -1,4 +1,4 @@
-"""Before an upgrade: no robot starts any more, those that run continue, and everybody is notified."""
+"""The drain before an upgrade: no robot starts, running ones continue, and users are notified."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ MAX_MESSAGE: Final = 300
 
 
 def current() -> Drain | None:
-    """Returns the drain with its message, while no robot starts."""
+    """Returns the drain with its message, or None."""
     return Drain.objects.filter(pk=ONLY).first() if environment().is_team else None
 
 
 def text() -> str:
-    """Returns the notice to users; empty while robots start."""
+    """Returns the notice to users; empty without a drain."""
     found = current()
     return f"{SENTENCE} {found.message}".strip() if found is not None else ""
 
 
 def require_open() -> None:
-    """Raises DrainingError while no robot starts."""
+    """Raises DrainingError during a drain."""
     found = current()
     if found is not None:
         raise DrainingError(
@@ -47,7 +47,7 @@ def require_open() -> None:
 
 @transaction.atomic
 def begin(message: str, *, acting_user: User | None) -> None:
-    """Stops robots from starting; a second call replaces the message."""
+    """Starts a drain; a second call replaces the message."""
     Drain.objects.update_or_create(
         pk=ONLY, defaults={"since": timezone.now(), "message": message.strip()[:MAX_MESSAGE]}
     )
@@ -56,13 +56,13 @@ def begin(message: str, *, acting_user: User | None) -> None:
 
 @transaction.atomic
 def lift(*, acting_user: User | None) -> None:
-    """Allows robots to start again."""
+    """Ends the drain."""
     if Drain.objects.all().delete()[0]:
         note("server.drain_off", actor=acting_user)
 
 
 def wait_for_the_last(seconds: float, say: Callable[[str], object]) -> int:
-    """Waits until no robot runs or time is up, saying how many do whenever that changes; returns how many."""
+    """Waits until no robot runs, or for a timeout; prints each change of their number and returns it."""
     deadline, told = time.monotonic() + seconds, -1
     while True:
         counts = queries.counts()

@@ -14,7 +14,7 @@ class LaunchError(StudioError):
 
 
 class DrainingError(StudioError):
-    """No robot starts, since the server is about to be upgraded."""
+    """No robot starts, since the server will be upgraded."""
 
     status = 503
     code = "draining"

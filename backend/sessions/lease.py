@@ -1,4 +1,4 @@
-"""Work of one web server for all: it has the lease, a row of the database that it renews while it lives.
+"""Leases: one web server does periodic work for all while it renews its lease, a row of the database.
 
 A row and not a lock of the database: a lock is held as long as its connection, and a server that hangs, is
 frozen with its machine, or has lost the network may keep that for hours. The row runs out by the clock of the
@@ -43,20 +43,20 @@ _TAKE: Final = """
 
 
 class Holder:
-    """One web server, or one worker of it, as the database knows it."""
+    """One web server, or one of its workers, as stored in the database."""
 
     def __init__(self) -> None:
         self.name = f"{socket.gethostname()[:40]} {os.getpid()} {token_hex(8)}"
 
     def hold(self, name: str, seconds: float) -> bool:
-        """Takes or renews a lease; False when somebody else has it."""
+        """Takes or renews a lease; returns False if another server has it."""
         return self._take(name, seconds, is_renewal=True)
 
     @contextmanager
     def chore(self, name: str, every_s: float) -> Iterator[bool]:
-        """Yields whether this server is to do a periodic task now that only one of all servers does.
+        """Yields whether this server must do a periodic task now, which only one of all servers does.
 
-        What fails, or is cut short by the end of its server, is tried again by the next caller.
+        If the task fails or the server ends, the next caller tries it again.
         """
         if not self._take(name, LONGEST_CHORE_S, is_renewal=False):
             yield False
@@ -81,7 +81,7 @@ class Holder:
 
 
 def is_alone() -> bool:
-    """Whether no other server can do what this one does."""
+    """Whether no other server can do this server's work."""
     return connection.vendor != "postgresql" or not launcher().survives_server
 
 

@@ -1,6 +1,6 @@
 """Maintains sessions every few seconds: marks the dead, ends the idle, starts the waiting.
 
-Those that are alive and do not answer are the business of `backend.sessions.watch`.
+`backend.sessions.watch` handles those that are alive and do not answer.
 
 Of several web servers, and of several workers of one, the one that has the lease does so for all
 (`lease.py`). Each of the steps is right when another did it a moment before. What a server alone knows, the
@@ -47,7 +47,7 @@ WARNING: Final = timedelta(minutes=5)
 
 
 class Attendance:
-    """The viewers of each session through this server, and the time of their last message."""
+    """The viewers of each session on this server, and the time of their last message."""
 
     def __init__(self) -> None:
         self._used: dict[UUID, float] = {}
@@ -56,24 +56,24 @@ class Attendance:
         self._told: dict[ASGISendCallable, str] = {}
 
     def join(self, session_id: UUID, send: ASGISendCallable) -> None:
-        """A browser opened its control socket."""
+        """Adds a browser that opened its control socket."""
         self._browsers[session_id].add(send)
         self.use(session_id)
 
     def leave(self, session_id: UUID, send: ASGISendCallable) -> None:
-        """It has gone."""
+        """Removes a browser."""
         self._browsers[session_id].discard(send)
         self._told.pop(send, None)
         if not self._browsers[session_id]:
             self._browsers.pop(session_id)
 
     def use(self, session_id: UUID) -> None:
-        """A browser told its session something."""
+        """Notes a message of a browser to its session."""
         self._used[session_id] = time.monotonic()
         self._warned.discard(session_id)
 
     def take_used(self) -> dict[UUID, float]:
-        """For how many seconds each has not been used, of those used since the last call."""
+        """Returns for each session that was used since the last call the seconds since its last use."""
         used, self._used = self._used, {}
         now = time.monotonic()
         return {session_id: now - at for session_id, at in used.items()}
@@ -86,7 +86,7 @@ class Attendance:
             self._told[send] = text
 
     def keep_warned(self, soon: Container[UUID]) -> None:
-        """Forgets that those were warned that were used again, here or through another server."""
+        """Forgets the warning of sessions that were used again, here or on another server."""
         self._warned = {session_id for session_id in self._warned if session_id in soon}
 
     async def warn(self, session_id: UUID, text: str) -> None:
@@ -107,18 +107,18 @@ async def say(send: ASGISendCallable, command: str, data: Mapping[str, object]) 
     message = {"id": "", "command": command, "data": data, "seq": 0, "t": 0}
     try:
         await send({"type": "websocket.send", "text": json.dumps(message), "bytes": None})
-    except (OSError, RuntimeError) as error:  # it has gone
+    except (OSError, RuntimeError) as error:  # the browser has disconnected
         log.debug("a browser was not told: %s", error)
 
 
 def begin() -> None:
-    """Before a server's first request: what a killed one left is ended, unless other servers see to it."""
+    """Ends what a killed server left, unless other servers do so; called before the first request."""
     if is_alone():
         writes.end_orphans()
 
 
 async def care_for_ever() -> None:
-    """Runs until it is cancelled; a step that fails is tried again."""
+    """Maintains sessions until it is cancelled; a step that fails is tried again."""
     rounds = itertools.count()
     try:
         while True:
@@ -157,10 +157,10 @@ def _give_back() -> None:
 
 
 def note_used(used: Mapping[UUID, float]) -> None:
-    """Stores when sessions were last used through this server, unless they were used since through another.
+    """Stores when sessions were last used on this server, unless another server noted a later time.
 
     Args:
-        used: for how many seconds each has not been used.
+        used: the seconds since the last use of each.
     """
     now = timezone.now()
     for session_id, seconds in used.items():
@@ -169,7 +169,7 @@ def note_used(used: Mapping[UUID, float]) -> None:
 
 
 def maintain(*, is_for_orphans: bool = False) -> None:
-    """One round for all servers."""
+    """Runs one round of maintenance for all servers."""
     if is_for_orphans:
         writes.end_orphans()
     for session in ready_sessions():
@@ -179,12 +179,12 @@ def maintain(*, is_for_orphans: bool = False) -> None:
 
 
 def ready_sessions() -> list[Session]:
-    """Those whose executors are to answer."""
+    """Returns the sessions whose executors must answer."""
     return list(Session.objects.filter(state=SessionState.READY))
 
 
 def end_idle() -> None:
-    """Ends what nobody used for too long."""
+    """Ends sessions that nobody used for too long."""
     for session, left in _unused():
         if left <= timedelta(0):
             log.info("session %s is idle and is ended", session.id)
@@ -192,7 +192,7 @@ def end_idle() -> None:
 
 
 def ending_soon() -> dict[UUID, int]:
-    """Returns the sessions that end soon since nobody uses them, with the minutes left."""
+    """Returns the idle sessions that end soon, with the minutes left."""
     soon = {session.id: left for session, left in _unused() if left > timedelta(0)}
     return {session_id: max(1, round(left.total_seconds() / 60)) for session_id, left in soon.items()}
 

@@ -1,4 +1,4 @@
-"""Which executor runs which project."""
+"""Sessions, leases and the drain."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ LIVE_STATES = (SessionState.QUEUED, *RUNNING_STATES)
 
 
 class Drain(models.Model):
-    """While there is a row, no robot starts: the server is about to be upgraded. There is one at most."""
+    """A drain: while this row exists, no robot starts before an upgrade. There is at most one."""
 
     since = models.DateTimeField()
     message = models.CharField(max_length=300, blank=True)
 
 
 class Lease(models.Model):
-    """The one of several web servers that does a task for all, and until when (`lease.py`)."""
+    """The web server that does a task for all servers, and until when (`lease.py`)."""
 
     name = models.CharField(max_length=40, primary_key=True)
     owner = models.CharField(max_length=100)
@@ -30,7 +30,10 @@ class Lease(models.Model):
 
 
 class Session(models.Model):
-    """One executor: a manager with its world and its application. One live one per project and user."""
+    """One executor: a manager with its world and its application.
+
+    A project has at most one live session for each user.
+    """
 
     id = models.UUIDField(primary_key=True, default=uuid.uuid4, editable=False)
     project = models.ForeignKey("projects.Project", on_delete=models.CASCADE, related_name="sessions")

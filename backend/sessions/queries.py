@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def session(session_id: UUID, *, user: User) -> Session:
-    """The session, if it is this user's."""
+    """Returns the session, if it belongs to this user."""
     found = Session.objects.filter(id=session_id, user=user).first()
     if found is None:
         raise NotFoundError("There is no such session.")
@@ -25,17 +25,17 @@ def session(session_id: UUID, *, user: User) -> Session:
 
 
 def live_session(project_id: UUID, *, user: User) -> Session | None:
-    """The session that runs this project for this user, if one does."""
+    """Returns the session that runs this project for this user, if there is one."""
     return Session.objects.filter(project_id=project_id, user=user, state__in=LIVE_STATES).first()
 
 
 def live_sessions() -> list[Session]:
-    """Every session that waits, starts or runs."""
+    """Returns every session that waits, starts or runs."""
     return list(Session.objects.filter(state__in=LIVE_STATES))
 
 
 def position(session: Session) -> int | None:
-    """The place of a session in the queue, from 1; None when it does not wait."""
+    """Returns the position of a session in the queue, from 1; None if it does not wait."""
     if session.state != SessionState.QUEUED:
         return None
     earlier = Session.objects.filter(state=SessionState.QUEUED, created_at__lt=session.created_at)
@@ -43,6 +43,6 @@ def position(session: Session) -> int | None:
 
 
 def counts() -> dict[str, int]:
-    """Counts the sessions that wait, start and run."""
+    """Returns the number of sessions that wait, start and run."""
     found = dict(Session.objects.filter(state__in=LIVE_STATES).values_list("state").annotate(n=Count("id")))
     return {state.value: found.get(state.value, 0) for state in LIVE_STATES}

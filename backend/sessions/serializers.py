@@ -1,4 +1,4 @@
-"""Answers of the sessions API."""
+"""Serializers of sessions."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class SessionSerializer(serializers.Serializer[Any]):
 
 
 def presented(session: Session) -> dict[str, Any]:
-    """A session as the API shows it."""
+    """Returns a session in the form of the API."""
     return {
         "id": str(session.id),
         "project_id": str(session.project_id),

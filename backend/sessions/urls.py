@@ -1,4 +1,4 @@
-"""Addresses of sessions, below `/api/v1/`; the sockets are in `consumers`."""
+"""Paths of sessions, below `/api/v1/`; the sockets are in `consumers`."""
 
 from django.urls import path
 

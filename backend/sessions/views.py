@@ -1,4 +1,4 @@
-"""Sessions over HTTP."""
+"""Views of sessions."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class OneSession(APIView):
 
     @extend_schema(operation_id="get_session", responses=SessionSerializer, tags=["sessions"])
     def get(self, request: Request, session_id: UUID) -> Response:
-        """Whether it starts, runs, failed or has ended."""
+        """Returns the session: whether it starts, runs, failed or has ended."""
         return Response(presented(writes.refresh(queries.session(session_id, user=user_of(request)))))
 
     @extend_schema(operation_id="end_session", responses={204: None}, tags=["sessions"])

@@ -1,8 +1,8 @@
-"""Whether executors answer: each is pinged every second, and one that is silent for too long is ended.
+"""Watches executors: each is pinged every second, and ended if it is silent for too long.
 
-The web server that looks after the sessions (`maintenance.py`) does so for all of them, and each does so for
-those that its own pages look at. All of them hear the same; the first to give one up ends it, and the others
-find it ended. So a session that no page looks at does not stay frozen, nor one whose server has gone.
+The web server that maintains the sessions (`maintenance.py`) watches all of them, and each server watches
+those that its own pages look at. The first server that gives one up ends it, and the others find it ended. So
+a session that no page looks at does not stay frozen, nor one whose server has gone.
 
 Silence is counted in what this server itself was awake: after a second in which it had no processor, or was
 stopped, the answer is probably there and only not yet read.
@@ -35,17 +35,17 @@ NOTED_S: Final = 3.0
 
 
 def longest_s() -> float:
-    """The time that a manager may be silent."""
+    """Returns the time that a manager may be silent."""
     return environment().session_silence_s
 
 
 def why() -> str:
-    """Why a session was failed whose manager was silent for longer."""
+    """Returns the reason for failing a session whose manager was silent."""
     return f"The executor did not answer for {longest_s():g} s, so it was ended."
 
 
 class Silence:
-    """For how long a manager has not answered."""
+    """Measures for how long a manager has not answered."""
 
     def __init__(self) -> None:
         self.seconds = 0.0
@@ -53,20 +53,20 @@ class Silence:
         self._is_reached = True
 
     def heard(self) -> None:
-        """It answered."""
+        """Notes an answer."""
         self.seconds, self._was_heard, self._is_reached = 0.0, True, True
 
     def not_reached(self) -> None:
-        """Nothing listens at its address.
+        """Notes that nothing listens at the manager's address.
 
-        One that answered before has closed its socket and is stuck in its end. If it never did, this server
-        cannot reach it, which says nothing about it.
+        A manager that answered before has closed its socket and hangs at its end. One that never answered
+        cannot be reached from this server, which says nothing about its state.
         """
         self._is_reached = self._was_heard
         self.seconds = self.seconds if self._was_heard else 0.0
 
     def passed(self, seconds: float) -> None:
-        """Time went by; what is more than the time between two looks is our own lateness."""
+        """Counts time without an answer; a delay of this server itself does not count."""
         if self._is_reached:
             self.seconds += min(seconds, PING_EVERY_S)
 
@@ -99,16 +99,16 @@ async def _ask(session: Session, silence: Silence) -> None:
                     await asyncio.sleep(PING_EVERY_S)
                     await (await socket.ping())
         except InvalidStatus:
-            silence.heard()  # one of an older version knows no such socket, but says so
+            silence.heard()  # a manager of an older version has no such socket, but its refusal is an answer
         except (ConnectionClosed, TimeoutError, InvalidHandshake):
-            pass  # it is reached, and that is all
+            pass  # it can be reached, which is enough
         except OSError:
             silence.not_reached()
         await asyncio.sleep(PING_EVERY_S)
 
 
 class Watchmen:
-    """One for each session that runs, or that a page looks at through this server."""
+    """The tasks that watch sessions on this server."""
 
     def __init__(self) -> None:
         self._tasks: dict[UUID, asyncio.Task[None]] = {}
@@ -116,7 +116,7 @@ class Watchmen:
 
     @contextmanager
     def beside_page(self, session: Session) -> Iterator[None]:
-        """Looks after a session at least while one of its sockets is open here."""
+        """Watches a session while one of its sockets is open on this server."""
         self._looked_at[session.id] += 1
         self.look_after(session)
         try:
@@ -127,13 +127,13 @@ class Watchmen:
                 del self._looked_at[session.id]
 
     def look_after(self, session: Session) -> None:
-        """Begins with a session that is ready, if none looks after it yet."""
+        """Starts to watch a ready session, unless it is watched already."""
         task = self._tasks.get(session.id)
         if task is None or task.done():
             self._tasks[session.id] = asyncio.create_task(_look_after(session))
 
     def keep_to(self, sessions: Iterable[Session], *, all_of_them: bool = True) -> None:
-        """Looks after these, or those of them that pages look at here, and after no others."""
+        """Stops watching all sessions except these and those with a page on this server."""
         ready = {each.id: each for each in sessions if all_of_them or each.id in self._looked_at}
         for session_id in self._tasks.keys() - ready.keys():
             self._tasks.pop(session_id).cancel()
@@ -146,7 +146,7 @@ async def _look_after(session: Session) -> None:
     try:
         await asyncio.to_thread(writes.fail_session, session.id, why())
     except Exception:
-        # The next round of maintenance begins again.
+        # The next round of maintenance starts it again.
         log.exception("session %s: a silent executor was not ended", session.id)
 
 

@@ -1,4 +1,4 @@
-"""All writes to sessions. Launching is slow, so a thread of its own does it and stores the outcome."""
+"""All writes to sessions. Launching is slow, so a separate thread does it and stores the outcome."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ log = logging.getLogger(__name__)
 # Domains whose UDP ports lie below Linux's ephemeral range, without 0, which everybody uses.
 ROS_DOMAINS: Final = range(1, 102)
 DOMAIN_ATTEMPTS: Final = 3
-# What hangs does not end when it is asked to.
+# A hanging executor does not end on request.
 HUNG_STOP_TIMEOUT_S: Final = 1.0
 PLACES: Final = "places of sessions"
 """The lock of those who count the places and take one."""
@@ -51,7 +51,7 @@ _launches_lock: Final = Lock()
 
 @lru_cache(maxsize=1)
 def launcher() -> Launcher:
-    """The launcher of this server; it lives as long as the process."""
+    """Returns the launcher of this server; it lives as long as the process."""
     settings = environment()
     if settings.launcher == "docker":
         return DockerLauncher(settings.keeper_folder)
@@ -65,7 +65,7 @@ def workers() -> ThreadPoolExecutor:
 
 
 def manager_token(session: Session) -> str:
-    """The secret between relay and manager; derived, so that it is stored nowhere."""
+    """Returns the secret between relay and manager; it is derived, and so not stored."""
     return hmac.new(
         settings.SECRET_KEY.encode(), f"manager {session.id}".encode(), hashlib.sha256
     ).hexdigest()
@@ -98,7 +98,7 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
                 )
             break
         except IntegrityError:
-            # Another request was faster: its session is the one, or only its domain is taken.
+            # Another request was faster: it has made this session, or has only taken the domain.
             running = queries.live_session(project_id, user=acting_user)
             if running is not None:
                 return running
@@ -110,14 +110,14 @@ def start_session(project_id: UUID, *, acting_user: User) -> Session:
 
 
 def places_left(states: Iterable[SessionState] = RUNNING_STATES) -> int:
-    """Returns how many more executors may run; those in `states` have a place, or wait for one."""
+    """Returns how many more executors may run; sessions in `states` count as running."""
     limit = environment().max_sessions
     taken = Session.objects.filter(state__in=list(states)).count() if limit else 0
     return limit - taken if limit else len(ROS_DOMAINS)
 
 
 def start_queued() -> int:
-    """Starts sessions that wait, the oldest first, while there are places; returns how many.
+    """Starts waiting sessions, the oldest first, while there are places; returns their number.
 
     Several web servers may do so at once: each session is taken by one of them.
     """
@@ -148,7 +148,7 @@ def _submit(session: Session) -> None:
 
 
 def refresh(session: Session) -> Session:
-    """Notes when a session's executor has died."""
+    """Stores that a session's executor has died."""
     if session.state == SessionState.READY:
         status = launcher().poll(session.launcher_state)
         if status is not None:
@@ -156,15 +156,15 @@ def refresh(session: Session) -> Session:
             why = f" {reason}" if (reason := launcher().explain(session.launcher_state)) else ""
             died = f"The executor ended by itself (status {status}).{why}" if status else ""
             _look_again(session)
-            died = session.error or died  # who ended it has said why
+            died = session.error or died  # the caller that ended it has stored the reason
             state = SessionState.FAILED if died else SessionState.ENDED
             if not _moved(session, SessionState.READY, state=state, error=died, ended_at=timezone.now()):
-                _look_again(session)  # it did not end by itself: somebody ended it
+                _look_again(session)  # it did not end by itself, but was ended
     return session
 
 
 def end_session(session: Session, why: str = "") -> Session:
-    """Ends the executor and everything that it started; ending twice is no error."""
+    """Ends the executor and everything that it started; may be called twice."""
     with _launches_lock:
         launch = _launches.pop(session.id, None)
     if launch is not None and not launch.cancel():
@@ -188,7 +188,7 @@ def _await_launch(session: Session) -> None:
     It sees that the session has ended when the executor is there. While it works it holds a lock of the
     database, which goes with its connection.
     """
-    # In a transaction of the caller nobody sees the end of the session yet.
+    # Inside the caller's transaction, others do not see the end of the session yet.
     if connection.vendor == "postgresql" and not connection.in_atomic_block:
         longest_s = 2 * environment().session_start_timeout_s
         try:
@@ -197,7 +197,7 @@ def _await_launch(session: Session) -> None:
                 transaction_lock(_launch_lock(session.id))
         except OperationalError:
             log.warning("session %s: the server that starts it does not come to an end", session.id)
-    if launcher().survives_server:  # what a server started that was killed is there still
+    if launcher().survives_server:  # an executor of a killed server still exists
         state = launcher().state_of(str(session.id))
         launcher().stop(state, timeout_s=environment().session_stop_timeout_s)
 
@@ -207,11 +207,11 @@ def _launch_lock(session_id: UUID) -> str:
 
 
 def fail_session(session_id: UUID, why: str) -> None:
-    """Ends an executor that does not answer, and fails its session with the reason."""
+    """Ends an executor that does not answer, and stores the reason."""
     try:
         ready = Session.objects.filter(id=session_id, state=SessionState.READY)
         session = ready.first()
-        # Others see its end before we do, and give this reason for it.
+        # Other servers may notice its end first, and then report this reason.
         if session is None or not ready.update(error=why):
             return
         log.warning("session %s: %s", session.id, why)
@@ -222,13 +222,13 @@ def fail_session(session_id: UUID, why: str) -> None:
 
 
 def end_sessions_of(sender: object, *, project_id: UUID, **_: object) -> None:
-    """Ends the sessions of a project that was deleted."""
+    """Ends the sessions of a deleted project."""
     for session in Session.objects.filter(project_id=project_id, state__in=LIVE_STATES):
         end_session(session)
 
 
 def end_sessions_of_user(sender: object, *, user: User, **_: object) -> None:
-    """Ends the sessions of an account that is about to be deleted."""
+    """Ends the sessions of an account that will be deleted."""
     for session in Session.objects.filter(user=user, state__in=LIVE_STATES):
         end_session(session)
 
@@ -247,7 +247,7 @@ def require_right(session: Session) -> None:
 def end_sessions_without_right(
     sender: object, *, user_id: int | None, project_id: UUID | None, **_: object
 ) -> None:
-    """Ends the sessions of those who may no longer run what they run."""
+    """Ends the sessions of users who may no longer run their project."""
     rows = Session.objects.filter(state__in=LIVE_STATES).select_related("user")
     if user_id is not None:
         rows = rows.filter(user=user_id)
@@ -261,9 +261,9 @@ def end_sessions_without_right(
 
 
 def end_all_sessions() -> None:
-    """Ends every session that is not to outlive the server; for its last moments.
+    """Ends every session that must not outlive the server, at its end.
 
-    In containers they could, and for a team they do. Nothing of one user's IDE continues after its end.
+    For a team, sessions in containers continue; on a user's own IDE nothing does.
     """
     if launcher().survives_server and environment().is_team:
         return
@@ -299,7 +299,7 @@ def end_orphans() -> None:
             if state:
                 launcher().stop(state, timeout_s=timeout_s)
             _finish(session, SessionState.ENDED, "The server was restarted.")
-    running = set(launcher().running())  # first, since another server may start one at this moment
+    running = set(launcher().running())  # first, since another server may be starting one
     known = {str(session.id) for session in queries.live_sessions()}
     for orphan in running - known:
         log.warning("the executor %s belongs to no session and is ended", orphan)
@@ -326,7 +326,7 @@ def _launch(session: Session) -> None:
             return
         started = launcher().start(spec)
     except HostFullError as error:
-        # The host knows better than our count. The session keeps its turn.
+        # The host's refusal counts more than our number. The session keeps its place in the queue.
         log.info("session %s waits: %s", session.id, error.detail)
         _moved(session, SessionState.STARTING, state=SessionState.QUEUED, ros_domain_id=None)
     except LaunchError as error:
@@ -355,7 +355,7 @@ def _begins(session: Session) -> bool:
 
 
 def _look_again(session: Session) -> None:
-    with suppress(Session.DoesNotExist):  # it has gone with its project or user
+    with suppress(Session.DoesNotExist):  # it was deleted with its project or user
         session.refresh_from_db()
 
 
@@ -375,7 +375,7 @@ def _finish(session: Session, state: SessionState, error: str = "") -> None:
 
 def _free_domain() -> int:
     taken = set(Session.objects.filter(state__in=LIVE_STATES).values_list("ros_domain_id", flat=True))
-    # Where to begin differs among servers on one host, so that their first sessions do not meet.
+    # The first domain differs among servers on one host, so that their first sessions do not collide.
     offset = os.getpid() % len(ROS_DOMAINS)
     candidates = [*ROS_DOMAINS[offset:], *ROS_DOMAINS[:offset]]
     free: int | None = next((domain for domain in candidates if domain not in taken), None)

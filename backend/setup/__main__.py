@@ -1,10 +1,9 @@
-"""Makes a fresh clone ready: `python3.11 backend/setup {run|test}`.
+"""Sets up a fresh clone: `python3.11 backend/setup {run|test}`.
 
-Runs on the bare standard library, before anything is installed; any Python 3.7 can read it, to say that it
-is the wrong one. Every step is skipped when what it made
-is still current, so that a second start costs a few hundred milliseconds. Everything lands in the clone:
-`.venv`, `frontend/node_modules`, `frontend/dist`, `var`. The one exception are the Debian packages that
-the tests need; they are installed by root alone, and said aloud.
+Runs on the bare standard library, before anything is installed; Python 3.7 and later can parse it, to report
+the wrong version. A step is skipped when its result is still current, so that a second start costs a few
+hundred milliseconds. Everything lands in the clone: `.venv`, `frontend/node_modules`, `frontend/dist`, `var`.
+The one exception are the Debian packages that the tests need; only root can install them, with a message.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ TEST_PACKAGES = ("chromium", "libegl1", "libgl1-mesa-dri", "postgresql", "redis-
 
 
 class Step(NamedTuple):
-    """One thing to make: done again when what it is made from has changed, or what it makes is gone."""
+    """One step of set-up; repeated when its inputs have changed or its result is missing."""
 
     name: str
     sentence: str
@@ -44,7 +43,7 @@ class Step(NamedTuple):
 
 
 def main(arguments: list[str]) -> None:
-    """Prepares for `run` or for `test`."""
+    """Sets up for `run` or for `test`."""
     goal = arguments[0] if arguments else "run"
     if goal not in ("run", "test"):
         stop(f"The goal is run or test, not {goal}.")
@@ -74,15 +73,15 @@ def stop(sentence: str) -> NoReturn:
 
 
 def say(sentence: str) -> None:
-    """Prints the current step of set-up."""
+    """Prints the present step of set-up."""
     print(f"set-up: {sentence}", flush=True)
 
 
-# --- what the machine must have -------------------------------------------------------------------
+# --- requirements of the machine ------------------------------------------------------------------
 
 
 def check_machine() -> None:
-    """PyBullet and ROS 2 come as wheels for one kind of machine."""
+    """Checks the platform: PyBullet and ROS 2 have wheels for one platform only."""
     if sys.platform != "linux" or platform.machine() not in ("x86_64", "AMD64"):
         stop(
             "BT Studio runs on Linux x86-64 with CPython 3.11; "
@@ -97,7 +96,7 @@ def check_machine() -> None:
 
 
 def check_node() -> None:
-    """The front end is built on this machine."""
+    """Checks Node.js, which builds the front end."""
     remedy = "install Node 20.19 or newer with npm (see nodejs.org) so that `node` and `npm` are found."
     if shutil.which("node") is None or shutil.which("npm") is None:
         stop(f"Node.js is missing; {remedy}")
@@ -108,7 +107,7 @@ def check_node() -> None:
 
 
 def output_of(command: list[str]) -> str | None:
-    """Standard output of a command, or None when it fails."""
+    """Returns the standard output of a command, or None if it fails."""
     try:
         return subprocess.run(command, check=True, capture_output=True, text=True).stdout
     except (OSError, subprocess.CalledProcessError):
@@ -119,12 +118,12 @@ def output_of(command: list[str]) -> str | None:
 
 
 def python_step() -> Step:
-    """A virtual environment of this very Python."""
+    """Returns the step that makes a virtual environment of this Python."""
     return Step("python", "making .venv", [], PYTHON, make_venv)
 
 
 def make_venv() -> None:
-    """Makes the environment again."""
+    """Makes the virtual environment."""
     try:
         venv.create(VENV, with_pip=True, clear=VENV.exists())
     except (subprocess.CalledProcessError, ImportError):
@@ -132,7 +131,7 @@ def make_venv() -> None:
 
 
 def packages_step(goal: str) -> Step:
-    """The Python packages of the lock; the one for tests holds all of the other."""
+    """Returns the step that installs the Python packages of the lock; the tests' lock includes the other."""
     run_lock, test_lock, build_lock = (
         ROOT / name for name in ("requirements.lock", "requirements-dev.lock", "requirements-build.lock")
     )
@@ -148,14 +147,14 @@ def packages_step(goal: str) -> Step:
 
 
 def install_packages(lock: Path, build_lock: Path) -> None:
-    """Installs the build tools by pip, and with them the lock; each file is checked by its hash."""
+    """Installs the build tools with pip, and with them the packages of the lock, by their hashes."""
     pip = [str(PYTHON), "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     run([*pip, "--require-hashes", "-r", str(build_lock)])
     run([*uv_install(), "--compile-bytecode", "--require-hashes", "-r", str(lock)])
 
 
 def uv_install() -> list[str]:
-    """The command that installs into .venv, quickly."""
+    """Returns the command that installs packages into .venv."""
     return [str(VENV / "bin" / "uv"), "pip", "install", "--python", str(PYTHON), "--quiet"]
 
 
@@ -164,7 +163,7 @@ OWN_OPTIONS = ["--no-deps", "--no-build-isolation", "--config-settings", "editab
 
 
 def own_package_step() -> Step:
-    """The `bt-studio` program, pointing at this clone."""
+    """Returns the step that installs the `bt-studio` program of this clone."""
     return Step(
         "bt-studio",
         "installing bt-studio itself into .venv",
@@ -175,7 +174,7 @@ def own_package_step() -> Step:
 
 
 def bytecode_step() -> Step:
-    """Our own modules, compiled: a session's processes start in half the time, also where none may write."""
+    """Returns the step that compiles our modules, so that processes start in half the time."""
     packages = [ROOT / name for name in ("backend", "executor", "translator", "tree_gardener")]
     compile_all = [str(PYTHON), "-m", "compileall", "-q", "-j", "0", *map(str, packages)]
     return Step(
@@ -188,7 +187,7 @@ def bytecode_step() -> Step:
 
 
 def node_step() -> Step:
-    """The npm packages of the lock."""
+    """Returns the step that installs the npm packages of the lock."""
     return Step(
         "npm",
         "installing the npm packages",
@@ -199,7 +198,7 @@ def node_step() -> Step:
 
 
 def ram_client_step() -> Step:
-    """JdeRobot's npm client, which drives the manager in the tests of the RAM dialect."""
+    """Returns the step that installs JdeRobot's npm client, with which tests drive the manager."""
     folder = ROOT / "tests" / "ram_client"
     return Step(
         "ram-client",
@@ -211,7 +210,7 @@ def ram_client_step() -> Step:
 
 
 def front_end_step() -> Step:
-    """The built front end, made again when one of its sources has changed."""
+    """Returns the step that builds the front end."""
     sources = [*sorted((FRONTEND / "src").rglob("*")), *sorted((FRONTEND / "public").rglob("*"))]
     configuration = [FRONTEND / name for name in ("index.html", "vite.config.ts", "package-lock.json")]
     catalog = ROOT / "tree_gardener" / "catalog.json"
@@ -225,9 +224,9 @@ def front_end_step() -> Step:
 
 
 def interfaces_step() -> Step:
-    """ROS 2's message packages of which there are no wheels; without a compiler they are left out.
+    """Returns the step that builds ROS 2's message packages without wheels.
 
-    What it makes is there when all were built: without a compiler it is tried again at each start.
+    Without a compiler they are left out, and each start tries again.
     """
     ros = ROOT / "executor" / "ros"
     programs = [ros / f"{name}.py" for name in INTERFACE_PROGRAMS]
@@ -240,11 +239,11 @@ def interfaces_step() -> Step:
     )
 
 
-# --- taking a step --------------------------------------------------------------------------------
+# --- running a step -------------------------------------------------------------------------------
 
 
 def take(step: Step) -> None:
-    """Does a step unless it is done already."""
+    """Runs a step, unless its result is current."""
     stamp = stamp_file(step.name)
     digest = digest_of(step.sources)
     if step.product.exists() and stamp.exists() and stamp.read_text() == digest:
@@ -256,12 +255,12 @@ def take(step: Step) -> None:
 
 
 def stamp_file(name: str) -> Path:
-    """Where the digest of a step's sources is kept."""
+    """Returns the file with the digest of a step's inputs."""
     return STAMPS / name
 
 
 def digest_of(sources: Iterable[Path]) -> str:
-    """A digest of names and contents, and of where the clone lies: scripts in .venv hold its path."""
+    """Returns a digest of names and contents, and of the clone's path, which scripts in .venv contain."""
     digest = hashlib.sha256(str(ROOT).encode())
     for path in sources:
         if path.is_file():
@@ -270,7 +269,7 @@ def digest_of(sources: Iterable[Path]) -> str:
 
 
 def run(command: list[str], cwd: Path = ROOT) -> None:
-    """Runs a command and stops with a sentence when it fails; what it printed stands above."""
+    """Runs a command; if it fails, stops with a sentence below the command's output."""
     environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": ""}
     try:
         subprocess.run(command, cwd=cwd, env=environment, check=True)
@@ -283,7 +282,7 @@ def run(command: list[str], cwd: Path = ROOT) -> None:
 
 
 def ensure_debian_packages() -> None:
-    """Chromium, EGL, PostgreSQL and Redis, which the tests need; installed by root alone."""
+    """Installs Chromium, EGL, PostgreSQL and Redis for the tests, if this is root."""
     missing = [name for name, present in test_programs() if not present]
     if not missing:
         return
@@ -298,7 +297,7 @@ def ensure_debian_packages() -> None:
 
 
 def test_programs() -> list[tuple[str, bool]]:
-    """The Debian packages and whether what they bring is here."""
+    """Returns the Debian packages, and whether their programs exist."""
     libraries = output_of(["ldconfig", "-p"]) or ""
     drivers = [*Path("/usr/lib").glob("*/dri/swrast_dri.so"), *Path("/usr/lib").glob("*/libgallium*.so")]
     present = (

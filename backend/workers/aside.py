@@ -1,7 +1,7 @@
-"""Threads for what waits on something else than the processor: no thread of a request waits for it.
+"""Threads for work that waits and does not compute, so that no thread of a request waits for it.
 
-The pool of processes is for what computes. A zip that is unpacked lies in a file that is larger than what a
-worker may hold, and zlib lets other threads work; a formatter in a container is waited for.
+The pool of processes is for work that computes. Unpacking a zip needs more memory than a worker may have, and
+zlib releases the interpreter lock; a formatter in a container only has to be awaited.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class _Task(NamedTuple):
 
 
 class Aside:
-    """A few threads that users share; each of them has a bounded part, and they take turns.
+    """A few threads that users share in turn; each user has a limited number.
 
     Args:
         name: of the threads.
@@ -41,7 +41,7 @@ class Aside:
         self._threads: list[threading.Thread] = []
 
     def ask(self, owner: str, work: Callable[[], Any]) -> Future[Any]:
-        """Does the work as soon as a thread is free.
+        """Runs the work on the next free thread.
 
         Raises:
             BusyError: too much waits already.
@@ -66,7 +66,7 @@ class Aside:
             result, error = None, None
             try:
                 result = task.work()
-            except BaseException as raised:  # the one who waits gets it
+            except BaseException as raised:  # the waiting caller gets the error
                 error = raised
             finally:
                 connection.close()
@@ -77,7 +77,7 @@ class Aside:
                 task.future.set_result(result)
             else:
                 task.future.set_exception(error)
-            del task, result, error  # what came with a request ends with it
+            del task, result, error  # the request's files are closed with the request
 
     def _taken(self) -> tuple[str, _Task]:
         with self._changed:

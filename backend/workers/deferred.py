@@ -19,16 +19,17 @@ if TYPE_CHECKING:
 
 
 class Deferred(HttpResponse):
-    """Stands for the answer of a view until its work is done.
+    """The answer of a view whose work is not done yet.
 
     Args:
-        view: whose answer it is; errors become answers as they do in its methods.
-        request: what it answers.
-        work: what it waits for.
-        finish: makes the answer of the work that is done, in a thread for requests; it may defer again.
+        view: the view, whose handlers also convert errors of the work.
+        request: the request.
+        work: the future of the work.
+        finish: makes the answer from the finished work, in a thread for requests; it may return another
+            Deferred.
     """
 
-    streaming = True  # there is nothing yet that a middleware could look at
+    streaming = True  # there is no content yet for a middleware
 
     def __init__(
         self,
@@ -43,11 +44,11 @@ class Deferred(HttpResponse):
         self._view, self._request, self._finish = view, request, finish
 
     def rest(self) -> None:
-        """Gives up the connection to the database while it waits; the request and its files stay open."""
+        """Releases the connection to the database while it waits; the request and its files stay open."""
         signals.request_finished.send(sender=type(self))
 
     def complete(self) -> HttpResponseBase:
-        """The answer, or what it waits for next; the work is waited for if it is not done."""
+        """Returns the answer, or another Deferred; waits for the work if it is not done."""
         wait([self.work])
         try:
             response = self._finish(self.work)
@@ -67,7 +68,7 @@ class Deferred(HttpResponse):
 
 
 class Waiting:
-    """Middleware next to the views: completes answers for handlers that cannot wait for them."""
+    """The innermost middleware: completes deferred answers for handlers that cannot wait for them."""
 
     def __init__(self, get_response: Callable[[HttpRequest], HttpResponseBase]) -> None:
         self._get_response = get_response

@@ -1,4 +1,4 @@
-"""Differences of two states of a project, as unified diffs."""
+"""Differences between two states of a project, as unified diffs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_LINES: Final = 5000
 
 
 def diff(older: Mapping[str, str | None], newer: Mapping[str, str | None]) -> list[dict[str, Any]]:
-    """One entry for each path of either, in their order.
+    """Returns one entry for each path of either state, in order.
 
     Args:
         older: files that differ, by path; None stands for a file that is no text.

@@ -21,7 +21,7 @@ class BusyError(StudioError):
 
 
 class TookTooLongError(StudioError):
-    """The deadline passed."""
+    """The job exceeded its deadline."""
 
     status = 422
     code = "took_too_long"
@@ -29,7 +29,7 @@ class TookTooLongError(StudioError):
 
 
 class WorkFailedError(StudioError):
-    """The worker died of the work."""
+    """The worker died while it did the job."""
 
     status = 422
     code = "work_failed"

@@ -1,6 +1,6 @@
 """Messages between the pool and a worker: a length, then msgpack.
 
-Not pickle: what a worker says comes from a process that has read users' files.
+Not pickle, since a worker that has read users' files cannot be trusted.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ MAX_BYTES: Final = 1 << 30
 
 
 class FrameError(Exception):
-    """The other end is gone, or what it says is no message."""
+    """The other end is gone, or sent an invalid message."""
 
 
 def pack(message: Any) -> bytes:
-    """A message as bytes; equal messages give equal bytes."""
+    """Returns a message as bytes; equal messages give equal bytes."""
     return msgspec.msgpack.encode(message, order="deterministic")
 
 
@@ -30,7 +30,7 @@ def send(connection: socket.socket, packed: bytes) -> None:
     """Sends a packed message.
 
     Raises:
-        TimeoutError: the socket's time is over.
+        TimeoutError: the socket timed out.
         FrameError: the other end is gone.
     """
     try:
@@ -46,8 +46,8 @@ def receive(connection: socket.socket) -> bytearray:
     """Returns the next message, still packed.
 
     Raises:
-        TimeoutError: the socket's time is over.
-        FrameError: the other end is gone, or sends more than a message may have.
+        TimeoutError: the socket timed out.
+        FrameError: the other end is gone, or sends too large a message.
     """
     (length,) = PREFIX.unpack(_exactly(connection, PREFIX.size))
     if length > MAX_BYTES:

@@ -1,6 +1,6 @@
 """The jobs of a worker: pure functions of files and texts, without Django.
 
-What the translator refuses is an answer like any other: `{"refused": [diagnostic, …]}`.
+A refusal of the translator is a normal answer: `{"refused": [diagnostic, …]}`.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ Answer = dict[str, Any]
 
 
 def warm_up() -> None:
-    """Imports what the first job would wait for."""
+    """Imports the modules of the first job."""
     import translator  # noqa: F401, PLC0415 - the web server, too, imports this module
 
 
 def report(files: Files) -> Answer:
-    """Problems and actions of a project."""
+    """Returns problems and actions of a project."""
     import translator  # noqa: PLC0415 - as above
 
     try:
@@ -41,7 +41,7 @@ def report(files: Files) -> Answer:
 
 
 def xml(files: Files, *, self_contained: bool) -> Answer:
-    """The tree as BT.CPP XML."""
+    """Returns the tree as BT.CPP XML."""
     import translator  # noqa: PLC0415
 
     project = translator.load(files)
@@ -93,14 +93,14 @@ def _universe(files: Files, name: str, built_in: bytes | None) -> str | dict[str
 
 
 def app_zip(files: Files) -> Answer:
-    """The dockerized app."""
+    """Returns the dockerized app."""
     import translator  # noqa: PLC0415
 
     return {"zip": translator.to_app_zip(translator.load(files))}
 
 
 def package(files: Files, *, name: str | None) -> Answer:
-    """The ROS 2 package with the engine beside it."""
+    """Returns the ROS 2 package with the engine beside it."""
     import translator  # noqa: PLC0415
 
     made = translator.to_ros2_package(translator.load(files), name=name)
@@ -121,9 +121,9 @@ def package_preview(files: Files, *, name: str | None) -> Answer:
 
 
 def opened(files: Files, *, name: str, repair: bool) -> Answer:
-    """The files of a project of ours, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
+    """Returns the files of a new project, made of one of JdeRobot's, of Groot2's, or of BT.CPP XML.
 
-    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when it cannot be read as it is.
+    `repair` escapes bare `&` and `<` in attributes of XML, which is offered when the XML cannot be read.
     """
     import translator  # noqa: PLC0415
 
@@ -138,16 +138,16 @@ def inspect(source: str, *, filename: str) -> Answer:
 
 
 def write_tree(diagram: str, *, base: str, ids: Sequence[str]) -> Answer:
-    """A diagram as XML, patched into an earlier text of it where there is one."""
+    """Returns a diagram as XML, patched into an earlier text of it if there is one."""
     from translator.tree_text import write_tree_text  # noqa: PLC0415
 
     return _text(write_tree_text(_tree(diagram), base=base, ids=ids))
 
 
 def read_tree(xml: str, *, diagram: str) -> Answer:
-    """The diagram that an edited text stands for; `diagram` is what it was before.
+    """Returns the diagram of an edited text; `diagram` is its earlier state.
 
-    A text that is half typed is nothing out of the ordinary: it has no diagram, and findings that say why.
+    A half-typed text is a normal case: it has no diagram, but findings that say why.
     """
     from translator import TranslatorError  # noqa: PLC0415
     from translator.diagram import diagram_text  # noqa: PLC0415
@@ -163,12 +163,12 @@ def read_tree(xml: str, *, diagram: str) -> Answer:
 
 
 def pack(files: Files) -> Answer:
-    """Files as a zip; the same files give the same bytes."""
+    """Returns files as a zip; the same files give the same bytes."""
     return {"zip": zips.pack(files)}
 
 
 def diff(older: Mapping[str, str | None], newer: Mapping[str, str | None]) -> Answer:
-    """The differences of files as text; None stands for what is no text."""
+    """Returns the differences of files as text; None stands for a file that is not text."""
     return {"files": differences.diff(older, newer)}
 
 

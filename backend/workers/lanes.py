@@ -1,7 +1,7 @@
-"""Two pools: small work does not wait behind large work of anyone.
+"""Two pools, so that small work does not wait behind large work of any user.
 
-A save is answered with a check of its project, which takes milliseconds. Large work runs at a lower priority
-(*nice*), so that answers to requests come before it; work that a request of every editor waits for must not.
+The answer to a save includes a check of its project, which takes milliseconds. Large work runs at a lower
+priority (*nice*), so that requests are answered first; small work that each editor waits for must not.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SMALL_BYTES: Final = 256 << 10
 
 
 class Lanes:
-    """Gives each job to one of two pools by the size of its question.
+    """Gives each job to one of two pools, by the size of its arguments.
 
     Args:
         small: the pool for small work.
@@ -53,7 +53,7 @@ class Lanes:
         return self._small.waiting + self._large.waiting
 
     def ask(self, owner: str, job: str, **arguments: Any) -> Future[Any]:
-        """Does a job, as `Pool.ask`.
+        """Hands a job to a pool, like `Pool.ask`.
 
         Raises:
             BusyError: too much waits already.
@@ -65,13 +65,13 @@ class Lanes:
 
 @lru_cache(maxsize=1)
 def pool() -> Lanes | RemotePool:
-    """The pools of this web server, which several workers share."""
+    """Returns the pools of this web server, which its workers share."""
     family = siblings.family
     return make_lanes() if family is None else RemotePool(family.folder / POOL)
 
 
 def make_lanes() -> Lanes:
-    """Pools with the limits of this server."""
+    """Makes the pools with the limits of this server."""
     mode = environment().mode
     small = _pool(SMALL_WORKERS[mode], SMALL_WAITING)
     return Lanes(

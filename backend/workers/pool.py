@@ -1,4 +1,4 @@
-"""The pool: a thread for each worker process, a fair queue before them, and answers kept by content."""
+"""The pool: a thread for each worker process, a fair queue before them, and a cache of results by content."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Limits:
         waiting: jobs of all owners that may wait.
         deadline_s: how long one job may be at work.
         memory_bytes: what one worker may allocate.
-        niceness: by how much its processes give way to others, as of `nice`.
+        niceness: the niceness of its processes, as for `nice`.
         too_long_kept_s: for how long an equal job is refused at once after one that took too long.
     """
 
@@ -88,9 +88,9 @@ class Pool:
         """Hands a job to a worker; equal jobs are done once, for all callers.
 
         Args:
-            owner: for whom; owners take turns.
+            owner: the user of the job; owners take turns.
             job: a name of `jobs.JOBS`.
-            arguments: what it takes: text, numbers, bytes, lists and dicts of them.
+            arguments: its arguments: text, numbers, bytes, lists and dicts of them.
 
         Returns:
             its result; or `TookTooLongError`, `WorkFailedError`.
@@ -101,7 +101,7 @@ class Pool:
         return self.ask_packed(owner, packed_job(job, arguments))
 
     def ask_packed(self, owner: str, packed: bytes) -> Future[Any]:
-        """Hands a job that `packed_job` made to a worker, as `ask`."""
+        """Hands a job that `packed_job` made to a worker, like `ask`."""
         key = hashlib.sha256(packed).digest()
         future: Future[Any] = Future()
         with self._changed:
@@ -122,7 +122,7 @@ class Pool:
                     hint="Try again in a few seconds.",
                 ) from None
             self._going[key] = future
-            # One more than is needed, so that the next owner's job meets a process that has begun.
+            # One more than is needed, so that the next owner's job finds a running process.
             if self._idle < 2 and len(self._workers) < self._limits.workers:
                 self._workers.append(_Worker(self, f"worker_{len(self._workers)}"))
             self._changed.notify()
@@ -143,7 +143,7 @@ class Pool:
         atexit.unregister(self.close)
 
     def next(self) -> tuple[str, _Job] | None:
-        """Waits for a job to do; None when the pool is closed."""
+        """Waits for the next job; returns None when the pool is closed."""
         with self._changed:
             self._idle += 1
             try:
@@ -156,7 +156,7 @@ class Pool:
                 self._idle -= 1
 
     def done(self, owner: str, job: _Job, answer: bytearray | Exception) -> None:
-        """Hands out what became of a job."""
+        """Passes the result of a job to all callers."""
         result, error = _opened(answer)
         with self._changed:
             self._queue.done(owner)
@@ -210,7 +210,7 @@ class _Worker:
         self.thread.start()
 
     def kill(self) -> None:
-        """Ends the process, whatever it does."""
+        """Kills the worker process."""
         process = self._process
         if process is not None:
             with suppress(ProcessLookupError):
@@ -222,14 +222,14 @@ class _Worker:
             answer: bytearray | Exception
             try:
                 answer = self._done(job)
-            except Exception as error:  # the one who waits must hear of everything
+            except Exception as error:  # the waiting caller must get every error
                 answer = error
             self._pool.done(owner, job, answer)
         self._end()
 
     def _next(self) -> tuple[str, _Job] | None:
         """The next job; the process begins before it comes, for it needs a second to do so."""
-        with suppress(OSError):  # the job's own attempt tells of it
+        with suppress(OSError):  # the job's own attempt reports it
             self._connected(self._pool.limits)
         return self._pool.next()
 
@@ -285,7 +285,7 @@ class _Worker:
         return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
 
 
-# A worker reads users' files: it gets what Python needs, and none of the server's secrets.
+# A worker reads users' files: its environment has what Python needs, and no secret of the server.
 _ENVIRONMENT: Final = {
     name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH") if name in os.environ
 }
@@ -314,5 +314,5 @@ class _Kept:
 
 
 def packed_job(job: str, arguments: dict[str, Any]) -> bytes:
-    """A job as the workers read it."""
+    """Returns a job in the form that workers read."""
     return frames.pack({"job": job, "arguments": arguments})

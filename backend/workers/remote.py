@@ -1,4 +1,4 @@
-"""The pool as one of several web workers sees it: `service.py` does the work, for all of them."""
+"""The pool in a web worker that shares it with others; `service.py` does the work."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ _ERRORS: Final[dict[str, type[StudioError]]] = {
 
 
 class RemotePool:
-    """Asks the pool of all workers; its methods may be called from every thread.
+    """Hands jobs to the shared pool; its methods may be called from every thread.
 
     Args:
-        path: where it listens.
+        path: the socket of the pool.
     """
 
     def __init__(self, path: Path) -> None:
@@ -52,7 +52,7 @@ class RemotePool:
         """Hands a job to the pool, as `Pool.ask`; the future raises when too many jobs wait.
 
         Raises:
-            BusyError: the pool is started again at this moment.
+            BusyError: the pool is restarting.
         """
         return self._ask({"owner": owner, "job": job, "arguments": arguments})
 
@@ -82,7 +82,7 @@ class _Line:
         threading.Thread(target=self._read, name="pool", daemon=True).start()
 
     def ask(self, message: dict[str, Any]) -> Future[Any]:
-        """Sends a question; the future has the answer, or says that there will be none."""
+        """Sends a question; the future gets the answer, or an error."""
         future: Future[Any] = Future()
         number = next(self._numbers)
         packed = frames.pack(message | {"number": number})
@@ -103,7 +103,7 @@ class _Line:
                 answer = msgspec.msgpack.decode(frames.receive(self._connection))
                 with self._lock:
                     future = self._asked.pop(answer["number"], None)
-                if future is None:  # the line ended meanwhile
+                if future is None:  # the connection ended meanwhile
                     break
                 if "error" in answer:
                     kind = _ERRORS.get(answer["error"], WorkFailedError)

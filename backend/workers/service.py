@@ -1,7 +1,7 @@
 """One pool for all web workers of a server, `python -m backend.workers.service`: each asks it over a socket.
 
-So users have their share of the server, not of each worker, and the number of processes does not grow with
-that of the workers. It ends when the parent does, and with it all of the pool.
+Users get a fair share of the whole server, and the number of processes does not grow with the number of web
+workers. It ends when the parent does, and with it all of the pool.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--page", type=Path, required=True, help="where it reports that it is alive")
     options = parser.parse_args(arguments)
     set_up(environment().log_level, environment().log_style)
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # the end of its input comes when nobody asks any more
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)  # its standard input closes when the parent ends
     lanes = make_lanes()
     threading.Thread(target=serve, args=(listening(options.socket), lanes), daemon=True).start()
     threading.Thread(target=beat, args=(lanes, read_page(options.page)), daemon=True).start()
@@ -66,8 +66,8 @@ def beat(pool: Lanes | Pool, page: memoryview[float]) -> None:
 
 
 def listening(path: Path) -> socket.socket:
-    """The socket at this path, in a folder that is ours alone."""
-    path.unlink(missing_ok=True)  # that of one before us, which was killed
+    """Returns the socket at this path, in a folder that only we can access."""
+    path.unlink(missing_ok=True)  # the socket of a killed predecessor
     listener = socket.socket(socket.AF_UNIX)
     listener.bind(str(path))
     listener.listen(BACKLOG)
@@ -90,7 +90,7 @@ class _Asker:
         self._answers: SimpleQueue[bytes | None] = SimpleQueue()
 
     def serve(self) -> None:
-        """Until the other side ends."""
+        """Answers one connection until the other side ends."""
         threading.Thread(target=self._write, daemon=True).start()
         try:
             with suppress(frames.FrameError):

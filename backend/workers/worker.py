@@ -43,12 +43,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def serve(connection: socket.socket, deadline_s: float) -> None:
-    """Answers messages until there are no more."""
+    """Answers messages until the connection ends."""
     try:
         while True:
-            # What came is not kept beside what is in it: the largest project has 256 MB.
+            # The packed message is freed once it is unpacked: the largest project has 256 MB.
             message = msgspec.msgpack.decode(frames.receive(connection))
-            # The pool ends who works for too long; without a pool, the worker ends itself.
+            # The pool ends a worker that takes too long; without a pool, the worker ends itself.
             signal.setitimer(signal.ITIMER_REAL, 2 * deadline_s)
             answer = _answer(message)
             signal.setitimer(signal.ITIMER_REAL, 0)
@@ -62,7 +62,7 @@ def _answer(message: dict[str, Any]) -> bytes:
     try:
         return frames.pack({"result": JOBS[message["job"]](**message["arguments"])})
     except MemoryError:
-        raise  # the process is of no use any more
+        raise  # the process cannot be used any more
     except Exception:
         return frames.pack({"error": traceback.format_exc()})
 

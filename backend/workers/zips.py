@@ -1,4 +1,4 @@
-"""Zips written deterministically."""
+"""Writes zips deterministically."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FAST: Final = 1
 
 
 def pack(files: Mapping[str, bytes]) -> bytes:
-    """The same files give the same bytes; what is of a tool stays here."""
+    """Returns the zip; the same files give the same bytes. Files of tools are left out."""
     from translator.foreign import without_tools  # noqa: PLC0415 - keeps the start of the server short
 
     buffer = io.BytesIO()

@@ -45,16 +45,16 @@ class Console(io.TextIOBase):
 
     @property
     def encoding(self) -> str:  # type: ignore[override]
-        """The encoding of the stream below."""
+        """The encoding of the replaced stream."""
         return "utf-8"
 
     @property
     def buffer(self) -> Any:
-        """The binary stream below."""
+        """The binary stream of the replaced stream."""
         return self._original.buffer
 
     def fileno(self) -> int:
-        """The descriptor of the stream below."""
+        """Returns the descriptor of the replaced stream."""
         return int(self._original.fileno())
 
     def writable(self) -> bool:

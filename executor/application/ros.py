@@ -1,4 +1,4 @@
-"""The application's ROS node: it uses simulated time and is spun by the main thread."""
+"""The application's ROS node, which uses simulated time and is spun by the main thread."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Graph:
         self._executor.add_node(self.node)
 
     def now(self) -> float:
-        """Simulated seconds."""
+        """Returns the simulated time in s."""
         return self._time_s
 
     def sleep(self, duration_s: float) -> None:

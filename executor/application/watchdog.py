@@ -32,12 +32,12 @@ class Breaker:
         self.is_interrupted = False
 
     def arm(self) -> None:
-        """From now on the signal interrupts the user's code. Call it on the main thread."""
+        """Starts to interrupt the user's code on the signal. Call it on the main thread."""
         self._is_armed = True
         signal.signal(INTERRUPT_SIGNAL, self._interrupt)
 
     def disarm(self) -> None:
-        """From now on the signal interrupts nothing."""
+        """Stops interrupting on the signal."""
         self._is_armed = False
 
     def _interrupt(self, _number: int, frame: FrameType | None) -> None:

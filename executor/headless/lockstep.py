@@ -376,7 +376,7 @@ class _WorldClock:
         self._world = world
 
     def now(self) -> float:
-        """Simulated seconds."""
+        """Returns the simulated time in s."""
         return self._world.time_s
 
     def sleep(self, duration_s: float) -> None:

@@ -318,7 +318,7 @@ def _token(options: argparse.Namespace) -> str:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command line of the manager; returns the exit status."""
+    """Runs the command line of the manager; returns the exit status."""
     options = _parser().parse_args(arguments)
     grace_s = options.grace if options.grace is not None else 0.0 if options.ram else 300.0
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)s %(name)s: %(message)s")

@@ -27,7 +27,7 @@ def indexed(vertices: Vertices) -> tuple[Vertices, NDArray[np.uint32]]:
 
 
 def grid(count: int) -> Vertices:
-    """The square, in `count` by `count` pieces."""
+    """Returns the square, divided into `count` by `count` pieces."""
     whole, pieces = square(), []
     for i in range(count):
         for j in range(count):
@@ -39,7 +39,7 @@ def grid(count: int) -> Vertices:
 
 
 def box() -> Vertices:
-    """A cube with edges of 1 m around the origin."""
+    """Returns a cube with edges of 1 m around the origin."""
     triangles = []
     for axis in range(3):
         for sign in (-1.0, 1.0):
@@ -53,14 +53,14 @@ def box() -> Vertices:
 
 
 def square() -> Vertices:
-    """A square with edges of 1 m in the xy plane, seen from above."""
+    """Returns a square with edges of 1 m in the xy plane, seen from above."""
     up = np.array([0.0, 0.0, 1.0])
     corners = [np.array([a / 2, b / 2, 0.0]) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     return _pack([(corners[i], up) for i in (0, 1, 2, 0, 2, 3)])
 
 
 def cylinder(segments: int = SEGMENTS) -> Vertices:
-    """A cylinder of radius 1 m and length 1 m along z, around the origin."""
+    """Returns a cylinder of radius 1 m and length 1 m along z, around the origin."""
     triangles: list[tuple[Any, Any]] = []
     circle = _circle(segments)
     up = np.array([0.0, 0.0, 1.0])
@@ -80,7 +80,7 @@ def cylinder(segments: int = SEGMENTS) -> Vertices:
 
 
 def capsule(radius: float, length: float, segments: int = SEGMENTS) -> Vertices:
-    """A cylinder along z, closed by two half spheres; a sphere if the length is 0."""
+    """Returns a cylinder along z, closed by two half spheres; a sphere if the length is 0."""
     rings = max(2, (segments + 2) // 4 - (length > 0))
     latitudes = [-math.pi / 2 + math.pi / 2 * i / rings for i in range(rings + 1)]
     rows = [(lat, -length / 2) for lat in latitudes] + [(-lat, length / 2) for lat in reversed(latitudes)]
@@ -97,7 +97,7 @@ def capsule(radius: float, length: float, segments: int = SEGMENTS) -> Vertices:
 
 
 def from_mesh(positions: bytes, normals: bytes, indices: bytes) -> Vertices:
-    """The triangles of a shipped mesh."""
+    """Returns the triangles of a mesh."""
     points = np.frombuffer(positions, "<f4").reshape(-1, 3)
     directions = np.frombuffer(normals, "<f4").reshape(-1, 3)
     order = np.frombuffer(indices, "<u4")

@@ -91,7 +91,7 @@ class PatientExecutor(SingleThreadedExecutor):  # type: ignore[misc]
 
 
 class DrainingExecutor(SingleThreadedExecutor):  # type: ignore[misc]
-    """For lock-step: `drain` delivers all messages published in this process before."""
+    """The executor of lock-step runs: `drain` delivers all messages published in this process before."""
 
     holds_time = True
     """No time passes during a callback, so waiting in one is pointless."""

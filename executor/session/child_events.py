@@ -34,27 +34,27 @@ def forward(stage: Stage, child: Child, event: ChildSaid) -> None:
     match message:
         case child_messages.Tick():
             stage.sim_time_s = message.t
-            stage.emit(event_of(message, messages.Tick))
+            stage.output.emit(event_of(message, messages.Tick))
         case child_messages.Sim():
             stage.sim_time_s = message.t
             sim = event_of(message, messages.Sim)
             sim.tick_ms, sim.tick_budget_ms = stage.mirror.tick_load()  # the world does not know these
-            stage.emit(sim)
+            stage.output.emit(sim)
         case Log():
             log(stage, event)
         case Progress():
-            stage.emit(messages.Progress("launch_universe", message.fraction, message.message))
+            stage.output.emit(messages.Progress("launch_universe", message.fraction, message.message))
         case Answer():
             _answer(stage, child, message)
         case Failed() if stage.state.reaches(State.UNIVERSE_READY):
-            stage.emit(messages.Log("world", "error", f"{message.message} {message.hint}".strip()))
+            stage.output.emit(messages.Log("world", "error", f"{message.message} {message.hint}".strip()))
         case WorldReady():
             stage.know_world(message.renderer, has_tf=message.tf)
         case child_messages.Topics() | child_messages.TopicMessage() | child_messages.TypeDescription():
             _forward_topics(stage, message)
         case _:
             if (kind := _SAME.get(type(message))) is not None:
-                stage.emit(event_of(message, kind))
+                stage.output.emit(event_of(message, kind))
 
 
 def log(stage: Stage, event: ChildSaid) -> None:
@@ -64,7 +64,9 @@ def log(stage: Stage, event: ChildSaid) -> None:
         return
     time_s = stage.sim_time_s if message.time is None else message.time
     source: messages.LogSource = "action" if event.kind == "application" else "world"
-    stage.emit(messages.Log(source, message.level, message.text, message.node_id, message.node_path, time_s))
+    stage.output.emit(
+        messages.Log(source, message.level, message.text, message.node_id, message.node_path, time_s)
+    )
 
 
 def _answer(stage: Stage, child: Child, message: Answer) -> None:
@@ -93,4 +95,4 @@ def _forward_topics(
         )
         clients = stage.clients.listeners(event)
     for client in clients:
-        stage.send(client, event)
+        stage.output.send(client, event)

@@ -33,9 +33,11 @@ def exited(stage: Stage, event: ChildExited) -> None:
     lines = "\n".join(event.last_lines)
     if not child.is_in_use:
         text = f"{message} It was not in use yet. {lines}".strip()
-        stage.emit(messages.Log("manager", "warning", text))
+        stage.output.emit(messages.Log("manager", "warning", text))
         return
-    stage.emit(messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines))
+    stage.output.emit(
+        messages.Fault("process", message, hint="Press Run to start it again.", traceback=lines)
+    )
     _fall(stage, child, message)
 
 
@@ -48,7 +50,7 @@ def lose(stage: Stage, child: Child, reason: str, message: str) -> None:
 def _stopped(stage: Stage) -> None:
     """Handles the exit of an application that had received `Stop`."""
     if stage.state in HAS_APPLICATION:
-        stage.emit(messages.Finished("IDLE", "terminated"))
+        stage.output.emit(messages.Finished("IDLE", "terminated"))
         stage.enter(State.VISUALIZATION_READY)
         stage.children.replenish()
 
@@ -59,7 +61,7 @@ def _fall(stage: Stage, child: Child, message: str) -> None:
     if stage.state.height <= rung.height:
         return
     if stage.state in HAS_APPLICATION:
-        stage.emit(messages.Finished("IDLE", "process_died", message))
+        stage.output.emit(messages.Finished("IDLE", "process_died", message))
     if child.kind == "world":
         stage.run.universe = None
         stage.children.drop("application", reason="was ended, since the simulated world is gone")

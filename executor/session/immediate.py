@@ -42,12 +42,12 @@ def _ask(  # noqa: PLR0913 - one question
     """
     child = stage.children.get(kind)
     if child is None:
-        stage.refuse(event, "process_died", f"The {kind} is gone.")
+        stage.output.refuse(event, "process_died", f"The {kind} is gone.")
         return
     if child.is_hanging:
         if topic:
             stage.clients.echo(event.client, topic, 0.0)
-        stage.refuse(event, NOT_ANSWERING, child.hang)
+        stage.output.refuse(event, NOT_ANSWERING, child.hang)
         return
     token = stage.questions.add(
         event.client, event.request, child.key, stage.now_s, topic=topic, patience_s=patience_s, then=then
@@ -110,18 +110,18 @@ def _describe_type(stage: Stage, event: CommandCame, data: messages.DescribeType
 def _echo_topic(stage: Stage, event: CommandCame, data: messages.EchoTopic) -> None:
     if data.max_hz > 0 and stage.clients.echoes_too_many(event.client, data.topic):
         text = f"A viewer may echo {MOST_ECHOED_BY_VIEWER} topics at once."
-        stage.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
+        stage.output.refuse(event, "too_many", text, "End the echo of another topic first, or take over.")
         return
     rate_hz = stage.clients.echo(event.client, data.topic, data.max_hz)
     _ask(stage, event, "world", child_messages.EchoTopic(data.topic, rate_hz), topic=data.topic)
 
 
 def _restart_node(stage: Stage, event: CommandCame, data: messages.RestartNode) -> None:
-    problem = stage.restart_node(data.id)
+    problem = stage.nodes.restart(stage, data.id)
     if problem:
-        stage.refuse(event, "unknown_node", problem)
+        stage.output.refuse(event, "unknown_node", problem)
     else:
-        stage.send(event.client, messages.Ack(), event.request)
+        stage.output.send(event.client, messages.Ack(), event.request)
 
 
 def _take_over(stage: Stage, event: CommandCame, _: Struct) -> None:

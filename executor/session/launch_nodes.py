@@ -55,7 +55,7 @@ class LaunchNodes:
         self.stop(stage)
         self._folder = plan.folder
         for note in plan.notes:
-            stage.emit(messages.Log("launch", "warning", note))
+            stage.output.emit(messages.Log("launch", "warning", note))
         had_nodes = bool(self._nodes)
         self._nodes = {spec.id: _Node(spec) for spec in plan.nodes}
         for node in self._nodes.values():
@@ -93,7 +93,7 @@ class LaunchNodes:
         """Reports a line that a node printed."""
         node = self._of(event.number)
         if isinstance(event.message, Log):
-            stage.emit(
+            stage.output.emit(
                 messages.Log(
                     "launch",
                     event.message.level,
@@ -113,7 +113,7 @@ class LaunchNodes:
         node.state = "ended" if is_well else "failed"
         if not is_well:
             message = f"The node {node.spec.name} {event.reason}."
-            stage.emit(
+            stage.output.emit(
                 messages.Fault(
                     "process",
                     message,
@@ -129,21 +129,21 @@ class LaunchNodes:
         spec = node.spec
         node.state, node.end = "failed", spec.refusal
         text = f"{spec.file}:{spec.line}: {spec.name} {spec.refusal}"
-        stage.emit(messages.Log("launch", "warning", text, launch_node=spec.id))
+        stage.output.emit(messages.Log("launch", "warning", text, launch_node=spec.id))
 
     def _spawn(self, stage: Stage, node: _Node) -> None:
         node.number, node.state, node.end = stage.children.next_number(), "running", ""
         domain = ("ROS_DOMAIN_ID", str(stage.run.domain_id))
         spec = replace(node.spec, environment=(domain, *node.spec.environment))
-        stage.effect(Spawn("node", node.number, spec, self._folder))
+        stage.output.effect(Spawn("node", node.number, spec, self._folder))
 
     def _retire(self, stage: Stage, node: _Node) -> None:
         stage.children.leaving.add(("node", node.number))
-        stage.effect(Retire("node", node.number, GRACE_S))
+        stage.output.effect(Retire("node", node.number, GRACE_S))
         node.number = 0
 
     def _of(self, number: int) -> _Node | None:
         return next((node for node in self._nodes.values() if node.number == number), None)
 
     def _tell(self, stage: Stage) -> None:
-        stage.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))
+        stage.output.emit(messages.LaunchNodes([node.to_message() for node in self._nodes.values()]))

@@ -29,7 +29,6 @@ from executor.session.events import (
     Effect,
     EndSession,
     Event,
-    Send,
     StreamClosed,
     StreamOpened,
     StreamPaced,
@@ -40,6 +39,7 @@ from executor.session.events import (
 from executor.session.ladder import HAS_APPLICATION, TABLE, State, is_legal, where
 from executor.session.launch_nodes import LaunchNodes
 from executor.session.mirror import Mirror
+from executor.session.output import Output
 from executor.session.questions import Questions, answer_late
 from executor.session.stage import About, LastRun
 from executor.session.waits import StepFailed, Wait
@@ -56,7 +56,6 @@ __all__ = ["Session"]
 
 _log = logging.getLogger(__name__)
 
-_EVENT_NAMES: Final = {kind: name for name, kind in messages.EVENTS.items()}
 _CLIMBING: Final = frozenset({"launch_universe", "run_application", "run", "restart_application"})
 RETIRE_GRACE_S: Final = 2.0
 
@@ -79,12 +78,12 @@ class Session:
         self.about = about
         self.now_s = now_s
         self.mirror = Mirror()
+        self.output = Output(self.mirror)
         self.clients = Clients(now_s)
         self.questions = Questions()
-        self.children = Children(self.effect, lambda: self.now_s, self.questions.token, self._lost)
+        self.children = Children(self.output.effect, lambda: self.now_s, self.questions.token, self._lost)
         self.run = LastRun()
         self.sim_time_s = 0.0
-        self._effects: list[Effect] = []
         self._job: _Job | None = None
         self._archives = 0
         self._unpacked: Unpacked | None = None
@@ -111,7 +110,7 @@ class Session:
     def prestart(self) -> list[Effect]:
         """Starts both processes ahead of the first command, since their imports take time."""
         self.children.replenish()
-        return self._take_effects()
+        return self.output.take()
 
     def handle(self, event: Event, now_s: float) -> list[Effect]:
         """Handles an event and returns its effects, in order."""
@@ -122,7 +121,7 @@ class Session:
         application = self.children.get("application")
         if application is None or not application.is_started:
             self.nodes.stop(self)
-        return self._take_effects()
+        return self.output.take()
 
     # --- what the steps use -----------------------------------------------------------------------
 
@@ -131,37 +130,16 @@ class Session:
         _log.info("%s -> %s %s", self.state, state, reason)
         if not state.reaches(State.UNIVERSE_READY):
             self.renderer, self.has_tf = "", False
-        self.emit(messages.StateChanged(state.value, reason))
-
-    def send(self, client: str, event: Struct, request: str | None = None) -> None:
-        """Sends an event to one client."""
-        self._effects.append(Send(client, _EVENT_NAMES[type(event)], event, request))
-
-    def emit(self, event: Struct) -> None:
-        """Sends an event to all clients and stores it for those that join later."""
-        self.mirror.apply(event)
-        self._effects.append(Send(None, _EVENT_NAMES[type(event)], event))
-
-    def effect(self, effect: Effect) -> None:
-        """Adds an effect."""
-        self._effects.append(effect)
+        self.output.emit(messages.StateChanged(state.value, reason))
 
     def unpack(self, archive_base64: str) -> Callable[[], Unpacked | None]:
         """Unpacks an archive; returns a function that returns the result once it exists."""
         self._archives += 1
         token = self._archives
-        self._effects.append(Unpack(token, archive_base64))
+        self.output.effect(Unpack(token, archive_base64))
         return lambda: (
             self._unpacked if self._unpacked is not None and self._unpacked.token == token else None
         )
-
-    def start_nodes(self) -> None:
-        """Starts the extra nodes of the last run's plan."""
-        self.nodes.start(self, self.run.plan)
-
-    def restart_node(self, id_: str) -> str:
-        """Restarts an extra node; returns why it cannot, or ""."""
-        return self.nodes.restart(self, id_)
 
     # --- events -----------------------------------------------------------------------------------
 
@@ -170,7 +148,7 @@ class Session:
             case ClientJoined():
                 self.clients.join(event.client)
                 self.introspect(event.client)
-                self.send(event.client, self.mirror.snapshot())
+                self.output.send(event.client, self.mirror.snapshot())
                 streaming.resume_echoes(self)
             case ClientLeft():
                 for topic in self.clients.leave(event.client, self.now_s):
@@ -206,7 +184,7 @@ class Session:
             tf=self.has_tf,
             ros_environment=dict(self.about.ros_environment),
         )
-        self.send(client, payload)
+        self.output.send(client, payload)
 
     def know_world(self, renderer: str, *, has_tf: bool) -> None:
         """Stores what the world can do, and notifies clients if that changed."""
@@ -250,7 +228,9 @@ class Session:
     def _on_command(self, event: CommandCame) -> None:
         row = TABLE[event.command]
         if not row.for_viewers and self.clients.role(event.client) != "driver":
-            self.refuse(event, "not_driver", "Another client drives this session.", "Take over to drive it.")
+            self.output.refuse(
+                event, "not_driver", "Another client drives this session.", "Take over to drive it."
+            )
         elif event.command == "cancel":
             self._cancel()
             self._ack(event.client, event.request)
@@ -260,7 +240,7 @@ class Session:
             self._join_or_refuse(self._job, event)
         elif not is_legal(self.state, event.command):
             message = f"{event.command} is not possible in {self.state}."
-            self.refuse(event, "wrong_state", message, f"It is in: {where(event.command)}.")
+            self.output.refuse(event, "wrong_state", message, f"It is in: {where(event.command)}.")
         elif row.is_step:
             self._begin(event)
         else:
@@ -285,7 +265,7 @@ class Session:
         if job.command == event.command and event.command.startswith("terminate_"):
             job.askers.append((event.client, event.request))
             return
-        self.refuse(event, "busy", f"{job.command} is under way.", "Wait for it, or send cancel.")
+        self.output.refuse(event, "busy", f"{job.command} is under way.", "Wait for it, or send cancel.")
 
     def _disconnect(self, event: CommandCame) -> None:
         if self._job is not None and self._job.command == "disconnect":
@@ -347,22 +327,14 @@ class Session:
         for client in self.clients.promote(self.now_s, self.about.promote_s):
             self.introspect(client)
         if self.clients.is_abandoned(self.now_s, self.about.grace_s):
-            self._effects.append(EndSession("no client came back within the grace period"))
+            self.output.effect(EndSession("no client came back within the grace period"))
 
     def _ack(self, client: str, request: str) -> None:
-        self.send(client, messages.Ack(), request)
+        self.output.send(client, messages.Ack(), request)
 
     def _fail(self, job: _Job, failure: StepFailed) -> None:
         payload = messages.Error(failure.code, failure.message, failure.hint)
         if not job.askers:
-            self.emit(messages.Log("manager", "error", f"{failure.message} {failure.hint}".strip()))
+            self.output.emit(messages.Log("manager", "error", f"{failure.message} {failure.hint}".strip()))
         for client, request in job.askers:
-            self.send(client, payload, request)
-
-    def refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
-        """Answers a command with an error."""
-        self.send(event.client, messages.Error(code, message, hint), event.request)
-
-    def _take_effects(self) -> list[Effect]:
-        effects, self._effects = self._effects, []
-        return effects
+            self.output.send(client, payload, request)

@@ -90,11 +90,11 @@ def answer(stage: Stage, question: Question, error: messages.Error | None) -> No
     if error is None:
         if question.then is not None:
             question.then()
-        stage.send(question.client, messages.Ack(), question.request)
+        stage.output.send(question.client, messages.Ack(), question.request)
         return
     if question.topic:
         stage.clients.echo(question.client, question.topic, 0.0)
-    stage.send(question.client, error, question.request)
+    stage.output.send(question.client, error, question.request)
 
 
 def answer_late(stage: Stage, questions: list[Question], code: str, reason: str, why: str = "") -> None:

@@ -140,8 +140,8 @@ def _tell_killed(stage: Stage, application: Child, failure: StepFailed) -> None:
     if not application.hang:
         at = application.vitals.place
         place = (at.node_id, at.tree_id, at.node_path, at.file, at.line, at.traceback)
-        stage.emit(messages.Fault("timeout", message, "", *place))
-    stage.emit(messages.Finished("IDLE", "process_died", message))
+        stage.output.emit(messages.Fault("timeout", message, "", *place))
+    stage.output.emit(messages.Finished("IDLE", "process_died", message))
 
 
 def resume(stage: Stage, _: Struct) -> Step:

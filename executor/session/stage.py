@@ -14,14 +14,14 @@ from executor.launching.model import LaunchPlan
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from msgspec import Struct
-
     from executor import messages
     from executor.session.children import Children
     from executor.session.clients import Clients
-    from executor.session.events import CommandCame, Effect, Unpacked
+    from executor.session.events import Unpacked
     from executor.session.ladder import State
+    from executor.session.launch_nodes import LaunchNodes
     from executor.session.mirror import Mirror
+    from executor.session.output import Output
     from executor.session.questions import Questions
     from executor.session.waits import Step
 
@@ -64,6 +64,8 @@ class Stage(Protocol):
     clients: Clients
     children: Children
     questions: Questions
+    nodes: LaunchNodes
+    output: Output
     run: LastRun
     now_s: float
     sim_time_s: float
@@ -79,18 +81,6 @@ class Stage(Protocol):
     def enter(self, state: State, reason: str = "") -> None:
         """Changes the state of the ladder."""
 
-    def emit(self, event: Struct) -> None:
-        """Sends an event to all clients and stores it for those that join later."""
-
-    def send(self, client: str, event: Struct, request: str | None = None) -> None:
-        """Sends an event to one client."""
-
-    def refuse(self, event: CommandCame, code: str, message: str, hint: str = "") -> None:
-        """Answers a command with an error."""
-
-    def effect(self, effect: Effect) -> None:
-        """Adds an effect."""
-
     def introspect(self, client: str) -> None:
         """Sends a client what the session is, and the client's role."""
 
@@ -102,9 +92,3 @@ class Stage(Protocol):
 
     def begin_own(self, command: str, generator: Step) -> None:
         """Begins a step that no client asked for."""
-
-    def start_nodes(self) -> None:
-        """Starts the extra nodes of the last run's plan."""
-
-    def restart_node(self, id_: str) -> str:
-        """Restarts an extra node; returns why it cannot, or ""."""

@@ -58,7 +58,7 @@ RESET_TIMEOUT_S: Final = 60.0
 
 
 def _progress(stage: Stage, rung: messages.Rung, fraction: float, message: str) -> None:
-    stage.emit(messages.Progress(rung, fraction, message))
+    stage.output.emit(messages.Progress(rung, fraction, message))
 
 
 # --- rungs ----------------------------------------------------------------------------------------
@@ -146,7 +146,9 @@ def _take_folder(stage: Stage, unpacked: Unpacked) -> None:
     stage.run.plan = unpacked.plan
     if unpacked.problem is not None:
         file, problem = unpacked.problem
-        stage.emit(messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line))
+        stage.output.emit(
+            messages.Fault("load", problem.message, hint=problem.hint, file=file, line=problem.line)
+        )
         text = f"{file}:{problem.line}:{problem.column}: {problem.message}."
         raise StepFailed("bad_launch_file", text, problem.hint)
 
@@ -188,7 +190,7 @@ def _start_application(stage: Stage) -> Child:
             outside=stage.run.is_outside,
         )
     )
-    stage.start_nodes()
+    stage.nodes.start(stage, stage.run.plan)
     return application
 
 

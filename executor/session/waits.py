@@ -72,7 +72,7 @@ def message_of(child: Child, *kinds: type[Message]) -> Callable[[], Message | No
 
 
 def taken(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
-    """Like `message_of`, for a child that starts: a spare that hangs is given up at once."""
+    """Returns the same condition as `message_of`, for a start: it fails at once if the spare hangs."""
     until = message_of(child, *kinds)
 
     def taken() -> Message | None:
@@ -85,7 +85,7 @@ def taken(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
 
 
 def answered(child: Child, *kinds: type[Message]) -> Callable[[], Message | None]:
-    """Like `message_of`, but fails if the child hangs."""
+    """Returns the same condition as `message_of`, but it fails if the child hangs."""
     until = message_of(child, *kinds)
 
     def answered() -> Message | None:

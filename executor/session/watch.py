@@ -53,7 +53,7 @@ def looked(stage: Stage, event: ChildLooked, now_s: float) -> None:
     elif vitals.hangs and not child.hang:
         _suspect(stage, child)
     elif child.hang and vitals.is_well:
-        stage.emit(messages.Log("manager", "info", f"{_name(child)} answers again."))
+        stage.output.emit(messages.Log("manager", "info", f"{_name(child)} answers again."))
         child.hang, child.was_inspected = "", False
     elif child.kind == "application":
         _listen_for_time(stage, child, counted_s, now_s)
@@ -80,7 +80,7 @@ def _suspect(stage: Stage, child: Child) -> None:
     if is_dumb and vitals.has_beaten and vitals.state != STOPPED and vitals.silent_s < LATEST_TRACE_S:
         if not child.was_inspected:
             child.was_inspected = True
-            stage.effect(Inspect(child.kind, child.number))
+            stage.output.effect(Inspect(child.kind, child.number))
         return
     _tell(stage, child, None)
 
@@ -88,7 +88,7 @@ def _suspect(stage: Stage, child: Child) -> None:
 def _tell(stage: Stage, child: Child, trace: ChildTraced | None) -> None:
     fault = _fault(stage, child, trace)
     child.hang = fault.message
-    stage.emit(fault)
+    stage.output.emit(fault)
     answer_late(
         stage,
         stage.questions.orphaned(child.key),
@@ -166,7 +166,7 @@ def _end(stage: Stage, child: Child) -> None:
         return
     name = _name(child)
     stage.children.drop(child.kind, reason=reason)
-    stage.emit(messages.Log("manager", "warning", f"{name} {reason}."))
+    stage.output.emit(messages.Log("manager", "warning", f"{name} {reason}."))
     stage.children.spares_lost[child.kind] += 1
     if stage.children.spares_lost[child.kind] <= SPARES_LOST and not child.is_started:
         stage.children.ensure(child.kind)
@@ -197,9 +197,9 @@ def _listen_for_time(stage: Stage, child: Child, counted_s: float, now_s: float)
     text = f"The application runs without simulated time: no /clock for {limit_s:.0f} s, {who}."
     if now_s >= run.deaf_until_s:
         run.deaf_until_s = now_s + DEAF_AGAIN_S
-        stage.emit(messages.Fault("timeout", text, hint=_RESTART_HINT))
+        stage.output.emit(messages.Fault("timeout", text, hint=_RESTART_HINT))
         stage.begin_own("restart_application", steps.restart_application(stage, messages.Empty()))
         return
-    stage.emit(messages.Fault("timeout", text, hint=_TIME_HINT))
+    stage.output.emit(messages.Fault("timeout", text, hint=_TIME_HINT))
     reason = "was ended: the application had no simulated time, also after it was started again"
     child_exits.lose(stage, world, reason, f"The simulated world {reason}.")

@@ -130,7 +130,7 @@ class Channel(Generic[Sent, Received]):
         os.register_at_fork(after_in_child=self._abandon)
 
     def fileno(self) -> int:
-        """The descriptor to wait on; when it is readable, call `receive(0)` until it returns None."""
+        """Returns the descriptor to wait on; when it is readable, call `receive(0)` until it returns None."""
         return self._socket.fileno()
 
     def send(self, message: Sent) -> None:

@@ -21,7 +21,7 @@ _TICK_S: Final = 1.0 / os.sysconf("SC_CLK_TCK")
 
 @dataclass(frozen=True)
 class Signs:
-    """Of the main thread, in seconds since its start; `state` is the letter of proc(5).
+    """Times of the main thread in seconds since its start; `state` is the letter of proc(5).
 
     `waited_s` is how long it was runnable without a processor. Other threads do not count: threads that wait
     for the interpreter lock wake up all the time, which on a busy machine looks like a wait for a processor.

@@ -24,7 +24,7 @@ async def _serve(server: ToolsServer) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command line; returns the exit status."""
+    """Runs the command line; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m executor.tools", description=__doc__)
     parser.add_argument("--gate", type=Path, required=True, help="unix socket that hands out our own")
     parser.add_argument("--session", required=True, help="our id, for the gate")

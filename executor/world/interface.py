@@ -82,7 +82,7 @@ class Robot(Protocol):
         """Sets the target of a joint with a motor in rad or m; refuses (False) one that is not finite."""
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Position in rad or m and rate of each joint that has a motor, the wheels' first."""
+        """Returns position in rad or m and rate of each joint with a motor, the wheels' first."""
 
     def scan(self, lidar: Lidar) -> LidarReading:
         """Measures now."""
@@ -97,7 +97,7 @@ class Robot(Protocol):
         """Returns the zones of the bumper that are pressed."""
 
     def camera_pose(self, camera: Camera) -> Pose:
-        """Pose of a camera in the world; it looks along x, with z up in the image."""
+        """Returns the pose of a camera in the world; it looks along x, with z up in the image."""
 
 
 class World(Protocol):

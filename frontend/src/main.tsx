@@ -9,7 +9,10 @@ import { stylesArrive } from '@/ui/parts';
 import { colorSchemeManager, cssVariablesResolver, theme } from '@/ui/theme';
 import { App } from './App';
 
-/** A page without its style is none: it is waited for, and missed in words that need no style. */
+/**
+ * A page without its style sheets is unusable: it waits for them, and shows an error that needs no style
+ * sheet if they fail.
+ */
 async function start(root: HTMLElement): Promise<void> {
   try {
     await stylesArrive();

@@ -43,7 +43,7 @@ def is_jderobot_project(files: Mapping[str, bytes]) -> bool:
 
 
 def import_jderobot(files: Mapping[str, bytes], *, name: str = "") -> Project:
-    """Converts it to our project; the actions are kept unchanged.
+    """Converts a project of JdeRobot to one of ours; the actions are kept unchanged.
 
     Args:
         files: The files of the project, by path; it may have a folder of its own.

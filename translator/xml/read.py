@@ -1,4 +1,4 @@
-"""From BehaviorTree.CPP XML to trees: v3 and v4, compact and explicit form, with models and includes."""
+"""Reads trees from BehaviorTree.CPP XML: v3 and v4, compact and explicit form, with models and includes."""
 
 from __future__ import annotations
 

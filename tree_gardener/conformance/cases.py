@@ -174,7 +174,7 @@ class _Run:
                 self.tree.fire_timers()
 
     def compare_nodes(self) -> Iterator[str]:
-        """Compares the nodes of the tree."""
+        """Compares each node's place, type and name with the case."""
         for expected, node in zip(self.case.get("nodes", []), self.tree.nodes, strict=False):
             found = {
                 "uid": node.uid,

@@ -55,7 +55,7 @@ class _Scripted(Traced):
         self.word = ""
 
     def next_result(self) -> Any:
-        """The next letter's status."""
+        """Returns the status of the next letter."""
         script = get_input(self, "script")
         letter = script[min(self.cursor, len(script) - 1)]
         self.cursor += 1
@@ -153,7 +153,7 @@ _TYPES = {"Int": int, "Str": str, "Double": float, "Bool": bool}
 
 
 def leaves(trace: Trace) -> dict[str, type[Traced]]:
-    """The classes of the corpus, with a trace of their own."""
+    """Returns the classes of the corpus, which write to this trace."""
     classes: dict[str, type[Traced]] = {cls.__name__: cls for cls in (Leaf, SyncLeaf, Cond, Inc)}
     for word, kind in _TYPES.items():
         classes[f"Get{word}"] = type(f"Get{word}", (_Get,), {"INPUT_PORTS": {"value": Port(kind)}})

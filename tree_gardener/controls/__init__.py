@@ -1,1 +1,1 @@
-"""Nodes with several children, one rule in each module."""
+"""The control nodes: one module for each rule."""

@@ -1,5 +1,3 @@
-"""Fallback and AsyncFallback."""
-
 from tree_gardener.controls.ordered import Ordered, Yielding
 from tree_gardener.status import FAILURE, SUCCESS
 

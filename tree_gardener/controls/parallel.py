@@ -1,5 +1,3 @@
-"""Parallel and ParallelAll."""
-
 from tree_gardener.errors import TickError
 from tree_gardener.node import Control
 from tree_gardener.status import FAILURE, RUNNING, SKIPPED, SUCCESS, Status

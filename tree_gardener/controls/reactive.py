@@ -1,5 +1,3 @@
-"""ReactiveSequence and ReactiveFallback."""
-
 from typing import ClassVar
 
 from tree_gardener.node import Control

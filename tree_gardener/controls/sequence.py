@@ -1,5 +1,3 @@
-"""Sequence, AsyncSequence and SequenceWithMemory."""
-
 from tree_gardener.controls.ordered import Ordered, Yielding
 from tree_gardener.status import FAILURE, IDLE, SUCCESS, Status
 

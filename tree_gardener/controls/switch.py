@@ -1,5 +1,3 @@
-"""Switch2 to Switch6."""
-
 import re
 from collections.abc import Mapping
 

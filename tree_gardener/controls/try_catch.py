@@ -1,5 +1,3 @@
-"""TryCatch."""
-
 from tree_gardener.node import Control
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 

@@ -1,5 +1,3 @@
-"""LoopInt, LoopDouble, LoopString and LoopBool."""
-
 import collections
 from typing import Any
 

@@ -1,5 +1,3 @@
-"""Precondition."""
-
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.node import Decorator
 from tree_gardener.script import Environment, compile_script

@@ -1,5 +1,3 @@
-"""Repeat and RetryUntilSuccessful."""
-
 from tree_gardener.node import Decorator
 from tree_gardener.status import FAILURE, IDLE, RUNNING, SUCCESS, Status
 

@@ -1,5 +1,3 @@
-"""RunOnce."""
-
 from tree_gardener.node import Decorator
 from tree_gardener.status import FAILURE, RUNNING, SUCCESS, Status
 

@@ -1,5 +1,3 @@
-"""SubTree."""
-
 from tree_gardener.node import Decorator, Kind
 from tree_gardener.status import IDLE, RUNNING, SKIPPED, Status
 

@@ -1,5 +1,3 @@
-"""Delay and Timeout."""
-
 from typing import TYPE_CHECKING
 
 from tree_gardener.node import Decorator

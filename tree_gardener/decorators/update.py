@@ -1,5 +1,3 @@
-"""SkipUnlessUpdated and WaitValueUpdate."""
-
 from typing import ClassVar
 
 from tree_gardener.node import Decorator

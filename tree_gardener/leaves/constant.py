@@ -1,5 +1,3 @@
-"""AlwaysSuccess and AlwaysFailure."""
-
 from tree_gardener.node import SyncLeaf
 from tree_gardener.status import FAILURE, SUCCESS, Status
 

@@ -1,5 +1,3 @@
-"""SetBlackboard, UnsetBlackboard and WasEntryUpdated."""
-
 from typing import Any
 
 from tree_gardener.blackboard import EMPTY

@@ -1,5 +1,3 @@
-"""Script and ScriptCondition."""
-
 from tree_gardener.errors import PortError, ScriptError, TickError
 from tree_gardener.node import Kind, SyncLeaf
 from tree_gardener.script import Environment, compile_script

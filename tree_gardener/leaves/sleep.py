@@ -1,5 +1,3 @@
-"""Sleep."""
-
 from typing import TYPE_CHECKING
 
 from tree_gardener.node import Leaf

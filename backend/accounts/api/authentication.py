@@ -15,16 +15,17 @@ if TYPE_CHECKING:
 
 
 class GuardAuthentication(BaseAuthentication):
-    """On localhost whatever passed the guard is the local user; else the session tells.
+    """Identifies the local user on localhost, otherwise the user of the session.
 
-    No CSRF token is asked for: the guard refuses what comes from other sites, and the cookie is SameSite.
+    The guard has already checked the request. There is no CSRF token: the guard refuses requests of other
+    sites, and the cookie is SameSite.
     """
 
     def authenticate(self, request: Request) -> tuple[User, None] | None:
-        """Never refuses: `permissions.MayAsk` does."""
+        """Returns the user, or None; `permissions.MayAsk` refuses anonymous requests."""
         user = identify(request.COOKIES)
         return None if user is None else (user, None)
 
     def authenticate_header(self, request: Request) -> str:
-        """The scheme that a 401 names."""
+        """Returns the scheme for the header of a 401."""
         return "Bearer"

@@ -1,4 +1,4 @@
-"""Reads of a request that every view of the API shares."""
+"""Functions that read a request, shared by all views of the API."""
 
 from __future__ import annotations
 
@@ -17,11 +17,14 @@ _threads: Final = local()
 
 
 def parsed(serializer: type[serializers.Serializer[Any]], data: Any) -> dict[str, Any]:
-    """The checked values of a request; DRF's ValidationError tells the first that is wrong."""
+    """Returns the checked values of a request.
+
+    Raises DRF's ValidationError, which names the first invalid value.
+    """
     try:
         return dict(_reader(serializer).run_validation(data))
     except ValidationError:
-        # Rare, so that it may take its time: DRF words it by a serializer of its own.
+        # Rare, and so allowed to be slow: a new serializer makes DRF's error text.
         bound = serializer(data=data)
         bound.is_valid(raise_exception=True)
         return dict(bound.validated_data)
@@ -43,5 +46,5 @@ def user_of(request: Request) -> User:
 
 
 def if_match(request: Request) -> str:
-    """The header that says on what a write is based; empty without one."""
+    """Returns the `If-Match` header, which names the base of a write; empty without one."""
     return request.headers.get("If-Match", "")

@@ -8,13 +8,13 @@ from drf_spectacular.extensions import OpenApiAuthenticationExtension
 
 
 class GuardScheme(OpenApiAuthenticationExtension):  # type: ignore[no-untyped-call]
-    """The cookie of the browser, or the token of a program."""
+    """Authentication by the browser's cookie, or by a program's token."""
 
     target_class = "backend.accounts.api.authentication.GuardAuthentication"
     name = ["cookie", "token"]  # noqa: RUF012 - what the base class asks for
 
     def get_security_definition(self, auto_schema: Any) -> list[dict[str, str]]:
-        """Both ways in."""
+        """Returns the definitions of both schemes."""
         return [
             {
                 "type": "apiKey",

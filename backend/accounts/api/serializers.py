@@ -10,7 +10,7 @@ from backend.accounts.models import MAX_GROUP_NAME
 
 
 class MeSerializer(serializers.Serializer[Any]):
-    """The user and the server."""
+    """The user and the server's version."""
 
     mode = serializers.ChoiceField(choices=["local", "team"])
     user = serializers.CharField(help_text="Empty for a guest, who came by a read-only link.")
@@ -40,7 +40,7 @@ class InviteSerializer(serializers.Serializer[Any]):
 
 
 class PersonSerializer(serializers.Serializer[Any]):
-    """Someone as others see them."""
+    """A person as other users see them."""
 
     username = serializers.CharField()
     name = serializers.CharField()

@@ -1,14 +1,17 @@
-"""Addresses of accounts, below `/api/v1/`."""
+"""Paths of accounts, below `/api/v1/`."""
+
+from __future__ import annotations
 
 from django.urls import path
 
 from backend.accounts.api import views
+from backend.accounts.api.viewsets import resource_router
+
+router = resource_router()
+router.register("groups", views.Groups, basename="groups")
 
 urlpatterns = [
+    *router.urls,
     path("me", views.Me.as_view()),
-    path("groups", views.Groups.as_view()),
-    path("groups/<uuid:group_id>", views.OneGroup.as_view()),
-    path("groups/<uuid:group_id>/members/<str:username>", views.Member.as_view()),
-    path("groups/<uuid:group_id>/invitations", views.GroupInvitations.as_view()),
     path("invitations/<uuid:invitation_id>", views.OneInvitation.as_view()),
 ]

@@ -1,4 +1,4 @@
-"""The user's own account and groups over HTTP."""
+"""Views of the user's own account and of groups."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from django.db import transaction
 from drf_spectacular.utils import extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
@@ -13,6 +14,7 @@ from backend import __version__
 from backend.accounts import groups, invitations
 from backend.accounts.api import serializers as s
 from backend.accounts.api.requests import parsed, user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.config.environment import environment
 
 if TYPE_CHECKING:
@@ -30,7 +32,7 @@ class Me(APIView):
 
     @extend_schema(operation_id="get_me", responses=s.MeSerializer, tags=["accounts"])
     def get(self, request: Request) -> Response:
-        """The user, what they may, and the version of the server."""
+        """Returns the user, their rights, and the version of the server."""
         user = user_of(request)
         return Response(
             {
@@ -52,12 +54,15 @@ def _role(user: User) -> str:
     return "administrator" if user.is_superuser else "teacher" if user.is_teacher else "user"
 
 
-class Groups(APIView):
+class Groups(ResourceViewSet):
     """Groups such as classes."""
 
+    lookup_url_kwarg = "group_id"
+    lookup_value_converter = "uuid"
+
     @extend_schema(operation_id="list_groups", responses=s.GroupListSerializer, tags=["accounts"])
-    def get(self, request: Request) -> Response:
-        """Those that the user made or is in."""
+    def list(self, request: Request) -> Response:
+        """Lists the groups that the user made or is in."""
         user = user_of(request)
         return Response({"items": [groups.presented(row, user=user) for row in groups.groups_of(user)]})
 
@@ -67,21 +72,17 @@ class Groups(APIView):
         responses={201: s.GroupSerializer},
         tags=["accounts"],
     )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request) -> Response:
+    @transaction.atomic  # includes the reads for the answer
+    def create(self, request: Request) -> Response:
         """Makes a group; for teachers."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
         made = groups.create(asked["name"], acting_user=user)
         return Response(groups.presented(made, user=user), status=201)
 
-
-class OneGroup(APIView):
-    """One group."""
-
     @extend_schema(operation_id="get_group", responses=s.GroupSerializer, tags=["accounts"])
-    def get(self, request: Request, group_id: UUID) -> Response:
-        """The group; its managers also get the members and invitations."""
+    def retrieve(self, request: Request, group_id: UUID) -> Response:
+        """Returns a group; its managers also get the members and invitations."""
         user = user_of(request)
         return Response(groups.presented(groups.group(group_id, user=user), user=user))
 
@@ -91,33 +92,26 @@ class OneGroup(APIView):
         responses=s.GroupSerializer,
         tags=["accounts"],
     )
-    @transaction.atomic  # with what the answer reads
-    def patch(self, request: Request, group_id: UUID) -> Response:
-        """Gives the group another name."""
+    @transaction.atomic  # includes the reads for the answer
+    def partial_update(self, request: Request, group_id: UUID) -> Response:
+        """Renames a group."""
         asked = parsed(s.NamedSerializer, request.data)
         user = user_of(request)
         found = groups.rename(group_id, asked["name"], acting_user=user)
         return Response(groups.presented(found, user=user))
 
     @extend_schema(operation_id="delete_group", responses={204: None}, tags=["accounts"])
-    def delete(self, request: Request, group_id: UUID) -> Response:
+    def destroy(self, request: Request, group_id: UUID) -> Response:
         """Removes the group; accounts and projects stay."""
         groups.delete(group_id, acting_user=user_of(request))
         return Response(status=204)
 
-
-class Member(APIView):
-    """One person in a group."""
-
     @extend_schema(operation_id="remove_group_member", responses={204: None}, tags=["accounts"])
-    def delete(self, request: Request, group_id: UUID, username: str) -> Response:
-        """Takes someone out, or leaves."""
+    @action(detail=True, methods=["delete"], url_path="members/<str:username>")
+    def remove_member(self, request: Request, group_id: UUID, username: str) -> Response:
+        """Removes someone from the group; everyone may leave it."""
         groups.remove_member(group_id, username, acting_user=user_of(request))
         return Response(status=204)
-
-
-class GroupInvitations(APIView):
-    """Links into a group."""
 
     @extend_schema(
         operation_id="invite_to_group",
@@ -125,9 +119,10 @@ class GroupInvitations(APIView):
         responses={201: s.InvitationSerializer},
         tags=["accounts"],
     )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, group_id: UUID) -> Response:
-        """Makes a link by which people make accounts and join."""
+    @action(detail=True, methods=["post"], url_path="invitations")
+    @transaction.atomic  # includes the reads for the answer
+    def invite(self, request: Request, group_id: UUID) -> Response:
+        """Makes a link with which people create accounts and join."""
         asked = parsed(s.InviteSerializer, request.data)
         user = user_of(request)
         found = groups.group(group_id, user=user, own=True)
@@ -138,7 +133,7 @@ class GroupInvitations(APIView):
 
 
 class OneInvitation(APIView):
-    """One link."""
+    """One invitation link."""
 
     @extend_schema(operation_id="revoke_invitation", responses={204: None}, tags=["accounts"])
     def delete(self, request: Request, invitation_id: UUID) -> Response:

@@ -1,4 +1,4 @@
-"""Answers allauth's questions: who may sign up, from which address a request comes, where links lead."""
+"""Answers allauth's questions: who may sign up, the address of a client, and the targets of links."""
 
 from __future__ import annotations
 
@@ -30,22 +30,22 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
     """Sign-in with name or e-mail and a password."""
 
     def is_open_for_signup(self, request: HttpRequest) -> bool:
-        """With an invitation always; without one where the administrator said so."""
+        """Whether this visitor may sign up: with an invitation, or if the administrator allows it."""
         return environment().registration == "open" or invitations.of_browser(request) is not None
 
     def clean_email(self, email: str) -> str:
-        """An invitation vouches for any address; without one the domain must be allowed."""
+        """Checks the domain of the address, unless the user has an invitation."""
         if not domain_is_allowed(email) and invitations.of_browser(self.request) is None:
             domains = ", ".join(environment().allowed_email_domains)
             raise ValidationError(text("domain_refused", domains=domains))
         return str(super().clean_email(email))
 
     def get_client_ip(self, request: HttpRequest) -> str:
-        """As the guard read it, with the proxies that are believed."""
+        """Returns the address that the guard determined, which respects trusted proxies."""
         return client_address.get() or "0.0.0.0"  # noqa: S104 - no address to listen on
 
     def pre_authenticate(self, request: HttpRequest, **credentials: Any) -> None:
-        """Refuses where a password was wrong too often; allauth's own counts would shut others out."""
+        """Refuses after too many wrong passwords; allauth's own counts would also lock out other users."""
         self._attempt = Attempt(self._bounds(request, credentials))
         if not self._attempt.is_allowed:
             raise self.validation_error("too_many_login_attempts")
@@ -74,7 +74,7 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         return response
 
     def authentication_failed(self, request: HttpRequest, **credentials: Any) -> None:
-        """Notes failed sign-ins."""
+        """Writes failed sign-ins to the log."""
         from backend.accounts.audit import note  # noqa: PLC0415 - models are not loaded yet above
 
         name = str(credentials.get("username") or credentials.get("email") or "")
@@ -82,13 +82,13 @@ class AccountAdapter(DefaultAccountAdapter):  # type: ignore[misc]
         super().authentication_failed(request, **credentials)
 
     def send_mail(self, template_prefix: str, email: str, context: dict[str, Any]) -> None:
-        """Shows in the page that no mail comes where there is no mail server."""
+        """Shows in the page that no mail is sent if there is no mail server."""
         if not environment().smtp_url.get_secret_value():
             return
         super().send_mail(template_prefix, email, context)
 
     def is_safe_url(self, url: str) -> bool:
-        """Addresses on this server alone, as paths."""
+        """Whether the URL is a path on this server."""
         return url.startswith("/") and not url.startswith(("//", "/\\")) and "\\" not in url
 
 
@@ -96,5 +96,5 @@ class SocialAccountAdapter(DefaultSocialAccountAdapter):  # type: ignore[misc]
     """Sign-in by a university's OpenID Connect provider."""
 
     def is_open_for_signup(self, request: HttpRequest, sociallogin: Any) -> bool:
-        """The provider vouches for its people; the list of domains bounds them."""
+        """Allows users of the provider to sign up, within the list of domains."""
         return domain_is_allowed(sociallogin.user.email or "") or invitations.of_browser(request) is not None

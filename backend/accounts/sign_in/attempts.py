@@ -33,7 +33,7 @@ MINUTE_S: Final = 60
 
 
 class Bound(NamedTuple):
-    """So many failures in so many seconds."""
+    """A number of failures in a number of seconds."""
 
     key: str
     most: int
@@ -42,10 +42,10 @@ class Bound(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Browser:
-    """Where someone signed in before.
+    """A browser in which someone signed in before.
 
     Attributes:
-        identity: made by chance when the first one did.
+        identity: random, made at the first sign-in.
         accounts: keys of the accounts, the latest last.
     """
 
@@ -53,13 +53,13 @@ class Browser:
     accounts: tuple[int, ...] = ()
 
     def with_account(self, account: int) -> Browser:
-        """The same browser, known to one account more."""
+        """Returns the same browser, known to one more account."""
         others = [each for each in self.accounts if each != account]
         return Browser(self.identity, (*others, account)[-KNOWN_ACCOUNTS:])
 
 
 def bounds(account: int | str, address: str | None, browser: Browser | None) -> tuple[Bound, ...]:
-    """The limit of the next attempt to sign in to an account; its key is the account, or the typed name."""
+    """Returns the limits of the next attempt to sign in; the key is the account, or the typed name."""
     if browser is not None and account in browser.accounts:
         return (Bound(f"browser {browser.identity} {account}", 10, 5 * MINUTE_S),)
     place = network_of(address)
@@ -71,7 +71,10 @@ def bounds(account: int | str, address: str | None, browser: Browser | None) -> 
 
 
 class Attempt:
-    """One attempt, counted as failed until it is known to have succeeded: many at once are counted, too."""
+    """One attempt to sign in.
+
+    It counts as failed until it succeeds, so that simultaneous attempts count, too.
+    """
 
     def __init__(self, limits: Iterable[Bound]) -> None:
         self._keys = [(_cache_key(limit.key), limit) for limit in limits]
@@ -86,21 +89,21 @@ class Attempt:
             self.take_back()
 
     def take_back(self) -> None:
-        """It succeeded, or was refused: it counts no longer."""
+        """Does not count the attempt: it succeeded, or was refused."""
         for key in self._counted:
             _more(key, -1)
         self._counted = []
 
 
 def forget(limits: Iterable[Bound]) -> None:
-    """A new password was set: what was wrong before counts no longer."""
+    """Resets the count of an account that has a new password."""
     cache.delete_many([_cache_key(limit.key) for limit in limits])
 
 
 def _more(key: str, number: int) -> int:
     try:
         return int(cache.incr(key, number))
-    except ValueError:  # its time was over just now
+    except ValueError:  # it expired a moment ago
         return max(number, 0)
 
 
@@ -120,7 +123,7 @@ def _cookie_name() -> str:
 
 
 def browser_of(request: HttpRequest) -> Browser | None:
-    """The browser that a request comes from, if someone signed in there before."""
+    """Returns the browser that sent a request, if someone signed in there before."""
     try:
         found: Any = _signer().unsign_object(
             request.COOKIES.get(_cookie_name(), ""), max_age=KNOWN_DAYS * 24 * 3600
@@ -131,7 +134,7 @@ def browser_of(request: HttpRequest) -> Browser | None:
 
 
 def remember(request: HttpRequest, response: HttpResponse, account: int) -> None:
-    """From now on the browser is known to the account that signed in."""
+    """Marks the browser as known to the account that signed in."""
     browser = (browser_of(request) or Browser(secrets.token_urlsafe(16))).with_account(account)
     value = _signer().sign_object({"id": browser.identity, "accounts": list(browser.accounts)})
     response.set_cookie(

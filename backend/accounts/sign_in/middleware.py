@@ -1,4 +1,4 @@
-"""Django's middleware for pages with forms (sign-in, administration); the API passes by untouched."""
+"""Django's middleware for pages with forms (sign-in, administration); API requests skip it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PAGES: Final = ("/accounts/", "/admin/", "/join/", "/shared/")
 
 
 class OnPages:
-    """Before one of Django's middleware: skips every address that is no page with forms."""
+    """Base of Django's middleware that skips every path without forms."""
 
     get_response: Any
 
@@ -29,18 +29,18 @@ class OnPages:
 
 
 class PageSession(OnPages, SessionMiddleware):
-    """The session."""
+    """Sessions on pages with forms."""
 
 
 class PageLocale(OnPages, LocaleMiddleware):
-    """The language that the browser asks for."""
+    """The language that the browser requests, on pages with forms."""
 
 
 class PageCsrf(OnPages, CsrfViewMiddleware):
     """Checks a token in every form, in addition to the Origin that the guard checks for all requests."""
 
     def process_view(self, request: HttpRequest, *args: Any, **kwargs: Any) -> Any:
-        """Django calls this for each view."""
+        """Checks the token; called by Django for each view."""
         if request.path_info.startswith(PAGES):
             return super().process_view(request, *args, **kwargs)
         return None
@@ -51,4 +51,4 @@ class PageUser(OnPages, AuthenticationMiddleware):
 
 
 class PageMessages(OnPages, MessageMiddleware):
-    """Notices on the next page."""
+    """Django's messages on pages with forms."""

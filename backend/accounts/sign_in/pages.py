@@ -1,4 +1,4 @@
-"""Pages outside the IDE: following an invitation, following a read-only link, refusals."""
+"""Pages outside of the IDE: accepting an invitation, opening a read-only link, refusals."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def context(request: HttpRequest) -> dict[str, Any]:
-    """Returns the values that every page may show."""
+    """Returns the values that all templates use."""
     settings = environment()
     return {
         "registration_open": settings.registration == "open",
@@ -33,7 +33,7 @@ def context(request: HttpRequest) -> dict[str, Any]:
 @never_cache
 @require_http_methods(["GET", "POST"])
 def join(request: HttpRequest, token: str) -> HttpResponse:
-    """Follows an invitation: a user who is signed in joins with a button, others sign up or sign in first."""
+    """Accepts an invitation: a signed-in user joins with a button, others sign up or sign in first."""
     found = invitations.of_token(token)
     if found is None:
         return dead_link(request)
@@ -63,12 +63,12 @@ def _render_join(request: HttpRequest, found: Invitation, *, next_page: str) -> 
 
 
 def dead_link(request: HttpRequest) -> HttpResponse:
-    """A link that expired, was taken back, or was not copied whole."""
+    """Shows the page for an invalid link: expired, revoked, or not copied completely."""
     values = {"title": text("link_dead_title"), "sentence": text("link_dead")}
     return render(request, "accounts/message.html", values, status=404)
 
 
 def csrf_failure(request: HttpRequest, reason: str = "") -> HttpResponse:
-    """A form without its token."""
+    """Shows the page for a form without its token."""
     values = {"title": text("csrf_title"), "sentence": text("csrf")}
     return render(request, "accounts/message.html", values, status=403)

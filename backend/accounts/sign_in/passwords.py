@@ -1,4 +1,4 @@
-"""Links that set a new password, made without a mail."""
+"""Links that set a new password, without e-mail."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ if TYPE_CHECKING:
 
 
 def link(user: User) -> str:
-    """Works once, for `PASSWORD_RESET_TIMEOUT` (three days)."""
+    """Returns a link that works once, for `PASSWORD_RESET_TIMEOUT` (three days)."""
     key = default_token_generator.make_token(user)
     return f"{environment().public_url}/accounts/password/reset/key/{user_pk_to_url_str(user)}-{key}/"

@@ -22,19 +22,17 @@ if TYPE_CHECKING:
 
 
 def on_sign_in(request: Any, user: User, **_: object) -> None:
-    """After each sign-in."""
     note("login", actor=user)
 
 
 def on_sign_out(request: Any, user: User | None, **_: object) -> None:
-    """After each sign-out."""
     if user is not None:
         note("logout", actor=user)
         lessen(user_id=user.pk)
 
 
 def on_user_saved(instance: User, *, created: bool, **_: object) -> None:
-    """A deactivated account, or one whose password changed, is out wherever it is in."""
+    """Signs out a user everywhere who was deactivated or has a new password."""
     if not created:
         lessen(user_id=instance.pk)
 
@@ -45,7 +43,7 @@ def on_left_group(instance: GroupMember, **_: object) -> None:
 
 
 def on_sign_up(request: Any, user: User, **_: object) -> None:
-    """A new account uses the invitation up that brought it here."""
+    """Uses up the invitation with which a new account was created."""
     note("account.create", actor=user)
     token = request.session.pop(invitations.SESSION_KEY, None)
     if isinstance(token, str):
@@ -62,7 +60,7 @@ def _noting(action: str) -> Any:
 
 
 def connect() -> None:
-    """Called when the apps are ready."""
+    """Connects the receivers; called when the apps are ready."""
     user_logged_in.connect(on_sign_in, dispatch_uid="bts-sign-in")
     user_logged_out.connect(on_sign_out, dispatch_uid="bts-sign-out")
     post_save.connect(on_user_saved, sender=get_user_model(), dispatch_uid="bts-user-saved")

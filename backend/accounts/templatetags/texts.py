@@ -1,4 +1,4 @@
-"""`{% text "key" name=value %}` in templates."""
+"""The template tag `{% text "key" name=value %}`, which renders a text in the page's language."""
 
 from __future__ import annotations
 
@@ -11,5 +11,5 @@ register = template.Library()
 
 @register.simple_tag
 def text(key: str, **values: object) -> str:
-    """The text in the language of the page."""
+    """Renders a text in the language of the page."""
     return find(key, **values)

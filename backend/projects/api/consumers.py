@@ -1,4 +1,4 @@
-"""The socket on which an open project hears of its new revisions."""
+"""The socket that notifies an open project of its new revisions."""
 
 from __future__ import annotations
 

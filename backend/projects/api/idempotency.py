@@ -1,4 +1,4 @@
-"""`Idempotency-Key`: a request that is sent again has its effect once and gets its first answer."""
+"""`Idempotency-Key`: a repeated request takes effect once and gets its first answer again."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ KIND: Final = "revision"
 
 
 def watch_revisions() -> None:
-    """From now on each change set is announced when it is committed."""
+    """Connects the notices: each committed change set is announced."""
     revision_made.connect(_announce_later, dispatch_uid="announce_revision")
 
 
@@ -36,12 +36,12 @@ def _announce_later(sender: object, *, change: ChangeSet, **_: object) -> None:
         "message": change.message,
     }
     group = group_of(change.project_id)
-    # Robust: a lost notice must not make a save that is stored look as if it had failed.
+    # Robust: a lost notice must not make a stored save look as if it had failed.
     transaction.on_commit(lambda: tell(group, notice), robust=True)
 
 
 def group_of(project_id: UUID) -> str:
-    """The channel layer's group of those who have the project open."""
+    """Returns the channel layer's group of everyone who has the project open."""
     return f"project.{project_id}"
 
 

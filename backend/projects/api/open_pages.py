@@ -19,21 +19,21 @@ class Pages:
         self._told: dict[ASGISendCallable, str] = {}
 
     def join(self, send: ASGISendCallable) -> None:
-        """A page opened a project."""
+        """Adds a page that opened a project."""
         self._told[send] = ""
 
     def leave(self, send: ASGISendCallable) -> None:
-        """It has gone."""
+        """Removes a page."""
         self._told.pop(send, None)
 
     async def tell(self, text: str) -> None:
-        """Sends a text to each page that was not told it last; an empty one says that it is over."""
+        """Sends a text to each page that did not receive it last; an empty one ends the notice."""
         for send in [send for send, told in self._told.items() if told != text]:
             self._told[send] = text
             notice = json.dumps({"type": "server", "text": text})
             try:
                 await send({"type": "websocket.send", "text": notice, "bytes": None})
-            except (OSError, RuntimeError) as error:  # it has gone
+            except (OSError, RuntimeError) as error:  # the page has closed
                 log.debug("a page was not told: %s", error)
 
 

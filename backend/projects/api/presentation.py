@@ -1,4 +1,4 @@
-"""Rows as the JSON that the API answers with."""
+"""Converts rows of the database to the JSON of the API."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, Any]:
-    """A project in a list."""
+    """Returns a project in the form of a list."""
     return {
         "id": str(project.id),
         "name": project.name,
@@ -34,7 +34,7 @@ def summary(project: Project, root_diagram: dict[str, Any] | None) -> dict[str, 
 
 
 def file(stored: StoredFile) -> dict[str, Any]:
-    """A file with its content."""
+    """Returns a file with its content."""
     return {
         "path": stored.path,
         "revision": stored.revision,
@@ -46,7 +46,7 @@ def file(stored: StoredFile) -> dict[str, Any]:
 
 
 def file_info(existing: Existing) -> dict[str, Any]:
-    """A file without its content."""
+    """Returns a file without its content."""
     return {
         "path": existing.path,
         "revision": existing.revision,
@@ -63,7 +63,7 @@ class Opened(NamedTuple):
 
 
 def opened(project: Project) -> Opened:
-    """All that an opened project shows of the database."""
+    """Returns all data of an opened project that come from the database."""
     files = queries.current_files(project)
     main = files.get(f"trees/{project.main_tree}.json")
     diagram = queries.root_diagram(main.data) if main is not None else None
@@ -75,13 +75,13 @@ def opened(project: Project) -> Opened:
 
 
 def changed(project: Project) -> dict[str, Any]:
-    """A project after a change set, before it is checked."""
+    """Returns a project after a change set, before it is checked."""
     files = queries.existing_files(project)
     return {"revision": project.revision, "files": [file_info(files[path]) for path in sorted(files)]}
 
 
 def revision(change: ChangeSet) -> dict[str, Any]:
-    """One entry of a project's history."""
+    """Returns one entry of a project's history."""
     renamed = {row.renamed_from for row in change.files.all() if row.renamed_from}
     return {
         "number": change.number,

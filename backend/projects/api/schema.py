@@ -1,4 +1,4 @@
-"""Parts of the OpenAPI document that belong to projects."""
+"""Serializers of the OpenAPI document that only projects use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Requests and answers of the projects API: what OpenAPI says, and the first check of what comes in."""
+"""Serializers of projects: the OpenAPI document, and the first check of requests."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ObjectField(serializers.JSONField):
 
 
 class TextField(serializers.CharField):
-    """Text as it is: not trimmed, and no number or boolean taken for text."""
+    """Unchanged text: not trimmed; numbers and booleans are refused."""
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**{"trim_whitespace": False, "allow_blank": True, **kwargs})
@@ -43,7 +43,7 @@ class TextField(serializers.CharField):
 
 
 class StrictIntegerField(serializers.IntegerField):
-    """A number, not text that looks like one."""
+    """A number; text that looks like one is refused."""
 
     def to_internal_value(self, data: Any) -> int:
         """Refuses text and booleans."""
@@ -53,7 +53,7 @@ class StrictIntegerField(serializers.IntegerField):
 
 
 class StrictBooleanField(serializers.BooleanField):
-    """True or false, not a word for it."""
+    """True or false; words for them are refused."""
 
     def to_internal_value(self, data: Any) -> bool:
         """Refuses everything else."""
@@ -222,7 +222,7 @@ class EditProjectSerializer(StrictSerializer):
 
 
 class FileChangeSerializer(StrictSerializer):
-    """New content, a new path, both, or the end of one file."""
+    """New content, a new path, both, or the deletion of one file."""
 
     path = TextField(max_length=MAX_PATH_LENGTH)
     base_revision = StrictIntegerField(
@@ -260,7 +260,7 @@ class ChangesSerializer(StrictSerializer):
 
 
 def file_changes(data: dict[str, Any]) -> list[FileChange]:
-    """The checked request as the core takes it."""
+    """Converts the checked request to file changes."""
     return [
         FileChange(f["path"], f["base_revision"], f["bytes"], delete=f["delete"], rename_to=f["rename_to"])
         for f in data["files"]
@@ -268,7 +268,7 @@ def file_changes(data: dict[str, Any]) -> list[FileChange]:
 
 
 class ChangesDoneSerializer(serializers.Serializer[Any]):
-    """The project after the change: all files, and what the translator says now."""
+    """The project after the change: all files, and the translator's findings."""
 
     revision = serializers.IntegerField()
     files = FileInfoSerializer(many=True)
@@ -278,7 +278,7 @@ class ChangesDoneSerializer(serializers.Serializer[Any]):
 
 
 class TheirsSerializer(serializers.Serializer[Any]):
-    """The version that exists."""
+    """The version on the server."""
 
     revision = serializers.IntegerField()
     content = serializers.CharField(allow_null=True)
@@ -301,7 +301,7 @@ class ConflictSerializer(serializers.Serializer[Any]):
 
 
 class OverlayFileSerializer(StrictSerializer):
-    """A file as it is in the editor."""
+    """A file with the content of the editor."""
 
     path = TextField(max_length=MAX_PATH_LENGTH)
     content = TextField()
@@ -355,13 +355,13 @@ class RevisionListQuerySerializer(serializers.Serializer[Any]):
 
 
 class LabelSerializer(StrictSerializer):
-    """A name for a revision; empty takes it away."""
+    """A name for a revision; an empty one removes it."""
 
     label = TextField(max_length=100)  # type: ignore[assignment]
 
 
 class RestoreRevisionSerializer(StrictSerializer):
-    """Which files to put back; all, when none are named."""
+    """The files to restore; all, if none are named."""
 
     paths = serializers.ListField(
         child=TextField(max_length=MAX_PATH_LENGTH),
@@ -372,7 +372,7 @@ class RestoreRevisionSerializer(StrictSerializer):
 
 
 class FileDiffSerializer(serializers.Serializer[Any]):
-    """One file that differs; `diff` is null when a side is not text."""
+    """One file that differs; `diff` is null if a side is not text."""
 
     path = serializers.CharField()
     change = serializers.ChoiceField(choices=["added", "removed", "changed"])
@@ -442,5 +442,5 @@ class AppSerializer(serializers.Serializer[Any]):
         }
     )
     def get_universe(self, app: dict[str, Any]) -> Any:
-        """An id, or a document with its assets."""
+        """Describes the universe as an id, or as a document with its assets."""
         return app["universe"]

@@ -1,4 +1,4 @@
-"""Projects over HTTP: parse, call, answer."""
+"""Views of projects, and of actions."""
 
 from __future__ import annotations
 
@@ -7,10 +7,12 @@ from uuid import UUID
 
 from django.db import transaction
 from drf_spectacular.utils import OpenApiParameter, extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.requests import if_match, parsed, user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.rest.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, problem_of
 from backend.projects.api import presentation
 from backend.projects.api import serializers as s
@@ -30,18 +32,18 @@ if TYPE_CHECKING:
 
 
 def opened(
-    view: APIView, request: Request, action: Callable[[], Project], *, status: int = 200
+    view: APIView, request: Request, write: Callable[[], Project], *, status: int = 200
 ) -> HttpResponseBase:
-    """Carries out what writes a project, once for its key, and answers with the project and its problems.
+    """Writes a project once for the request's key, and answers with the project and its problems.
 
-    What the answer takes from the database is read in the same transaction: nothing that comes after the
-    commit can make what was written look as if it had failed.
+    The answer's part of the database is read in the same transaction: a failure after the commit must not
+    make a stored write look as if it had failed.
     """
     contents: dict[str, bytes] = {}
 
     def effect() -> Response:
         with transaction.atomic():
-            project = action()
+            project = write()
             found = presentation.opened(project)
         contents.update(found.contents)
         return Response(found.rows, status=status, headers={"ETag": queries.etag(project)})
@@ -57,8 +59,11 @@ def _stored(request: Request, project_id: UUID | str) -> dict[str, bytes]:
     return queries.contents(queries.project(UUID(str(project_id)), user=user_of(request), need=Need.READ))
 
 
-class Projects(APIView):
-    """All projects of a user."""
+class Projects(ResourceViewSet):
+    """The projects of a user, and the operations on each."""
+
+    lookup_url_kwarg = "project_id"
+    lookup_value_converter = "uuid"
 
     @extend_schema(
         operation_id="list_projects",
@@ -66,7 +71,7 @@ class Projects(APIView):
         responses=s.ProjectListSerializer,
         tags=["projects"],
     )
-    def get(self, request: Request) -> Response:
+    def list(self, request: Request) -> Response:
         """Lists the user's projects."""
         asked = parsed(s.ProjectListQuerySerializer, request.query_params.dict())
         rows = queries.projects(
@@ -85,7 +90,7 @@ class Projects(APIView):
         responses={201: s.ProjectDetailSerializer},
         tags=["projects"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
+    def create(self, request: Request) -> HttpResponseBase:
         """Creates a project from a template."""
         asked = parsed(s.CreateProjectSerializer, request.data)
         user = user_of(request)
@@ -96,17 +101,13 @@ class Projects(APIView):
 
         return opened(self, request, create, status=201)
 
-
-class OneProject(APIView):
-    """One project."""
-
     @extend_schema(
         operation_id="get_project",
         parameters=[IF_NONE_MATCH],
         responses={200: s.ProjectDetailSerializer, 304: None},
         tags=["projects"],
     )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    def retrieve(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Opens a project: its files, actions and problems."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         if queries.etag(project) in request.headers.get("If-None-Match", ""):
@@ -123,7 +124,7 @@ class OneProject(APIView):
         | problem_of(ConflictProblemSerializer, "project.json changed meanwhile, or the name is taken."),
         tags=["projects"],
     )
-    def patch(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    def partial_update(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Renames a project or changes its settings."""
         asked = parsed(s.EditProjectSerializer, request.data)
         user, tag = user_of(request), if_match(request)
@@ -136,14 +137,10 @@ class OneProject(APIView):
     @extend_schema(
         operation_id="delete_project", parameters=[IF_MATCH], responses={204: None}, tags=["projects"]
     )
-    def delete(self, request: Request, project_id: UUID) -> Response:
+    def destroy(self, request: Request, project_id: UUID) -> Response:
         """Deletes a project; `restore` brings it back."""
         writes.delete_project(project_id, acting_user=user_of(request), if_match=if_match(request))
         return Response(status=204)
-
-
-class Restore(APIView):
-    """Undo of a deletion."""
 
     @extend_schema(
         operation_id="restore_project",
@@ -152,16 +149,13 @@ class Restore(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    @action(detail=True, methods=["post"])
+    def restore(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Brings a deleted project back, under another name where its own was taken since."""
         user, tag = user_of(request), if_match(request)
         return opened(
             self, request, lambda: writes.restore_project(project_id, acting_user=user, if_match=tag)
         )
-
-
-class Archive(APIView):
-    """Puts a project out of the way."""
 
     @extend_schema(
         operation_id="archive_project",
@@ -170,7 +164,8 @@ class Archive(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    @action(detail=True, methods=["post"])
+    def archive(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Moves a project to the archive."""
         user, tag = user_of(request), if_match(request)
         return opened(
@@ -179,10 +174,6 @@ class Archive(APIView):
             lambda: writes.set_archived(project_id, acting_user=user, archived=True, if_match=tag),
         )
 
-
-class Unarchive(APIView):
-    """Takes a project back into use."""
-
     @extend_schema(
         operation_id="unarchive_project",
         parameters=[IF_MATCH],
@@ -190,7 +181,8 @@ class Unarchive(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    @action(detail=True, methods=["post"])
+    def unarchive(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Moves a project out of the archive."""
         user, tag = user_of(request), if_match(request)
         return opened(
@@ -199,12 +191,6 @@ class Unarchive(APIView):
             lambda: writes.set_archived(project_id, acting_user=user, archived=False, if_match=tag),
         )
 
-
-class Duplicate(APIView):
-    """Copies a project."""
-
-    expensive = ("POST",)
-
     @extend_schema(
         operation_id="duplicate_project",
         parameters=[IDEMPOTENCY_KEY],
@@ -212,7 +198,8 @@ class Duplicate(APIView):
         responses={201: s.ProjectDetailSerializer},
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    @action(detail=True, methods=["post"], expensive=("POST",))
+    def duplicate(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Makes a new project of the current files."""
         name = parsed(s.DuplicateProjectSerializer, request.data)["name"]
         user = user_of(request)
@@ -223,10 +210,6 @@ class Duplicate(APIView):
             status=201,
         )
 
-
-class Changes(APIView):
-    """The one way to write files."""
-
     @extend_schema(
         operation_id="save_changes",
         parameters=[IF_MATCH, IDEMPOTENCY_KEY],
@@ -235,7 +218,8 @@ class Changes(APIView):
         | problem_of(ConflictProblemSerializer, "A base is stale; nothing was written."),
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
+    @action(detail=True, methods=["post"])
+    def changes(self, request: Request, project_id: UUID) -> HttpResponseBase:
         """Writes, renames and deletes files in one step, all or nothing."""
         asked = parsed(s.ChangesSerializer, request.data)
         user = user_of(request)
@@ -260,27 +244,20 @@ class Changes(APIView):
             lambda: queries.contents(saved[0]) if saved else _stored(request, project_id),
         )
 
-
-class Check(APIView):
-    """Problems before saving."""
-
     @extend_schema(
         operation_id="check_project",
         request=s.CheckSerializer,
         responses=s.ReportSerializer,
         tags=["projects"],
     )
-    def post(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """Checks the project as it would be with these files."""
+    @action(detail=True, methods=["post"])
+    def check(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Checks the project with these unsaved files."""
         asked = parsed(s.CheckSerializer, request.data)
         files = queries.contents(queries.project(project_id, user=user_of(request), need=Need.READ))
         for overlay in asked["files"]:
             files[names.file_path(overlay["path"], field="files.path")] = overlay["content"].encode()
         return checking.reported(self, request, Response({}), lambda: files)
-
-
-class App(APIView):
-    """The form of a project that runs."""
 
     @extend_schema(
         operation_id="get_app",
@@ -288,8 +265,9 @@ class App(APIView):
         responses=s.AppSerializer,
         tags=["projects"],
     )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The project in the form that the executor runs; 422 with `diagnostics` when it has errors."""
+    @action(detail=True)
+    def app(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the project in the form that the executor runs; 422 with `diagnostics` if it has errors."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         universe = request.query_params.get("universe") or ""
         files = queries.contents(project)
@@ -309,7 +287,7 @@ class InspectAction(APIView):
         tags=["projects"],
     )
     def post(self, request: Request) -> HttpResponseBase:
-        """The declarations in the source of an action."""
+        """Returns the declarations in the source of an action."""
         asked = parsed(s.InspectActionSerializer, request.data)
         filename = names.file_path(asked["filename"], field="filename")
         return checking.answered(

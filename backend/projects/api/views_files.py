@@ -1,4 +1,4 @@
-"""Files of a project as downloads: one file, the whole project, the tree as XML; and the way back."""
+"""Views of a project's files as downloads (one file, the whole project, the tree as XML), and of imports."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from django.http import HttpResponse
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import OpenApiParameter, OpenApiResponse, extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.parsers import BaseParser, MultiPartParser
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.problems import InvalidInputError
 from backend.core.rest.openapi import IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
@@ -38,12 +39,12 @@ if TYPE_CHECKING:
 
 
 def download(data: bytes | str, content_type: str, filename: str) -> HttpResponse:
-    """Bytes that the browser saves and never shows: what users stored must not run as a page."""
+    """Returns bytes that the browser saves and never shows: stored content must not run as a page."""
     return HttpResponse(data, headers={"Content-Type": content_type} | saved_as(filename))
 
 
 def saved_as(filename: str) -> dict[str, str]:
-    """Headers of what the browser saves under a name and never shows."""
+    """Returns the headers that make the browser save a file instead of showing it."""
     return {
         "Content-Disposition": f"attachment; filename*=UTF-8''{quote(filename, safe='')}",
         "Content-Security-Policy": "default-src 'none'; sandbox",
@@ -51,7 +52,7 @@ def saved_as(filename: str) -> dict[str, str]:
 
 
 def flag(request: Request, name: str) -> bool:
-    """A yes or no of the query."""
+    """Returns a boolean of the query."""
     wish = request.query_params.get(name, "false").lower()
     if wish not in {"", "0", "1", "true", "false"}:
         raise InvalidInputError(f"{name} is true or false.", field=name)
@@ -59,98 +60,21 @@ def flag(request: Request, name: str) -> bool:
 
 
 def zipped(name: str, made: dict[str, Any]) -> HttpResponse:
-    """A zip that a worker made."""
+    """Returns a zip that a worker made."""
     return download(made["zip"], "application/zip", f"{name}.zip")
 
 
 def packaged(made: dict[str, Any]) -> HttpResponse:
-    """A package that a worker made; it knows its name."""
+    """Returns a package that a worker made, under the package's name."""
     return zipped(made["name"], made)
 
 
-class File(APIView):
-    """One file as it is."""
-
-    @extend_schema(
-        operation_id="download_file",
-        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
-        """The bytes of a current file."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return file_response(queries.current_file(project, names.file_path(path)))
-
-
 def file_response(file: queries.StoredFile) -> HttpResponse:
-    """A stored file with its revision in the ETag."""
+    """Returns a stored file, with its revision in the ETag."""
     response = download(file.data, "application/octet-stream", file.path.rpartition("/")[2])
     response.headers["ETag"] = f'"{file.sha256}"'
     response.headers["X-Revision"] = str(file.revision)
     return response
-
-
-class Xml(APIView):
-    """The tree as XML."""
-
-    @extend_schema(
-        operation_id="get_xml",
-        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
-        responses={(200, "text/xml"): OpenApiTypes.STR},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        return checking.answered(
-            self,
-            request,
-            "xml",
-            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
-            files=queries.contents(project),
-            self_contained=flag(request, "self_contained"),
-        )
-
-
-class Export(APIView):
-    """The project folder as a zip."""
-
-    expensive = ("GET",)
-
-    @extend_schema(
-        operation_id="export_project",
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The current files as a zip; the same revision gives the same bytes."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
-        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
-
-
-class Package(APIView):
-    """The exported package."""
-
-    expensive = ("GET",)
-
-    @extend_schema(
-        operation_id="get_package",
-        parameters=[
-            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
-            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
-        ],
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        files = queries.contents(project)
-        if flag(request, "dockerized"):
-            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
-        name = request.query_params.get("name") or None
-        return checking.answered(self, request, "package", packaged, files=files, name=name)
 
 
 class PackageFileSerializer(serializers.Serializer[dict[str, object]]):
@@ -169,23 +93,6 @@ class PackagePreviewSerializer(serializers.Serializer[dict[str, object]]):
     diagnostics = s.DiagnosticSerializer(many=True)
 
 
-class PackagePreview(APIView):
-    """The list of files of an export."""
-
-    @extend_schema(
-        operation_id="preview_package",
-        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
-        responses=PackagePreviewSerializer,
-        tags=["files"],
-    )
-    def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
-        """The files of the ROS 2 package, before it is downloaded."""
-        project = queries.project(project_id, user=user_of(request), need=Need.READ)
-        name = request.query_params.get("name") or None
-        files = queries.contents(project)
-        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
-
-
 class UploadSerializer(serializers.Serializer[dict[str, object]]):
     """A file to import."""
 
@@ -194,22 +101,97 @@ class UploadSerializer(serializers.Serializer[dict[str, object]]):
 
 
 class RawFile(BaseParser):
-    """A file as the body itself; it is read from the file in which it lies already."""
+    """A file as the whole body; it is already in a temporary file."""
 
     media_type = "application/octet-stream"
 
     def parse(
         self, stream: Any, media_type: str | None = None, parser_context: Mapping[str, Any] | None = None
     ) -> dict[str, str]:
-        """Leaves it where it is."""
+        """Does nothing: the view reads the temporary file."""
         return {}
 
 
-class Import(APIView):
-    """The way back."""
+class ProjectFiles(ResourceViewSet):
+    """Downloads of a project in several forms, and the import of a project."""
 
-    parser_classes = (MultiPartParser, RawFile)
-    expensive = ("POST",)
+    lookup_url_kwarg = "project_id"
+    lookup_value_converter = "uuid"
+
+    @extend_schema(
+        operation_id="download_file",
+        responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, url_path="files/<path:path>")
+    def download_file(self, request: Request, project_id: UUID, path: str) -> HttpResponse:
+        """Returns the bytes of a current file."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return file_response(queries.current_file(project, names.file_path(path)))
+
+    @extend_schema(
+        operation_id="get_xml",
+        parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
+        responses={(200, "text/xml"): OpenApiTypes.STR},
+        tags=["files"],
+    )
+    @action(detail=True)
+    def xml(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the tree as BT.CPP v4 XML; 422 with `diagnostics` if the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        return checking.answered(
+            self,
+            request,
+            "xml",
+            lambda made: download(made["text"], "text/xml; charset=utf-8", f"{project.name}.xml"),
+            files=queries.contents(project),
+            self_contained=flag(request, "self_contained"),
+        )
+
+    @extend_schema(
+        operation_id="export_project",
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, expensive=("GET",))
+    def export(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the current files as a zip; the same revision gives the same bytes."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        return checking.answered(self, request, "pack", partial(zipped, project.name), files=files)
+
+    @extend_schema(
+        operation_id="get_package",
+        parameters=[
+            OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
+            OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
+        ],
+        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        tags=["files"],
+    )
+    @action(detail=True, expensive=("GET",))
+    def package(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Returns the ROS 2 package as a zip; 422 with `diagnostics` if the project has errors."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        files = queries.contents(project)
+        if flag(request, "dockerized"):
+            return checking.answered(self, request, "app_zip", partial(zipped, project.name), files=files)
+        name = request.query_params.get("name") or None
+        return checking.answered(self, request, "package", packaged, files=files, name=name)
+
+    @extend_schema(
+        operation_id="preview_package",
+        parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
+        responses=PackagePreviewSerializer,
+        tags=["files"],
+    )
+    @action(detail=True, url_path="package/preview")
+    def package_preview(self, request: Request, project_id: UUID) -> HttpResponseBase:
+        """Lists the files of the ROS 2 package before it is downloaded."""
+        project = queries.project(project_id, user=user_of(request), need=Need.READ)
+        name = request.query_params.get("name") or None
+        files = queries.contents(project)
+        return checking.answered(self, request, "package_preview", Response, files=files, name=name)
 
     @extend_schema(
         operation_id="import_project",
@@ -224,7 +206,14 @@ class Import(APIView):
         responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
         tags=["files"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
+    @action(
+        detail=False,
+        methods=["post"],
+        url_path="import",
+        parser_classes=(MultiPartParser, RawFile),
+        expensive=("POST",),
+    )
+    def import_project(self, request: Request) -> HttpResponseBase:
         """Makes a project of our zip, of a JdeRobot or Groot2 project, or of BT.CPP XML.
 
         The file may be the body itself, and then as large as the user has room; a form has a request's bound.

@@ -49,7 +49,7 @@ DONE: Final = {"success": True}
 
 
 def create_project(user: User, asked: Parameters) -> Response:
-    """An empty project of this name."""
+    """Creates an empty project with this name."""
     writes.create_project(
         templates.files_of(templates.EMPTY), acting_user=user, name=_need(asked, "project_name")
     )
@@ -57,13 +57,13 @@ def create_project(user: User, asked: Parameters) -> Response:
 
 
 def delete_project(user: User, asked: Parameters) -> Response:
-    """Deletes; our own API can bring it back."""
+    """Deletes a project; our own API can restore it."""
     writes.delete_project(_project(user, asked).id, acting_user=user)
     return Response(DONE)
 
 
 def get_project_list(user: User, asked: Parameters) -> Response:
-    """The names of all projects."""
+    """Lists the names of all projects."""
     return Response({"project_list": [project.name for project in queries.projects(user=user, sort="name")]})
 
 
@@ -82,13 +82,13 @@ def save_project_graph(user: User, asked: Parameters) -> Response:
 
 
 def get_project_graph(user: User, asked: Parameters) -> Response:
-    """The main diagram, as text."""
+    """Returns the main diagram as text."""
     project = _project(user, asked)
     return Response({"graph_json": queries.current_file(project, _graph_path(project)).text})
 
 
 def get_file_list(user: User, asked: Parameters) -> Response:
-    """The names of the actions' files."""
+    """Lists the names of the actions' files."""
     files = queries.existing_files(_project(user, asked))
     return Response(
         {"file_list": sorted(p.removeprefix("actions/") for p in files if p.startswith("actions/"))}
@@ -96,18 +96,18 @@ def get_file_list(user: User, asked: Parameters) -> Response:
 
 
 def get_file(user: User, asked: Parameters) -> Response:
-    """The source of one action."""
+    """Returns the source of one action."""
     return Response({"content": queries.current_file(_project(user, asked), _action_path(asked)).text})
 
 
 def create_file(user: User, asked: Parameters) -> Response:
-    """A new action; one that exists is a conflict."""
+    """Creates an action; answers with a conflict if it exists."""
     _write(user, _project(user, asked), _action_path(asked), asked.get("content", ""), base=0)
     return Response(DONE, status=201)
 
 
 def save_file(user: User, asked: Parameters) -> Response:
-    """Replaces the source of an action; that API knows no revisions, so the last writer wins."""
+    """Replaces the source of an action; this API has no revisions, so the last writer wins."""
     project = _project(user, asked)
     queries.current_file(project, _action_path(asked))
     _write(user, project, _action_path(asked), _need(asked, "content"))
@@ -115,7 +115,6 @@ def save_file(user: User, asked: Parameters) -> Response:
 
 
 def delete_file(user: User, asked: Parameters) -> Response:
-    """Deletes an action."""
     project = _project(user, asked)
     queries.current_file(project, _action_path(asked))
     change = FileChange(_action_path(asked), project.revision, delete=True)
@@ -124,13 +123,13 @@ def delete_file(user: User, asked: Parameters) -> Response:
 
 
 def generate_app(user: User, asked: Parameters) -> Later:
-    """The ROS 2 package of the project."""
+    """Returns the ROS 2 package of the project."""
     files = queries.contents(_project(user, asked))
     return Later("package", packaged, {"files": files, "name": asked.get("app_name") or None})
 
 
 def get_dockerized_app(user: User, asked: Parameters) -> Later:
-    """The app as the manager runs it."""
+    """Returns the app in the form that the manager runs."""
     project = _project(user, asked)
     name = asked.get("app_name") or project.name
     return Later("app_zip", partial(zipped, name), {"files": queries.contents(project)})
@@ -160,25 +159,25 @@ def _write(user: User, project: Project, file: str, content: str, *, base: int |
 
 
 class Reading(APIView):
-    """An endpoint that was GET and is."""
+    """An endpoint that reads: GET, as in the original."""
 
     handler: Handler | None = None
 
     @extend_schema(exclude=True)
     def get(self, request: Request) -> HttpResponseBase:
-        """Parameters are in the query."""
+        """Calls the handler with the parameters of the query."""
         return _call(self, self.handler, request, request.query_params.dict())
 
 
 class Writing(APIView):
-    """An endpoint that changes state: POST only."""
+    """An endpoint that changes state: POST only, unlike the original."""
 
     handler: Handler | None = None
     parser_classes = (StrictJSONParser, FormParser, MultiPartParser)
 
     @extend_schema(exclude=True)
     def post(self, request: Request) -> HttpResponseBase:
-        """Parameters are in the body."""
+        """Calls the handler with the parameters of the body."""
         data: Any = request.data
         if not isinstance(data, dict):
             raise InvalidInputError("The body must be a JSON object or a form.")

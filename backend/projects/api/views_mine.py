@@ -1,4 +1,4 @@
-"""A user's data on this server: its size, all of it as a download, and its deletion."""
+"""Views of a user's data on this server: its size, a download of all of it, and its deletion."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import parsed, user_of
 from backend.accounts.api.serializers import DeleteMeSerializer
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.accounts.audit import note
 from backend.accounts.writes import delete_account
 from backend.config.environment import environment
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class UsageSerializer(serializers.Serializer[Any]):
-    """Room taken, and room given."""
+    """The space that is used, and its limits."""
 
     projects = serializers.IntegerField()
     max_projects = serializers.IntegerField()
@@ -34,27 +35,23 @@ class UsageSerializer(serializers.Serializer[Any]):
     max_bytes = serializers.IntegerField()
 
 
-class Usage(APIView):
-    """The space that the user's projects take."""
+class Mine(ResourceViewSet):
+    """The data of the user on this server."""
 
     @extend_schema(operation_id="get_my_usage", responses=UsageSerializer, tags=["accounts"])
-    def get(self, request: Request) -> Response:
-        """Projects and bytes, with their limits."""
+    @action(detail=False)
+    def usage(self, request: Request) -> Response:
+        """Returns the number and the bytes of projects, with their limits."""
         return Response(usage.usage(user_of(request)))
-
-
-class MyData(APIView):
-    """Everything of one user."""
-
-    expensive = ("GET",)
 
     @extend_schema(
         operation_id="export_my_data",
         responses={(200, "application/zip"): OpenApiTypes.BINARY},
         tags=["accounts"],
     )
-    def get(self, request: Request) -> HttpResponseBase:
-        """The account, its log and its projects, as one zip."""
+    @action(detail=False, expensive=("GET",))
+    def data(self, request: Request) -> HttpResponseBase:
+        """Returns the account, its log and its projects, as one zip."""
         user = user_of(request)
         note("account.export", actor=user)
         headers = {"Content-Type": "application/zip"} | saved_as(f"{user.username}.zip")
@@ -66,8 +63,12 @@ class MyData(APIView):
         responses={204: None},
         tags=["accounts"],
     )
-    def delete(self, request: Request) -> Response:
-        """Deletes the account with all its projects, for good; the body is `{"username": one's own name}`."""
+    @data.mapping.delete
+    def delete_data(self, request: Request) -> Response:
+        """Deletes the account with all its projects irreversibly.
+
+        The body is `{"username": the user's own name}`.
+        """
         user = user_of(request)
         if not environment().is_team:
             raise NotFoundError("There are no accounts on this server.")

@@ -1,4 +1,4 @@
-"""History of a project, and drafts that are not yet part of it."""
+"""Views of the revisions of a project, and of drafts."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 from django.db import transaction
 from drf_spectacular.types import OpenApiTypes
 from drf_spectacular.utils import extend_schema
+from rest_framework.decorators import action
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import if_match, parsed, user_of
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.rest.openapi import IF_MATCH
 from backend.projects.api import presentation
 from backend.projects.api import serializers as s
@@ -28,8 +29,11 @@ if TYPE_CHECKING:
     from rest_framework.request import Request
 
 
-class Revisions(APIView):
-    """A project's history."""
+class Revisions(ResourceViewSet):
+    """The revisions of a project."""
+
+    lookup_url_kwarg = "number"
+    lookup_value_converter = "int"
 
     @extend_schema(
         operation_id="list_revisions",
@@ -37,8 +41,8 @@ class Revisions(APIView):
         responses=s.RevisionListSerializer,
         tags=["revisions"],
     )
-    def get(self, request: Request, project_id: UUID) -> Response:
-        """The change sets, the newest first; all, or those that touched one file."""
+    def list(self, request: Request, project_id: UUID) -> Response:
+        """Lists the change sets, the newest first; all, or those that changed one file."""
         asked = parsed(s.RevisionListQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         limit = asked["limit"]
@@ -47,10 +51,6 @@ class Revisions(APIView):
         following = page[-1].number if len(found) > limit else None
         return Response({"items": [presentation.revision(row) for row in page], "next_before": following})
 
-
-class Revision(APIView):
-    """One change set."""
-
     @extend_schema(
         operation_id="label_revision",
         parameters=[IF_MATCH],
@@ -58,32 +58,25 @@ class Revision(APIView):
         responses=s.RevisionSerializer,
         tags=["revisions"],
     )
-    @transaction.atomic  # with what the answer reads
-    def patch(self, request: Request, project_id: UUID, number: int) -> Response:
-        """Gives a revision a name, or takes it away."""
+    @transaction.atomic  # includes the reads for the answer
+    def partial_update(self, request: Request, project_id: UUID, number: int) -> Response:
+        """Gives a revision a name, or removes it."""
         asked = parsed(s.LabelSerializer, request.data)
         row = writes.label_revision(
             project_id, number, asked["label"], acting_user=user_of(request), if_match=if_match(request)
         )
         return Response(presentation.revision(row), headers={"ETag": queries.revision_etag(row)})
 
-
-class RevisionFile(APIView):
-    """A file as it was."""
-
     @extend_schema(
         operation_id="download_old_file",
         responses={(200, "application/octet-stream"): OpenApiTypes.BINARY},
         tags=["revisions"],
     )
-    def get(self, request: Request, project_id: UUID, number: int, path: str) -> HttpResponse:
-        """The bytes of a file as it was after a revision."""
+    @action(detail=True, url_path="files/<path:path>")
+    def download_file(self, request: Request, project_id: UUID, number: int, path: str) -> HttpResponse:
+        """Returns the bytes of a file in a revision."""
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
         return file_response(queries.file_at(project, number, names.file_path(path)))
-
-
-class RevisionDiff(APIView):
-    """The changes of a revision."""
 
     @extend_schema(
         operation_id="diff_revision",
@@ -91,7 +84,8 @@ class RevisionDiff(APIView):
         responses=s.DiffSerializer,
         tags=["revisions"],
     )
-    def get(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
+    @action(detail=True)
+    def diff(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
         """Compares a revision with the one before, or with `against` (0 is the empty project)."""
         asked = parsed(s.DiffQuerySerializer, request.query_params.dict())
         project = queries.project(project_id, user=user_of(request), need=Need.READ)
@@ -108,10 +102,6 @@ class RevisionDiff(APIView):
             newer=newer_texts,
         )
 
-
-class RestoreRevision(APIView):
-    """Restores an old revision as a new one."""
-
     @extend_schema(
         operation_id="restore_revision",
         parameters=[IF_MATCH],
@@ -119,8 +109,9 @@ class RestoreRevision(APIView):
         responses=s.ProjectDetailSerializer,
         tags=["revisions"],
     )
-    def post(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
-        """Makes a new revision with files as they were."""
+    @action(detail=True, methods=["post"])
+    def restore(self, request: Request, project_id: UUID, number: int) -> HttpResponseBase:
+        """Makes a new revision in which files are as they were in this one."""
         asked = parsed(s.RestoreRevisionSerializer, request.data)
         paths = [names.file_path(path, field="paths") for path in asked["paths"]]
         user, tag = user_of(request), if_match(request)
@@ -131,19 +122,18 @@ class RestoreRevision(APIView):
         )
 
 
-class Drafts(APIView):
+class Drafts(ResourceViewSet):
     """Drafts: text that was typed and not saved."""
 
+    lookup_url_kwarg = "path"
+    lookup_value_converter = "path"
+
     @extend_schema(operation_id="list_drafts", responses=s.DraftListSerializer, tags=["drafts"])
-    def get(self, request: Request, project_id: UUID) -> Response:
-        """The user's drafts in this project."""
+    def list(self, request: Request, project_id: UUID) -> Response:
+        """Lists the user's drafts in this project."""
         user = user_of(request)
         rows = queries.drafts(queries.project(project_id, user=user, need=Need.WRITE), user=user)
         return Response({"items": [presentation.draft(row) for row in rows]})
-
-
-class OneDraft(APIView):
-    """The draft of one file."""
 
     @extend_schema(
         operation_id="save_draft",
@@ -152,8 +142,8 @@ class OneDraft(APIView):
         responses=s.DraftSerializer,
         tags=["drafts"],
     )
-    def put(self, request: Request, project_id: UUID, path: str) -> Response:
-        """Keeps a draft; saving the file ends it."""
+    def update(self, request: Request, project_id: UUID, path: str) -> Response:
+        """Stores a draft; saving the file removes it."""
         asked = parsed(s.SaveDraftSerializer, request.data)
         row = draft_writes.save_draft(
             project_id, path, acting_user=user_of(request), if_match=if_match(request), **asked
@@ -163,7 +153,7 @@ class OneDraft(APIView):
     @extend_schema(
         operation_id="discard_draft", parameters=[IF_MATCH], responses={204: None}, tags=["drafts"]
     )
-    def delete(self, request: Request, project_id: UUID, path: str) -> Response:
-        """Forgets a draft."""
+    def destroy(self, request: Request, project_id: UUID, path: str) -> Response:
+        """Discards a draft."""
         draft_writes.discard_draft(project_id, path, acting_user=user_of(request), if_match=if_match(request))
         return Response(status=204)

@@ -1,4 +1,4 @@
-"""Sharing over HTTP: every answer is the whole list of with whom a project is shared."""
+"""Views of sharing; every answer is the complete list of people, groups and links."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 from django.db import transaction
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
 from rest_framework.views import APIView
 
 from backend.accounts.api.requests import if_match, parsed, user_of
 from backend.accounts.api.serializers import PersonSerializer
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.rest.openapi import IF_MATCH
 from backend.projects.choices import SHARED_ROLES, Role
 from backend.projects.sharing import memberships, transfer
@@ -35,13 +37,13 @@ class SharedRoleSerializer(serializers.Serializer[Any]):
 
 
 class SharePersonSerializer(SharedRoleSerializer):
-    """With whom, and what they may do."""
+    """A person, and their new role."""
 
     name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an account.")
 
 
 class TransferSerializer(serializers.Serializer[Any]):
-    """The next owner."""
+    """The person who becomes the owner."""
 
     name = serializers.CharField(max_length=254, help_text="Name or e-mail address of an editor.")
 
@@ -53,13 +55,13 @@ class MakeLinkSerializer(serializers.Serializer[Any]):
 
 
 class SharedPersonSerializer(PersonSerializer):
-    """Someone with their role."""
+    """A person with their role."""
 
     role = serializers.ChoiceField(choices=ROLES)
 
 
 class SharedGroupSerializer(serializers.Serializer[Any]):
-    """A group with the role of all in it."""
+    """A group with the role of its members."""
 
     id = serializers.UUIDField()
     name = serializers.CharField()
@@ -76,7 +78,7 @@ class LinkSerializer(serializers.Serializer[Any]):
 
 
 class SharesSerializer(serializers.Serializer[Any]):
-    """With whom a project is shared."""
+    """Everyone with whom a project is shared."""
 
     owner = PersonSerializer()
     people = SharedPersonSerializer(many=True)
@@ -89,24 +91,24 @@ def _answer(project: Project, status: int = 200) -> Response:
     return Response(document, status=status, headers={"ETag": memberships.etag(document)})
 
 
-class Shares(APIView):
-    """With whom a project is shared."""
+class Shares(ResourceViewSet):
+    """The people, groups and links that a project is shared with."""
 
     @extend_schema(operation_id="get_shares", responses=SharesSerializer, tags=["sharing"])
-    def get(self, request: Request, project_id: UUID) -> Response:
-        """People, groups and links; for the owner."""
+    def list(self, request: Request, project_id: UUID) -> Response:
+        """Lists people, groups and links; for the owner."""
         return _answer(queries.project(project_id, user=user_of(request), need=Need.MANAGE))
 
     @extend_schema(
         operation_id="share_with_person",
         parameters=[IF_MATCH],
         request=SharePersonSerializer,
-        responses=SharesSerializer,
+        responses={200: SharesSerializer},
         tags=["sharing"],
     )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, project_id: UUID) -> Response:
-        """Gives someone a role, or another one."""
+    @transaction.atomic  # includes the reads for the answer
+    def create(self, request: Request, project_id: UUID) -> Response:
+        """Gives a person a role, or changes it."""
         asked = parsed(SharePersonSerializer, request.data)
         role = Role[asked["role"].upper()]
         user, tag = user_of(request), if_match(request)
@@ -114,40 +116,15 @@ class Shares(APIView):
             memberships.share_with_person(project_id, asked["name"], role, acting_user=user, if_match=tag)
         )
 
-
-class Transfer(APIView):
-    """Another owner."""
-
-    @extend_schema(
-        operation_id="transfer_project",
-        parameters=[IF_MATCH],
-        request=TransferSerializer,
-        responses=SharesSerializer,
-        tags=["sharing"],
-    )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, project_id: UUID) -> Response:
-        """Gives the project to one of its editors; who gave it stays an editor."""
-        asked = parsed(TransferSerializer, request.data)
-        user, tag = user_of(request), if_match(request)
-        return _answer(transfer.transfer_project(project_id, asked["name"], acting_user=user, if_match=tag))
-
-
-class SharedPerson(APIView):
-    """One person."""
-
     @extend_schema(
         operation_id="unshare_with_person", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
     )
-    def delete(self, request: Request, project_id: UUID, username: str) -> Response:
-        """Takes their role away; one's own is given up."""
+    @action(detail=False, methods=["delete"], url_path="people/<str:username>")
+    def unshare_with_person(self, request: Request, project_id: UUID, username: str) -> Response:
+        """Removes the role of a person; users can remove their own."""
         user, tag = user_of(request), if_match(request)
         memberships.unshare_with_person(project_id, username, acting_user=user, if_match=tag)
         return Response(status=204)
-
-
-class SharedGroup(APIView):
-    """One group."""
 
     @extend_schema(
         operation_id="share_with_group",
@@ -156,9 +133,10 @@ class SharedGroup(APIView):
         responses=SharesSerializer,
         tags=["sharing"],
     )
-    @transaction.atomic  # with what the answer reads
-    def put(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Gives everybody in the group a role."""
+    @action(detail=False, methods=["put"], url_path="groups/<uuid:group_id>")
+    @transaction.atomic  # includes the reads for the answer
+    def share_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
+        """Gives all members of a group a role."""
         role = Role[parsed(SharedRoleSerializer, request.data)["role"].upper()]
         user, tag = user_of(request), if_match(request)
         return _answer(
@@ -168,15 +146,12 @@ class SharedGroup(APIView):
     @extend_schema(
         operation_id="unshare_with_group", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
     )
-    def delete(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
-        """Takes the role of the group away."""
+    @share_with_group.mapping.delete
+    def unshare_with_group(self, request: Request, project_id: UUID, group_id: UUID) -> Response:
+        """Removes the role of a group."""
         user, tag = user_of(request), if_match(request)
         memberships.unshare_with_group(project_id, group_id, acting_user=user, if_match=tag)
         return Response(status=204)
-
-
-class Links(APIView):
-    """Read-only links."""
 
     @extend_schema(
         operation_id="make_share_link",
@@ -185,24 +160,40 @@ class Links(APIView):
         responses={201: SharesSerializer},
         tags=["sharing"],
     )
-    @transaction.atomic  # with what the answer reads
-    def post(self, request: Request, project_id: UUID) -> Response:
-        """Makes a link by which anybody may read the project."""
+    @action(detail=False, methods=["post"], url_path="links")
+    @transaction.atomic  # includes the reads for the answer
+    def make_link(self, request: Request, project_id: UUID) -> Response:
+        """Makes a link with which anyone can read the project."""
         asked = parsed(MakeLinkSerializer, request.data)
         user, tag = user_of(request), if_match(request)
         return _answer(
             memberships.make_link(project_id, acting_user=user, days=asked["days"], if_match=tag), 201
         )
 
-
-class OneLink(APIView):
-    """One link."""
-
     @extend_schema(
         operation_id="revoke_share_link", parameters=[IF_MATCH], responses={204: None}, tags=["sharing"]
     )
-    def delete(self, request: Request, project_id: UUID, link_id: UUID) -> Response:
-        """Ends the link at once, also for those who opened it."""
+    @action(detail=False, methods=["delete"], url_path="links/<uuid:link_id>")
+    def revoke_link(self, request: Request, project_id: UUID, link_id: UUID) -> Response:
+        """Revokes the link immediately, also for those who have opened it."""
         user, tag = user_of(request), if_match(request)
         memberships.revoke_link(project_id, link_id, acting_user=user, if_match=tag)
         return Response(status=204)
+
+
+class Transfer(APIView):
+    """Changes the owner of a project."""
+
+    @extend_schema(
+        operation_id="transfer_project",
+        parameters=[IF_MATCH],
+        request=TransferSerializer,
+        responses=SharesSerializer,
+        tags=["sharing"],
+    )
+    @transaction.atomic  # includes the reads for the answer
+    def post(self, request: Request, project_id: UUID) -> Response:
+        """Makes an editor the owner; the previous owner becomes an editor."""
+        asked = parsed(TransferSerializer, request.data)
+        user, tag = user_of(request), if_match(request)
+        return _answer(transfer.transfer_project(project_id, asked["name"], acting_user=user, if_match=tag))

@@ -1,4 +1,4 @@
-"""Trees as text that is being written; nothing is stored."""
+"""Views that convert trees between diagram and XML; nothing is stored."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from drf_spectacular.utils import extend_schema
 from rest_framework import serializers
+from rest_framework.decorators import action
 from rest_framework.response import Response
-from rest_framework.views import APIView
 
 from backend.accounts.api.requests import parsed
+from backend.accounts.api.viewsets import ResourceViewSet
 from backend.core.limits import LIMITS
 from backend.projects.api import serializers as s
 from backend.projects.documents import checking
@@ -22,7 +23,7 @@ MAX_TEXT = LIMITS["tree_text_characters"]
 
 
 class WriteTreeSerializer(s.StrictSerializer):
-    """A diagram to be written as XML."""
+    """A diagram to convert to XML."""
 
     diagram = s.TextField(max_length=MAX_TEXT, help_text="Diagram JSON, as in trees/<TreeID>.json.")
     base = s.TextField(
@@ -38,14 +39,14 @@ class WriteTreeSerializer(s.StrictSerializer):
 
 
 class ReadTreeSerializer(s.StrictSerializer):
-    """An edited text."""
+    """An edited XML text of a tree."""
 
     xml = s.TextField(max_length=MAX_TEXT)
     diagram = s.TextField(max_length=MAX_TEXT, help_text="The diagram before the text was edited.")
 
 
 class NodeRangeSerializer(serializers.Serializer[Any]):
-    """Where a node stands in the text; offsets in UTF-16 code units, lines ending in one."""
+    """The range of a node in the text; offsets in UTF-16 code units, lines end with one unit."""
 
     node = serializers.CharField()
     start = serializers.IntegerField()
@@ -61,17 +62,14 @@ class TreeTextSerializer(serializers.Serializer[Any]):
 
 
 class ReadTreeDoneSerializer(TreeTextSerializer):
-    """The tree that a text stands for."""
+    """The tree that was read from a text."""
 
     diagram = serializers.CharField(allow_null=True, help_text="null: the text cannot be read.")
     diagnostics = s.DiagnosticSerializer(many=True)
 
 
-class TreeXml(APIView):
-    """A tree as text; who may read a project may read its trees so."""
-
-    open_to_guests = True
-    guests_post = True
+class Trees(ResourceViewSet):
+    """Conversions of trees between diagram and XML; nothing is stored."""
 
     @extend_schema(
         operation_id="write_tree_xml",
@@ -79,14 +77,12 @@ class TreeXml(APIView):
         responses=TreeTextSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
-        """Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay."""
+    # Users who may read a project may also read its trees as text: with POST, since a diagram is long.
+    @action(detail=False, methods=["post"], open_to_guests=True, guests_post=True)
+    def xml(self, request: Request) -> HttpResponseBase:
+        """Converts one diagram to BT.CPP v4 XML; comments and blanks of an earlier text are kept."""
         asked = parsed(WriteTreeSerializer, request.data)
         return checking.answered(self, request, "write_tree", Response, **asked)
-
-
-class TreeDiagram(APIView):
-    """A text as tree."""
 
     @extend_schema(
         operation_id="read_tree_xml",
@@ -94,7 +90,8 @@ class TreeDiagram(APIView):
         responses=ReadTreeDoneSerializer,
         tags=["trees"],
     )
-    def post(self, request: Request) -> HttpResponseBase:
-        """Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none."""
+    @action(detail=False, methods=["post"])
+    def diagram(self, request: Request) -> HttpResponseBase:
+        """Reads the XML of one tree; nodes keep their ids. `diagnostics` say why it cannot be read."""
         asked = parsed(ReadTreeSerializer, request.data)
         return checking.answered(self, request, "read_tree", Response, **asked)

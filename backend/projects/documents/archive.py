@@ -1,4 +1,4 @@
-"""Zips from outside, read with suspicion."""
+"""Reads zips from untrusted sources."""
 
 from __future__ import annotations
 
@@ -22,10 +22,9 @@ _JUNK: Final = ("__MACOSX/", "__pycache__/")
 
 
 def unpack(data: IO[bytes]) -> dict[str, bytes]:
-    """The files of a zip from outside, by the paths that the project will have.
+    """Returns the files of an untrusted zip, by their paths in the new project.
 
-    What counts is what comes out, not what the headers say: reading stops at the quota. One folder
-    around everything is taken off.
+    Sizes in headers are not trusted: reading stops at the quota. One folder around everything is removed.
 
     Raises:
         ArchiveError: it is no zip, or has entries that are no plain files.
@@ -39,7 +38,7 @@ def unpack(data: IO[bytes]) -> dict[str, bytes]:
         zipfile.BadZipFile,
         zlib.error,
         EOFError,
-        NotImplementedError,  # zipfile, of a compression that it does not know
+        NotImplementedError,  # zipfile raises it for an unknown compression
         RuntimeError,
         UnicodeError,
     ) as error:
@@ -105,9 +104,9 @@ class Upload(NamedTuple):
     """An imported project.
 
     Attributes:
-        files: what is in it, by path.
-        is_ours: it is a project; else the translator opens it.
-        name: what a project made of it is called, if it does not say so itself.
+        files: contents by path.
+        is_ours: whether it is a project of ours; the translator opens others.
+        name: name of the new project, if the content does not define it.
     """
 
     files: dict[str, bytes]
@@ -116,7 +115,7 @@ class Upload(NamedTuple):
 
 
 def read_upload(data: IO[bytes], filename: str) -> Upload:
-    """The files of whatever a user brings: our zip, JdeRobot's, Groot2's, or one XML.
+    """Returns the files of an upload: our zip, JdeRobot's, Groot2's, or one XML.
 
     Raises:
         ArchiveError, InvalidInputError, QuotaExceededError: as `unpack`.

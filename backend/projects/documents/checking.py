@@ -1,4 +1,4 @@
-"""Jobs about projects for the pool of processes, and the use of its answers."""
+"""Hands jobs about projects to the pool of processes, and answers requests with the results."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 UNIVERSES: Final = REPOSITORY / "executor" / "universes"
-# Of all other files a check needs to know only that they are there.
+# A check only needs to know that the other files exist.
 _CHECKED: Final = ("project.json", "trees/", "actions/", "imports/")
 
 
 def answered(
     view: APIView, request: Request, job: str, make: Callable[[Any], HttpResponseBase], **arguments: Any
 ) -> Deferred:
-    """Answers a request with what `make` makes of the result of a job.
+    """Answers a request with the response that `make` returns for the result of a job.
 
     Raises:
         BusyError: too much work waits already.
@@ -43,9 +43,9 @@ def answered(
 def reported(
     view: APIView, request: Request, response: Response, read: Callable[[], Mapping[str, bytes]]
 ) -> Deferred:
-    """Adds to a response what the translator says of the project whose files `read` fetches; never fails.
+    """Adds the translator's findings about the files that `read` returns to a response; never fails.
 
-    What it tells of is stored already: that it cannot be checked must not look as if it had not been saved.
+    The files are already saved: a failed check must not look like a failed save.
     """
 
     def finish(done: Future[Any]) -> Response:
@@ -89,7 +89,7 @@ def _accepted(result: dict[str, Any]) -> dict[str, Any]:
 
 
 def refuse(diagnostics: list[dict[str, Any]]) -> NoReturn:
-    """Raises what the translator refused as an answer with `diagnostics`."""
+    """Raises an error with the translator's `diagnostics`."""
     first = next(
         (d for d in diagnostics if d["severity"] == "error"), diagnostics[0] if diagnostics else None
     )
@@ -101,7 +101,7 @@ def refuse(diagnostics: list[dict[str, Any]]) -> NoReturn:
 
 
 def built_in_universe(files: Mapping[str, bytes], name: str) -> bytes | None:
-    """The document of a built-in universe, where the project has robots that may come with it."""
+    """Returns the document of a built-in universe, if the project has robots that may be placed in it."""
     path = UNIVERSES / f"{name}.yaml"
     has_robots = any(path.startswith("robots/") for path in files)
     return path.read_bytes() if has_robots and path in UNIVERSES.glob("*.yaml") else None

@@ -1,7 +1,7 @@
-"""All that is kept of one user, as they may take it away.
+"""The download of all data of one user.
 
-A zip with `account.json`, and each project of theirs as the zip that export makes. It is made one project
-after the other, in a file: neither memory nor a thread holds all of it.
+It is a zip with `account.json`, and each of the user's projects as the zip of an export. It is made in a
+file, one project after the other: neither memory nor a thread holds all of it.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def write_archive(user: User, file: IO[bytes]) -> None:
-    """Writes the zip, waiting for each part of it."""
+    """Writes the zip; waits for each part."""
     packing = _Packing(user, file)
     while (project := packing.next()) is not None:
         packing.add(project, zips.pack(queries.contents(project)))
@@ -44,7 +44,7 @@ def write_archive(user: User, file: IO[bytes]) -> None:
 def answer_with_archive(
     view: APIView, request: Request, user: User, headers: dict[str, str]
 ) -> HttpResponseBase:
-    """Answers with the zip; workers pack the projects, for which no thread waits.
+    """Answers with the zip; workers pack the projects without blocking a thread.
 
     Raises:
         AlreadyThereError: one is being made for this user.
@@ -104,7 +104,7 @@ class _Packing:
         self._left: deque[UUID] = deque(rows.values_list("id", flat=True))
 
     def next(self) -> Project | None:
-        """The project that comes now; those that were removed meanwhile are left out."""
+        """Returns the next project; skips those that were removed meanwhile."""
         while self._left:
             project = Project.objects.filter(id=self._left.popleft()).first()
             if project is not None:
@@ -112,16 +112,16 @@ class _Packing:
         return None
 
     def add(self, project: Project, packed: bytes) -> None:
-        """Adds a project that is packed, and is not made smaller by packing it again."""
+        """Adds a packed project without compressing it again."""
         place = "deleted" if project.deleted_at else "projects"
         self._zip.writestr(f"{place}/{project.name} ({project.id}).zip", packed)
 
     def end(self) -> None:
-        """Writes what makes it a zip."""
+        """Writes the rest of the zip."""
         self._zip.close()
 
     def give_up(self) -> None:
-        """Leaves nothing of it."""
+        """Removes the unfinished file."""
         with suppress(Exception):  # the disk may be full
             self._zip.close()
         self._file.close()

@@ -1,4 +1,4 @@
-"""Projects that new ones start from: the folders of `examples/`, and an empty one."""
+"""Templates of new projects: the folders of `examples/`, and an empty one."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Template:
 
 
 def templates() -> list[Template]:
-    """The empty project first, then the examples by name."""
+    """Returns the empty project first, then the examples by name."""
     folder = environment().templates_dir
     found = (
         sorted(path.name for path in folder.iterdir() if (path / MANIFEST).is_file())
@@ -40,7 +40,7 @@ def templates() -> list[Template]:
 
 
 def files_of(template_id: str) -> dict[str, bytes]:
-    """The files of a new project of this template.
+    """Returns the files of a new project with this template.
 
     Raises:
         InvalidInputError: there is no such template; the hint lists those that exist.

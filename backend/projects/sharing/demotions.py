@@ -1,4 +1,4 @@
-"""Notices when somebody's role in a project ends or becomes lower, by whatever way."""
+"""Sends notices when a user's role in a project ends or becomes lower, whatever the cause."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from backend.projects.signals import project_deleted
 
 
 def watch_roles() -> None:
-    """Called when the apps are ready."""
+    """Connects the receivers; called when the apps are ready."""
     for row in (Membership, GroupShare):
         post_delete.connect(_of_share, sender=row, dispatch_uid=f"lost {row.__name__}")
         post_save.connect(_of_share, sender=row, dispatch_uid=f"changed {row.__name__}")

@@ -1,4 +1,4 @@
-"""Writes to who may see and change a project. For its owner alone."""
+"""Writes to the members of a project, by its owner alone."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ CHANGED = "Someone changed meanwhile with whom this project is shared."
 
 
 def shares(project: Project) -> dict[str, Any]:
-    """With whom a project is shared, and by which links."""
+    """Returns the people, groups and links that a project is shared with."""
     people = Membership.objects.filter(project=project).select_related("user").order_by("user__username")
     classes = GroupShare.objects.filter(project=project).select_related("group").order_by("group__name")
     ids = ShareLink.objects.filter(project=project, revoked_at=None).values_list("id", flat=True)
@@ -54,12 +54,12 @@ def _link(row: ShareLink) -> dict[str, Any]:
 
 
 def etag(document: dict[str, Any]) -> str:
-    """Changes with everything that `shares` shows."""
+    """Returns an ETag that changes with everything that `shares` returns."""
     return f'"{hashlib.sha256(json.dumps(document, sort_keys=True).encode()).hexdigest()[:32]}"'
 
 
 def owned(project_id: UUID, user: User, if_match: str) -> Project:
-    """The project, locked, for its owner; `if_match` is the ETag of what `shares` shows."""
+    """Returns the project, locked, if the user is its owner; `if_match` is the ETag of `shares`."""
     project = queries.project(project_id, user=user, need=Need.MANAGE, lock=True)
     if if_match:
         matches(if_match, etag(shares(project)), CHANGED)
@@ -70,7 +70,7 @@ def owned(project_id: UUID, user: User, if_match: str) -> Project:
 def share_with_person(
     project_id: UUID, name: str, role: Role, *, acting_user: User, if_match: str = ""
 ) -> Project:
-    """Gives someone a role, by their name or e-mail address.
+    """Gives a person a role, by their name or e-mail address.
 
     Raises:
         NotFoundError: there is no such account.
@@ -95,7 +95,7 @@ def share_with_person(
 
 @transaction.atomic
 def unshare_with_person(project_id: UUID, name: str, *, acting_user: User, if_match: str = "") -> Project:
-    """Takes a role away; everybody may give up their own.
+    """Removes the role of a person; users can remove their own.
 
     Raises:
         NotFoundError: the project is not shared with them.
@@ -114,7 +114,7 @@ def unshare_with_person(project_id: UUID, name: str, *, acting_user: User, if_ma
 def share_with_group(
     project_id: UUID, group_id: UUID, role: Role, *, acting_user: User, if_match: str = ""
 ) -> Project:
-    """Gives a role to everybody in a group that the user manages or is in."""
+    """Gives a role to all members of a group that the user manages or is in."""
     project = owned(project_id, acting_user, if_match)
     found = groups.group(group_id, user=acting_user)
     GroupShare.objects.update_or_create(
@@ -129,7 +129,7 @@ def share_with_group(
 
 @transaction.atomic
 def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
-    """Takes the role of a group away."""
+    """Removes the role of a group."""
     project = owned(project_id, acting_user, if_match)
     if not GroupShare.objects.filter(project=project, group=group_id).delete()[0]:
         raise NotFoundError("The project is not shared with this group.")
@@ -139,7 +139,7 @@ def unshare_with_group(project_id: UUID, group_id: UUID, *, acting_user: User, i
 
 @transaction.atomic
 def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match: str = "") -> Project:
-    """Makes a link by which anybody may read the project; without end, or for some days."""
+    """Makes a link with which anyone can read the project, without limit or for some days."""
     project = owned(project_id, acting_user, if_match)
     now = timezone.now()
     made = ShareLink.objects.create(
@@ -154,7 +154,7 @@ def make_link(project_id: UUID, *, acting_user: User, days: int | None, if_match
 
 @transaction.atomic
 def revoke_link(project_id: UUID, link_id: UUID, *, acting_user: User, if_match: str = "") -> Project:
-    """Ends a link, also for those who opened it."""
+    """Revokes a link, also for those who have opened it."""
     project = owned(project_id, acting_user, if_match)
     gone = ShareLink.objects.filter(project=project, id=link_id, revoked_at=None).update(
         revoked_at=timezone.now()

@@ -1,4 +1,4 @@
-"""A project gets another owner. The one before stays in it as an editor."""
+"""Changes the owner of a project; the previous one becomes an editor."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ if TYPE_CHECKING:
 
 @transaction.atomic
 def transfer_project(project_id: UUID, name: str, *, acting_user: User, if_match: str = "") -> Project:
-    """Gives a project to one of its editors, so that nobody is burdened with what they never saw.
+    """Makes one of a project's editors its owner; only editors, so that the new owner knows the project.
 
-    It counts towards the room of its new owner, and gets a number where they have one of the same name.
+    The project counts towards the new owner's quota, and gets a number if they have one of the same name.
 
     Raises:
-        InvalidInputError: they are no editor of the project.
-        QuotaExceededError: they have no room for it.
+        InvalidInputError: the person is not an editor of the project.
+        QuotaExceededError: the new owner's quota does not suffice.
     """
     project = memberships.owned(project_id, acting_user, if_match)
     person = user_named(name)

@@ -23,7 +23,7 @@ CONTROL_SOCKET: Final = "/run/bt-studio-control/gate.sock"
 
 
 def main() -> int:
-    """The command line; returns the exit status."""
+    """Runs the command line; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m backend.sessions.gate", description=__doc__)
     parser.add_argument("--check", action="store_true", help="only goes through the gate once")
     doors = Path(os.environ.get("BT_STUDIO_GATE_FOLDER") or DOORS_FOLDER)

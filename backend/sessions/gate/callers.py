@@ -1,4 +1,4 @@
-"""Connections that have not yet said what they want: how many there may be, and which of them give way."""
+"""Connections that have not yet shown a token: their limits, and which of them are closed first."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class Caller:
 
     Attributes:
         door: the name of the door where it came; empty for the keeper's own entrance.
-        deadline_s: until when it must have said everything.
-        heard: what it has said.
-        descriptors: what it has sent along, which is closed if nobody takes it.
+        deadline_s: the time by which its request must be complete.
+        heard: the bytes received so far.
+        descriptors: the descriptors received; closed if nobody takes them.
     """
 
     connection: socket.socket
@@ -29,11 +29,11 @@ class Caller:
 
 
 class Callers:
-    """Bounds them at each door and in all; the oldest give way.
+    """Limits the callers at each door and in total; the oldest are closed first.
 
     Args:
-        per_door: so many at one door.
-        in_all: so many at all doors.
+        per_door: the limit at one door.
+        in_all: the limit at all doors.
     """
 
     def __init__(self, *, per_door: int, in_all: int) -> None:
@@ -53,7 +53,7 @@ class Callers:
             yield from waiting
 
     def add(self, caller: Caller) -> list[Caller]:
-        """Admits a connection; returns those that give way to it, which belong to nobody any more."""
+        """Admits a connection; returns the connections that the caller must close for it."""
         waiting = self._by_door.setdefault(caller.door, {})
         gone = []
         if len(waiting) >= self._per_door:
@@ -67,7 +67,7 @@ class Callers:
         return gone
 
     def discard(self, caller: Caller) -> None:
-        """Forgets a connection; one that is not there is no error."""
+        """Forgets a connection, if it is known."""
         waiting = self._by_door.get(caller.door, {})
         if caller not in waiting:
             return
@@ -77,14 +77,14 @@ class Callers:
             del self._by_door[caller.door]
 
     def first_to_go(self) -> Caller | None:
-        """The oldest at the door where most wait: a flood at one door costs the other doors nothing."""
+        """Returns the oldest connection at the fullest door: a flood there does not affect others."""
         fullest = max(self._by_door.values(), key=len, default=None)
         return next(iter(fullest)) if fullest else None
 
     def overdue(self, now_s: float) -> list[Caller]:
-        """Those whose time is up."""
+        """Returns the connections whose time is over."""
         return [caller for caller in self if caller.deadline_s <= now_s]
 
     def at(self, door: str) -> list[Caller]:
-        """Those at one door."""
+        """Returns the connections at one door."""
         return list(self._by_door.get(door, {}))

@@ -22,12 +22,12 @@ RETRY_S: Final = 0.1
 class Door:
     """One session's door.
 
-    A gate that is started again knows no doors. The door is then opened again, under the same name, since
-    the session has been given that name.
+    A restarted gate knows no doors. The door is then opened again, with the same name, since the session has
+    that name.
 
     Args:
         control: where the gate listens for the keeper.
-        listener: what the session is handed; the caller keeps it open until the door is closed.
+        listener: the socket for the session; the caller keeps it open until the door is closed.
     """
 
     def __init__(self, control: Path, listener: socket.socket, session: str, token: str) -> None:
@@ -41,7 +41,7 @@ class Door:
 
     @property
     def path(self) -> str:
-        """Where the door is, below the folder of the doors."""
+        """Returns the path of the door in the folder of the doors."""
         return f"{self.name}/{DOOR_SOCKET}"
 
     def __enter__(self) -> Self:
@@ -51,7 +51,7 @@ class Door:
         self.close()
 
     def open(self, timeout_s: float = OPEN_TIMEOUT_S) -> Self:
-        """Returns when sessions can come; a gate that is being started is waited for.
+        """Opens the door; waits for a gate that is starting.
 
         Raises:
             GateError: it does not answer, or refuses.
@@ -71,7 +71,7 @@ class Door:
                 return self
 
     def wait(self, timeout_s: float) -> bool:
-        """Whether a session has fetched its socket, by the end of this time."""
+        """Whether a session has fetched its socket before this time."""
         deadline_s = time.monotonic() + timeout_s
         try:
             connection = self._connection or self._connect(timeout_s)
@@ -84,7 +84,7 @@ class Door:
             return False
 
     def close(self) -> None:
-        """Closes the door; closing twice is no error."""
+        """Closes the door; may be called twice."""
         if self._connection is not None:
             self._connection.close()
         self._connection = None

@@ -1,4 +1,4 @@
-"""The doors: `<32 random hex>/gate.sock`, a folder for each session that is on its way.
+"""The doors: `<32 random hex>/gate.sock`, a folder for each session that is starting.
 
 Every session sees the whole volume, since Docker before 25 cannot mount a part of one. The root may be
 entered but not read (0711), so that a door is found by those who were given its name and by nobody else.
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 DOOR_NAME: Final = re.compile(r"[0-9a-f]{32}")
 DOOR_SOCKET: Final = "gate.sock"
 ENTER_ONLY: Final = 0o711
-EVERYBODY: Final = 0o666  # anyone who finds the folder; it is mounted where it is meant to be seen
+EVERYBODY: Final = 0o666  # any user: the folder is mounted only where it may be seen
 BACKLOG: Final = 128
 
 
@@ -44,7 +44,7 @@ class Doors:
         except OSError as error:
             hint = "The volume must belong to the user that the gate runs as: remove it and start again."
             raise GateError("gate_folder", f"{root} cannot be used: {error}.", hint) from error
-        # Doors do not outlive their gate: the keeper has those opened again that it still needs.
+        # Doors do not outlive their gate: the keeper opens those again that it still needs.
         for left in root.iterdir():
             if DOOR_NAME.fullmatch(left.name):
                 shutil.rmtree(left, ignore_errors=True)
@@ -53,7 +53,7 @@ class Doors:
         """Makes a door; returns the socket that listens there.
 
         Raises:
-            OSError: there is such a door, or no room or descriptor for another.
+            OSError: the door exists already, or there is no space or descriptor for it.
         """
         folder = self._root / name
         folder.mkdir(mode=ENTER_ONLY)
@@ -63,20 +63,20 @@ class Doors:
             self.remove(name)
             raise
         listener.settimeout(0)
-        folder.chmod(ENTER_ONLY)  # the umask had a say in it
+        folder.chmod(ENTER_ONLY)  # the umask has restricted the mode
         return listener
 
     def remove(self, name: str) -> None:
-        """Removes a door; one that is gone is no error."""
+        """Removes a door, if it exists."""
         shutil.rmtree(self._root / name, ignore_errors=True)
 
     def close(self) -> None:
-        """Leaves the folder to another gate."""
+        """Releases the folder for another gate."""
         os.close(self._lock)
 
 
 def listen_at(path: Path, mode: int = EVERYBODY) -> socket.socket:
-    """A socket that listens at a path, in place of an older one."""
+    """Returns a socket that listens at a path; replaces an older one."""
     path.unlink(missing_ok=True)
     listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:

@@ -1,4 +1,4 @@
-"""The health check: it has a door opened as the keeper has, and goes through it as a session does."""
+"""The health check: opens a door as the keeper does, and uses it as a session does."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ TIMEOUT_S: Final = 4.0
 
 
 def probe(control: Path, doors: Path, timeout_s: float = TIMEOUT_S) -> None:
-    """Returns when a socket has come through the gate.
+    """Returns when a socket was passed through the gate.
 
     Raises:
         GateError: the gate does not answer or refuses.
-        OSError: its door does not, or hands out something else.
+        OSError: the door does not answer, or passes something else.
     """
     token = secrets.token_hex(32)
     ours, handed = socket.socketpair()

@@ -1,4 +1,4 @@
-"""The loop of the gate: one thread, and nothing that a connection does can end it.
+"""The loop of the gate: one thread, which no connection can end.
 
 The keeper's entrance takes one line of JSON and a listening socket: `{"door", "session", "token"}`. The
 answer is `open`, and `taken` when a session has fetched the socket; the door is open for as long as the
@@ -43,7 +43,7 @@ REFUSALS: Final = {
 }
 MAX_LINE_BYTES: Final = 4096
 ACCEPTS_A_ROUND: Final = 32
-ONLY_KEEPER: Final = 0o660  # by the group of the folder
+ONLY_KEEPER: Final = 0o660  # the group of the folder may connect
 EXHAUSTED: Final = frozenset({errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM})
 BACK_OFF_S: Final = 0.05
 LOG_EVERY_S: Final = 10.0
@@ -55,11 +55,11 @@ class Limits:
     """The limits of the gate. All doors and callers together take fewer than 1,024 descriptors.
 
     Attributes:
-        doors: sessions on their way at once; each takes three descriptors.
+        doors: sessions that start at the same time; each takes three descriptors.
         per_door: connections at a door that have shown no token yet.
         callers: the same at all doors.
-        hand_over_s: until when a connection must have shown its token.
-        age_s: until when a session must have come.
+        hand_over_s: the time in which a connection must show its token.
+        age_s: the time in which a session must connect.
     """
 
     doors: int = 256
@@ -85,7 +85,7 @@ class GateServer:
 
     Args:
         doors: the folder of the doors.
-        control: where the keeper comes; only keeper and gate see the folder.
+        control: the path of the keeper's entrance; only keeper and gate see its folder.
     """
 
     def __init__(
@@ -121,17 +121,17 @@ class GateServer:
         self._close()
 
     def end(self) -> None:
-        """Ends `serve`; may be called by a signal or another thread."""
+        """Makes `serve` return; may be called by a signal handler or another thread."""
         self._is_ended = True
         with suppress(OSError):  # it has ended
             self._waker.send(b"e")
 
     def step(self, timeout_s: float) -> None:
-        """One round: everything that is ready, then everything whose time is up."""
+        """Handles everything that is ready, then everything whose time is over."""
         for key, _ in self._selector.select(timeout_s):
             try:
                 key.data()
-            except Exception:  # the loop never ends by what a connection did
+            except Exception:  # no connection may end the loop
                 log.exception("a connection failed")
         now_s = self._clock()
         for caller in self._callers.overdue(now_s):
@@ -144,7 +144,7 @@ class GateServer:
             self._dropped.clear()
             self._logged_s = now_s
         if self._is_exhausted:
-            # Nobody waits who could give way, so all that helps is time.
+            # No connection is left that could be closed: only waiting helps.
             self._is_exhausted = False
             time.sleep(BACK_OFF_S)
 
@@ -153,7 +153,7 @@ class GateServer:
 
     def _accept(self, listener: socket.socket, door: str) -> None:
         for _ in range(ACCEPTS_A_ROUND):
-            if listener.fileno() < 0:  # the last one took what the door was for
+            if listener.fileno() < 0:  # the last caller has fetched the door's socket
                 return
             try:
                 connection, _ = listener.accept()
@@ -176,7 +176,7 @@ class GateServer:
             self._drop(caller, "no room")
             self._make_room(error)
             return
-        hear(caller)  # an honest one has said everything by now, and so is never the one that gives way
+        hear(caller)  # an honest caller has sent its request by now, and so is never closed for another one
 
     def _make_room(self, error: OSError) -> None:
         """Called when a descriptor was to be had and was not."""
@@ -189,7 +189,7 @@ class GateServer:
             self._drop(victim, "out of descriptors")
 
     def _hear(self, caller: Caller) -> None:
-        if caller not in self._callers:  # ended in this very round
+        if caller not in self._callers:  # closed earlier in this round
             return
         try:
             data = caller.connection.recv(MAX_LINE_BYTES)
@@ -229,7 +229,7 @@ class GateServer:
         caller.descriptors += descriptors
         caller.heard += data
         if b"\n" in caller.heard:
-            self._callers.discard(caller)  # it waits no more, and gives way to nobody
+            self._callers.discard(caller)  # it no longer waits, and cannot be closed for another one
             answer = self._open(caller)
             self._say(caller.connection, answer)
             if answer != OPEN:
@@ -244,7 +244,7 @@ class GateServer:
             return b"bad\n"
         if len(self._doors) >= self._limits.doors:
             return b"full\n"
-        if len(caller.descriptors) != 1:  # the kernel leaves it out when we have none left
+        if len(caller.descriptors) != 1:  # the kernel omits the descriptor when this process has none left
             self._make_room(OSError(errno.EMFILE, "no descriptor"))
             return b"failed\n"
         try:
@@ -259,7 +259,7 @@ class GateServer:
         token = said["token"].encode()
         door = _Door(said["door"], said["session"], token, listener, handed, caller.connection, closes_s)
         self._doors[door.name] = door
-        # It says no more: what comes is its end.
+        # The keeper sends nothing more: the next event is the end of its connection.
         self._selector.modify(caller.connection, selectors.EVENT_READ, partial(self._close_door, door))
         return OPEN
 

@@ -32,7 +32,7 @@ TIDY_EVERY_S: Final = 5
 
 
 def main() -> int:
-    """The command line; returns the exit status."""
+    """Runs the command line; returns the exit status."""
     parser = argparse.ArgumentParser(prog="python -m backend.sessions.keeper", description=__doc__)
     parser.add_argument("--check", action="store_true", help="only tells whether the keeper works")
     folder = Path(os.environ.get("BT_STUDIO_KEEPER_FOLDER") or KEEPER_FOLDER)

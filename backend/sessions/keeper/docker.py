@@ -36,7 +36,7 @@ class Docker:
         return found if isinstance(found, dict) else None
 
     def list(self, labels: dict[str, str]) -> list[dict[str, Any]]:
-        """All containers, also ended ones, with these labels."""
+        """Lists all containers with these labels, also ended ones."""
         filters = json.dumps({"label": [f"{key}={value}" for key, value in labels.items()]})
         found = self._call("GET", "/containers/json?" + urlencode({"all": "1", "filters": filters}))
         return list(found)
@@ -48,22 +48,22 @@ class Docker:
         return int(stats.get("pids_stats", {}).get("current") or 0)
 
     def kill(self, container: str) -> None:
-        """Kills everything in a container at once; one that has ended is no error."""
+        """Kills everything in a container immediately, if it runs."""
         status, data = self._ask("POST", f"/containers/{quote(container)}/kill")
         if status >= 400 and status not in {NOT_FOUND, NOT_RUNNING}:
             raise KeeperError(502, "docker_failed", f"Docker refused: {data.decode(errors='replace')}.")
 
     def stop(self, container: str, timeout_s: float) -> None:
-        """Asks the container to end, and kills it after the time is up."""
+        """Asks the container to end, and kills it after a timeout."""
         path = f"/containers/{quote(container)}/stop?t={max(1, round(timeout_s))}"
         self._call("POST", path, missing=True, timeout_s=timeout_s + 30)
 
     def remove(self, container: str) -> None:
-        """Removes a container, running or not; one that is gone is no error."""
+        """Removes a container, if it exists."""
         self._call("DELETE", f"/containers/{quote(container)}?force=1&v=1", missing=True)
 
     def log(self, container: str, lines: int) -> str:
-        """The last lines that a container printed."""
+        """Returns the last lines that a container printed."""
         path = f"/containers/{quote(container)}/logs?stdout=1&stderr=1&tail={lines}"
         _, data = self._ask("GET", path)
         return _without_headers(data).decode(errors="replace")

@@ -21,7 +21,7 @@ class Gate:
     Args:
         control: where the gate listens for the keeper.
         socket_folder: where the sockets of the sessions are; only the web server sees it.
-        patience_s: so long a gate that does not answer is waited for, since it may be starting again.
+        patience_s: how long to wait for a gate that does not answer, since it may be restarting.
     """
 
     def __init__(self, control: Path, socket_folder: Path, *, patience_s: float = OPEN_TIMEOUT_S) -> None:
@@ -31,12 +31,12 @@ class Gate:
         socket_folder.mkdir(parents=True, exist_ok=True)
 
     def path(self, session_id: str) -> Path:
-        """Where a session listens."""
+        """Returns the path where a session listens."""
         return self._socket_folder / f"{session_id}.sock"
 
     @contextmanager
     def door(self, session_id: str, token: str) -> Iterator[Door]:
-        """Makes the socket of a session, and keeps its door open until it was fetched or the block ends.
+        """Makes the socket of a session, and keeps its door open until it was fetched.
 
         Raises:
             KeeperError: the gate does not answer, or refuses.
@@ -50,5 +50,5 @@ class Gate:
             yield door
 
     def remove(self, session_id: str) -> None:
-        """Removes what is left of a session that has ended."""
+        """Removes the socket of a session that has ended."""
         self.path(session_id).unlink(missing_ok=True)

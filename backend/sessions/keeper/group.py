@@ -1,4 +1,4 @@
-"""Whether the keeper may use Docker's socket: it is no root, but one of the socket's group."""
+"""Checks whether the keeper may use Docker's socket: it is not root, but in the socket's group."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rights of an executor's and a tools' container. The keeper's own settings decide them all."""
+"""The rights of the containers of executors and tools; only the keeper's own settings decide them."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Limits:
     hours: float = 12
 
     def overridden(self, environment: Mapping[str, str], prefix: str = PREFIX) -> Limits:
-        """These limits, but for those that the environment sets.
+        """Returns these limits, with those that the environment overrides.
 
         Raises:
             ValueError: a variable is no positive number; the text names it.
@@ -74,7 +74,7 @@ TOOLS_LIMITS: Final = Limits(cpus=1, memory_mb=1536, pids=128, disk_mb=128, shm_
 
 @lru_cache(maxsize=1)
 def seccomp_profile() -> str:
-    """The system calls that a container may make.
+    """Returns the system calls that a container may make.
 
     Those that Docker's own profile of 2025 allows a program without capabilities, but for what no robot
     needs: asynchronous I/O in the kernel (`io_uring`, `io_setup`), tracing of others, 32-bit programs, and
@@ -87,12 +87,12 @@ def seccomp_profile() -> str:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """The way that this keeper makes containers.
+    """The settings with which this keeper makes containers.
 
     Attributes:
         image: the executor's image.
         gate_source: the volume, or the folder of the host, with the gate's doors.
-        stack: tells the containers of this keeper from those of another.
+        stack: distinguishes the containers of this keeper from those of another.
         grace_s: how long a session lives without clients.
         tools_grace_s: how long a user's tools stay when no editor is open.
         processors: the numbers of the processors on which containers run; without any, Docker's choice.
@@ -108,15 +108,15 @@ class Plan:
     processors: tuple[int, ...] = ()
 
     def container_name(self, session_id: str) -> str:
-        """The name of a session's container."""
+        """Returns the name of a session's container."""
         return f"{self.stack}-session-{session_id}"
 
     def tools_name(self, tools_id: str) -> str:
-        """The name of the container with a user's tools."""
+        """Returns the name of the container with a user's tools."""
         return f"{self.stack}-tools-{tools_id}"
 
     def container(self, session_id: str, token: str, domain_id: int, door: str) -> dict[str, Any]:
-        """The container of a session, as Docker's API takes it; `door` is where it is handed its socket."""
+        """Returns the container of a session for Docker's API; at `door` it receives its socket."""
         limits = self.limits
         command = [
             *("--host", "127.0.0.1", "--port", str(PORT), "--token-env", TOKEN_VARIABLE),
@@ -133,7 +133,7 @@ class Plan:
         return made | {"Cmd": command, "Env": made["Env"] + environment}
 
     def tools(self, tools_id: str, token: str, door: str) -> dict[str, Any]:
-        """The container that reads one user's files for the editor."""
+        """Returns the container that reads one user's files for the editor."""
         command = [
             *("--gate", f"{GATE_FOLDER}/{door}", "--session", tools_id),
             *("--token-env", TOKEN_VARIABLE, "--grace", str(self.tools_grace_s)),
@@ -149,7 +149,7 @@ class Plan:
             "User": USER,
             "Env": [f"{TOKEN_VARIABLE}={token}"],
             "Labels": {STACK_LABEL: self.stack} | labels,
-            "Healthcheck": {"Test": ["NONE"]},  # the keeper itself looks
+            "Healthcheck": {"Test": ["NONE"]},  # the keeper itself checks the number of processes
             "HostConfig": {
                 "NetworkMode": "none",
                 "ReadonlyRootfs": True,
@@ -184,7 +184,7 @@ class Plan:
 
 
 def read_plan(environment: Mapping[str, str] = os.environ, *, gate_source: str, stack: str) -> Plan:
-    """The plan that the environment describes.
+    """Returns the plan that the environment describes.
 
     Raises:
         ValueError: a variable has a value that cannot be used; the text names it.

@@ -56,14 +56,14 @@ class KeeperServer(socketserver.ThreadingUnixStreamServer):
         self.socket = listen_at(path)
 
     def verify_request(self, *_: object) -> bool:
-        """Whether there is a place for one more request."""
+        """Whether one more request may be handled."""
         if self._places.acquire(blocking=False):
             return True
         log.warning("%d requests at once are too many", MAX_REQUESTS)
         return False
 
     def process_request(self, *request: Any) -> None:
-        """Gives one request a thread."""
+        """Handles one request on its own thread."""
         try:
             super().process_request(*request)
         except BaseException:
@@ -71,7 +71,7 @@ class KeeperServer(socketserver.ThreadingUnixStreamServer):
             raise
 
     def process_request_thread(self, *request: Any) -> None:
-        """Answers one request in a thread of its own."""
+        """Answers one request."""
         try:
             super().process_request_thread(*request)
         finally:
@@ -171,11 +171,11 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(data)
 
     def address_string(self) -> str:
-        """A unix socket's client has no address."""
+        """Returns an empty name: clients of a unix socket have no address."""
         return "web"
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002 - the base class's name
-        """Requests are no news."""
+        """Does nothing: requests are not logged."""
 
 
 def _names(body: dict[str, Any], what: str) -> bool:

@@ -1,4 +1,4 @@
-"""Starts, watches and ends the executors' containers. All that it knows it asks Docker for."""
+"""Starts, watches and ends the executors' containers. It stores nothing, but asks Docker each time."""
 
 from __future__ import annotations
 
@@ -74,10 +74,10 @@ class Keeper:
         return {"socket": str(self._gate.path(session_id))}
 
     def look(self, session_id: str) -> dict[str, Any]:
-        """Whether an executor runs, and how it ended."""
+        """Returns whether an executor runs, and how it ended."""
         found = self._docker.inspect(self._plan.container_name(session_id))
         if found is None:
-            # A caller that asks while another clears up gets the same answer.
+            # A request during the clean-up of another one gets the same answer.
             reason = self._reasons.get(session_id, "There is no executor of this session.")
             return {"running": False, "status": None, "reason": reason}
         state = found["State"]
@@ -89,7 +89,7 @@ class Keeper:
         return {"running": False, "status": int(state["ExitCode"]), "reason": reason}
 
     def list(self) -> list[dict[str, Any]]:
-        """Every executor of this stack."""
+        """Lists every executor of this stack."""
         return [
             {
                 "session": one["Labels"][SESSION_LABEL],
@@ -101,7 +101,7 @@ class Keeper:
         ]
 
     def stop(self, session_id: str, timeout_s: float) -> None:
-        """Ends an executor and removes its container; ending twice is no error."""
+        """Ends an executor and removes its container; may be called twice."""
         ended = self.look(session_id)
         if not ended["running"] and ended["status"] is not None and ended["reason"]:
             self._remember(session_id, ended["reason"])
@@ -119,9 +119,9 @@ class Keeper:
             self._reasons.pop(next(iter(self._reasons)))
 
     def end_crowded(self) -> None:
-        """Kills what has had as many processes as it may at this look and the last.
+        """Kills containers that had the largest number of processes at this call and the last one.
 
-        Inside, a storm of processes leaves its manager no time to end it.
+        In such a storm of processes, the manager inside has no time to end it.
         """
         crowded = set()
         for one in self.list():
@@ -142,7 +142,7 @@ class Keeper:
         self._crowded = crowded
 
     def tidy(self, now_s: float) -> None:
-        """Ends what has run for too long or can be reached by nobody; removes what ended long ago."""
+        """Ends containers that ran for too long or cannot be reached; removes old ones."""
         oldest_s = now_s - self._plan.limits.hours * 3600
         for one in self.list():
             try:
@@ -202,7 +202,7 @@ def bring_up(  # noqa: PLR0913, PLR0917 - what a container is, and what it shows
 
 
 def ended_at(state: dict[str, Any]) -> float:
-    """When a container ended, in seconds since the epoch; Docker writes nanoseconds."""
+    """Returns when a container ended, in seconds since the epoch; Docker writes nanoseconds."""
     text = str(state.get("FinishedAt", ""))[:19]
     try:
         return datetime.fromisoformat(text).replace(tzinfo=UTC).timestamp()

@@ -1,7 +1,7 @@
-"""The containers with users' tools: one for each user with an open editor, made when first asked for.
+"""The containers with users' tools: one for each user with an open editor, made at the first request.
 
-Nothing in them is missed. They end by themselves when no editor is open for a while, and a web server that
-finds nobody at the socket asks again.
+They hold no data. They end by themselves when no editor is open for a while, and a web server that finds the
+socket closed requests them again.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ class ToolsKeeper:
         self._changed = threading.Condition()
 
     def open(self, tools_id: str, token: str, timeout_s: float) -> dict[str, Any]:
-        """Returns where a user's tools listen, and starts them if they do not.
+        """Returns the path where a user's tools listen; starts them if they do not run.
 
         Raises:
             KeeperError: the host is full, or they did not start. Then nothing is left of them.
         """
         name = self._plan.tools_name(tools_id)
         with self._changed:
-            # Two pages of one user open at once.
+            # Two pages of one user open at the same time.
             self._changed.wait_for(lambda: tools_id not in self._opening)
             if self._runs(name):
                 return {"socket": str(self._gate.path(tools_id))}
@@ -70,7 +70,7 @@ class ToolsKeeper:
         return {"socket": str(self._gate.path(tools_id))}
 
     def tidy(self, now_s: float) -> None:
-        """Removes what has ended, and ends what has run for too long."""
+        """Removes tools that have ended, and ends those that ran for too long."""
         oldest_s = now_s - self._plan.tools_limits.hours * 3600
         for one in self._list():
             tools_id = one["tools"]

@@ -1,4 +1,4 @@
-"""HTTP over a unix socket, as Docker and the keeper speak it."""
+"""HTTP over a unix socket, for Docker and the keeper."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class UnixHTTPConnection(http.client.HTTPConnection):
         self._timeout_s = timeout_s
 
     def connect(self) -> None:
-        """Called by the base class."""
+        """Connects; called by the base class."""
         self.sock = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self.sock.settimeout(self._timeout_s)
         self.sock.connect(self._path)
@@ -37,7 +37,7 @@ def ask(
     try:
         data = None if body is None else json.dumps(body).encode()
         headers = {} if body is None else {"Content-Type": "application/json"}
-        with suppress(BrokenPipeError):  # who refuses a request may answer before all of it is read
+        with suppress(BrokenPipeError):  # a refusal may come before the request is read
             connection.request(method, target, data, headers)
         response = connection.getresponse()
         return response.status, response.read()
@@ -46,7 +46,7 @@ def ask(
 
 
 def read_json(data: bytes) -> Any:
-    """The JSON of an answer; None where it is empty or none."""
+    """Returns the JSON of an answer; None if it is empty or not JSON."""
     try:
         return json.loads(data) if data else None
     except ValueError:

@@ -1,8 +1,8 @@
-"""The contract between sessions and whatever runs their executors.
+"""The contract between sessions and the launchers that run their executors.
 
-A launcher starts one executor manager for a session, tells whether it runs, and ends it. It keeps
-nothing that it could not lose: all it needs to find an executor again is in the *state* that `start`
-returns, a JSON object that the caller stores and hands back, also after a restart of the web server.
+A launcher starts one executor manager for a session, tells whether it runs, and ends it. It stores nothing:
+all it needs to find an executor again is in the *state* that `start` returns, a JSON object that the caller
+stores and hands back, also after a restart of the web server.
 
     start(spec)      blocks until the manager listens; returns where, and the state. On failure it
                      raises LaunchError, and leaves nothing running.
@@ -47,14 +47,14 @@ class Spec:
 
 @dataclass(frozen=True, slots=True)
 class Started:
-    """A manager that listens at `address` (host:port), and what finds it again."""
+    """A manager that listens at `address` (host:port), and the state with which it is found again."""
 
     address: str
     state: dict[str, Any]
 
 
 class Launcher:
-    """See the module for what each method promises."""
+    """The interface of launchers; the module describes what each method must do."""
 
     name: ClassVar[str] = ""
     survives_server: ClassVar[bool] = False
@@ -88,9 +88,9 @@ class Launcher:
         raise LaunchError("Without containers there are none for users' files.")
 
     def running(self) -> list[str]:
-        """Names the sessions whose executors run."""
+        """Returns the ids of the sessions whose executors run."""
         return []
 
     def state_of(self, session_id: str) -> dict[str, Any]:
-        """Makes the state of a session from its id."""
+        """Returns the state of a session by its id."""
         return {}

@@ -24,7 +24,7 @@ LOOK_TIMEOUT_S: Final = 5.0
 
 
 class DockerLauncher(Launcher):
-    """Asks the keeper.
+    """Starts and ends executors through the keeper.
 
     Args:
         folder: shared with the keeper; holds its socket and those of the sessions.
@@ -49,14 +49,14 @@ class DockerLauncher(Launcher):
         return Started(f"unix:{answer['socket']}", {"session": spec.session_id})
 
     def open_tools(self, tools_id: str, token: str, *, timeout_s: float) -> str:
-        """Where a user's tools listen, in a container that is started if need be."""
+        """Returns the path where a user's tools listen, in a container that is started if necessary."""
         body = {"tools": tools_id, "token": token, "timeout_s": timeout_s}
         status, answer = self._ask("POST", "/tools", body, timeout_s=timeout_s + MARGIN_S)
         _raise_for(status, answer)
         return str(answer["socket"])
 
     def poll(self, state: State) -> int | None:
-        """Returns the keeper's answer; while the keeper does not answer, executors count as running."""
+        """Returns the keeper's answer; executors count as running while the keeper does not answer."""
         status, answer = self._look(state)
         if status != 200 or answer.get("running"):
             return None
@@ -64,11 +64,11 @@ class DockerLauncher(Launcher):
         return UNKNOWN_EXIT if found is None else int(found)
 
     def explain(self, state: State) -> str:
-        """Why an executor ended, where more is known than its status."""
+        """Returns why an executor ended, if more is known than its status."""
         return str(self._look(state)[1].get("reason", ""))
 
     def stop(self, state: State, *, timeout_s: float) -> None:
-        """Ends the container; while the keeper cannot be asked, that is left to `orphans`."""
+        """Ends the container; if the keeper does not answer, `end_orphans` does so later."""
         target = f"/sessions/{state['session']}?timeout_s={timeout_s:g}"
         try:
             status, answer = self._ask("DELETE", target, timeout_s=timeout_s + MARGIN_S)
@@ -78,7 +78,7 @@ class DockerLauncher(Launcher):
             log.warning("session %s was not ended: %s", state["session"], _detail(answer))
 
     def running(self) -> list[str]:
-        """The sessions whose containers run."""
+        """Returns the ids of the sessions whose containers run."""
         try:
             status, answer = self._ask("GET", "/sessions", timeout_s=LOOK_TIMEOUT_S)
         except LaunchError:

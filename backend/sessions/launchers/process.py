@@ -1,4 +1,4 @@
-"""Executors as child processes of the web server; they end with it.
+"""Executors in child processes of the web server; they end with it.
 
 The manager asks the kernel for a signal when its parent dies. That signal comes when the *thread*
 that forked ends, so one thread, which lives as long as the server, starts them all.
@@ -66,7 +66,7 @@ class ProcessLauncher(Launcher):
         return Started(f"127.0.0.1:{port}", state)
 
     def poll(self, state: State) -> int | None:
-        """Reaps the child when it has ended."""
+        """Returns the exit status of a child that has ended."""
         with self._lock:
             child = self._children.get(state["pid"])
         if child is not None:
@@ -74,7 +74,7 @@ class ProcessLauncher(Launcher):
         return None if _find(state) else UNKNOWN_EXIT
 
     def stop(self, state: State, *, timeout_s: float) -> None:
-        """Asks the manager to end, and kills what is left after the time is up."""
+        """Asks the manager to end, and kills the rest after a timeout."""
         process = _find(state)
         with self._lock:
             child = self._children.get(state["pid"])
@@ -96,7 +96,7 @@ class ProcessLauncher(Launcher):
                 child.stdin.close()
 
     def close(self) -> None:
-        """Ends every executor and the thread that started them; for the end of the server."""
+        """Ends every executor and the thread that started them, at the end of the server."""
         with self._lock:
             children = list(self._children.values())
         for child in children:
@@ -112,7 +112,7 @@ class ProcessLauncher(Launcher):
                 (*self._command, *arguments, *options),
                 cwd=REPOSITORY,
                 env=_environment(spec),
-                # The pipe is never written to: its end tells the child that the server is gone.
+                # Nothing is written to the pipe: when it closes, the child knows that the server has ended.
                 stdin=subprocess.PIPE,
                 stdout=output,
                 stderr=subprocess.STDOUT,

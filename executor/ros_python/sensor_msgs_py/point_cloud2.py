@@ -1,4 +1,4 @@
-"""`sensor_msgs/PointCloud2` from and to arrays."""
+"""Converts `sensor_msgs/PointCloud2` from and to arrays."""
 
 from __future__ import annotations
 

@@ -151,7 +151,7 @@ class BulletRobot:
         return self._motors.command(joint, position)
 
     def joint_states(self) -> dict[str, tuple[float, float]]:
-        """Position and rate of each joint that has a motor, the wheels' first."""
+        """Returns position and rate of each joint with a motor, the wheels' first."""
         names = (*self.config.drive.left, *self.config.drive.right)
         states = self._bullet.getJointStates(self.uid, self._wheel_joints)
         wheels = {name: (state[0], state[1]) for name, state in zip(names, states, strict=True)}
@@ -174,7 +174,7 @@ class BulletRobot:
         return self._proprioception.pressed(self._clock_s)
 
     def camera_pose(self, camera: Camera) -> Pose:
-        """Pose of a camera in the world."""
+        """Returns the pose of a camera in the world."""
         return self._pose_of(camera.link)
 
     # --- what the world calls ---

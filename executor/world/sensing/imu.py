@@ -17,10 +17,11 @@ GRAVITY = 9.81
 
 @dataclass(frozen=True)
 class ImuReading:
-    """In the sensor's own frame: turning rate in rad/s, proper acceleration in m/s² (at rest +g upwards).
+    """A measurement in the sensor's frame: turning rate in rad/s, proper acceleration in m/s².
 
     Args:
         orientation: quaternion x, y, z, w in the world frame.
+        acceleration: +g upwards at rest.
     """
 
     time_s: float

@@ -103,7 +103,7 @@ class CameraRates:
 
     @property
     def share(self) -> float:
-        """Of their rates, 0 to 1."""
+        """The share of the cameras' rates, 0 to 1."""
         return self._adaptation.level
 
     def note(self, real_time_factor: float, speed: float) -> None:
@@ -123,7 +123,7 @@ class ViewSize:
 
     @property
     def share(self) -> float:
-        """Of the width, 0 to 1."""
+        """The share of the width, 0 to 1."""
         return self._adaptation.level
 
     def sent(self, now_s: float, period_s: float, version: int) -> None:

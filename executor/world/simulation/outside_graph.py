@@ -69,7 +69,7 @@ class OutsideGraph:
         """Does nothing: outside time cannot be stepped."""
 
     def set_speed(self, speed: float) -> None:
-        """Refuses."""
+        """Refuses: the speed of outside time cannot be changed."""
         self._refuse(f"the speed cannot be {speed:g}")
 
     def reset(self) -> None:
@@ -87,7 +87,7 @@ class OutsideGraph:
         self._velocity.publish(Twist())
 
     def move_body(self, body: str, pose: Sequence[float]) -> None:
-        """Refuses."""
+        """Refuses: outside bodies cannot be moved."""
         self._refuse(f"{body!r} cannot be moved to {list(pose)[:2]}")
 
     def run_due(self, now_s: float) -> None:

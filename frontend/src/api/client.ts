@@ -27,12 +27,12 @@ interface ProjectQuery {
   offset: number;
 }
 
-/** As many cards as fill a large screen twice. */
+/** The number of cards that fills a large screen twice. */
 const PAGE = 48;
 
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
 
-/** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
+/** Every call of the REST API, one function each. Each throws an `ApiError` if the server refuses. */
 export const api = {
   me: () => requestJson<Me>('/me'),
 
@@ -53,7 +53,7 @@ export const api = {
   unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
   duplicateProject: (id: string) =>
     requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
-  // The file is the body itself: it may then be larger than any other request.
+  // The file is the whole body, so that it may be larger than the body of any other request.
   importProject: ({ file, repair }: { file: File; repair: boolean }) => {
     const asked = new URLSearchParams({ filename: file.name, ...(repair ? { repair: 'true' } : {}) });
     return requestJson<ProjectDetail>(`/projects/import?${asked}`, { method: 'POST', body: file });
@@ -89,7 +89,9 @@ export const api = {
     return answer.findings;
   },
 
-  /** The application as it runs, optionally in another universe than the project names. */
+  /**
+   * The application in the form that the executor runs, optionally in another universe than the project's.
+   */
   app: (id: string, universe?: string | null) =>
     requestJson<AppBundle>(`${project(id)}/app${universe ? `?${new URLSearchParams({ universe })}` : ''}`),
   startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),
@@ -105,7 +107,7 @@ export const api = {
   robots: () => requestItems<UniverseInfo>('/catalog/robots', 'robots'),
 };
 
-/** The catalogue answers a list, or a list under `items` or its own name. */
+/** The catalogue answers with a list, or with a list under `items` or under its own name. */
 async function requestItems<T>(path: string, name: string): Promise<T[]> {
   const body = await requestJson<T[] | Record<string, T[]>>(path);
   return Array.isArray(body) ? body : (body['items'] ?? body[name] ?? []);

@@ -1,6 +1,8 @@
 import type { Conflict, Diagnostic, Problem } from './types';
 
-/** A request that did not work: what the server said, or that it could not be reached (`offline`). */
+/**
+ * A request that failed: with the server's problem, or because the server could not be reached (`offline`).
+ */
 export class ApiError extends Error {
   override readonly name = 'ApiError';
 
@@ -28,7 +30,7 @@ export class ApiError extends Error {
     return this.problem.conflicts ?? [];
   }
 
-  /** Nothing was answered: trying again later may work. */
+  /** No answer came: the same request may succeed later. */
   get isOffline(): boolean {
     return this.problem.status === 0;
   }
@@ -39,7 +41,7 @@ export function offlineError(cause: unknown): ApiError {
   return new ApiError({ title: 'The server cannot be reached', status: 0, code: 'offline', detail });
 }
 
-/** Reads a refusal's body; anything but problem+json becomes a problem of the same shape. */
+/** Reads the body of a refusal; a body that is not problem+json becomes a problem of the same shape. */
 export async function errorFrom(response: Response): Promise<ApiError> {
   const fallback: Problem = {
     title: response.statusText || `HTTP ${response.status}`,

@@ -6,7 +6,7 @@ interface Options {
   method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
   body?: unknown;
   signal?: AbortSignal | undefined;
-  /** Keeps a small request alive while the page goes away. */
+  /** Lets a small request finish although the page closes. */
   keepalive?: boolean;
 }
 
@@ -28,7 +28,7 @@ async function send(path: string, { method = 'GET', body, signal, keepalive }: O
     if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
     throw offlineError(cause);
   }
-  // The session has ended, in another tab or by itself.
+  // The user signed out in another tab, or the sign-in has expired.
   if (response.status === 401) window.location.assign(signInPath());
   if (!response.ok) throw await errorFrom(response);
   return response;
@@ -48,12 +48,12 @@ export async function requestText(path: string, options: Options = {}): Promise<
   return (await send(path, options)).text();
 }
 
-/** The address of something that the browser itself fetches, such as a download. */
+/** The URL of a resource that the browser fetches itself, such as a download. */
 export function urlOf(path: string): string {
   return BASE + path;
 }
 
-/** A socket's address on the page's own origin. */
+/** The URL of a socket on the page's own origin. */
 export function socketUrl(path: string): string {
   const { protocol, host } = window.location;
   return `${protocol === 'https:' ? 'wss' : 'ws'}://${host}${path}`;

@@ -1,4 +1,4 @@
 import { QueryClient } from '@tanstack/react-query';
 
-/** Server data: shown at once from the cache when it is opened again, and fetched again each time. */
+/** Cache of server data: a view shows the cached data at once and fetches it again. */
 export const queries = new QueryClient({ defaultOptions: { queries: { retry: 1 } } });

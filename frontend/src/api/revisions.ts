@@ -8,7 +8,7 @@ export interface RevisionFile {
   readonly renamed_from: string;
 }
 
-/** One change of a project, as its history tells it. */
+/** One entry of a project's history. */
 export interface Revision {
   readonly number: number;
   readonly message: string;
@@ -26,7 +26,7 @@ export interface RevisionPage {
 export interface FileDifference {
   readonly path: string;
   readonly change: 'added' | 'removed' | 'changed';
-  /** null: a side is no text, or too long to be compared there. */
+  /** null: one side is not text, or the texts are too long to compare on the server. */
   readonly diff: string | null;
 }
 
@@ -43,14 +43,14 @@ export const revisions = {
   },
   label: (projectId: string, number: number, label: string) =>
     requestJson<Revision>(`${base(projectId)}/${number}`, { method: 'PATCH', body: { label } }),
-  /** Makes a new revision with these files, or all, as they were. */
+  /** Makes a new revision in which these files, or all files, are as they were. */
   restore: (projectId: string, number: number, paths: readonly string[]) =>
     requestJson<ProjectDetail>(`${base(projectId)}/${number}/restore`, { method: 'POST', body: { paths } }),
   differences: async (projectId: string, newer: number, older: number, signal?: AbortSignal) => {
     const path = `${base(projectId)}/${newer}/diff?against=${older}`;
     return (await requestJson<{ files: FileDifference[] }>(path, { signal })).files;
   },
-  /** A file as it was; null where it was not there, or is no text. */
+  /** The content of a file in a revision; null if it did not exist or is not text. */
   text: async (projectId: string, number: number, path: string, signal?: AbortSignal) => {
     if (number === 0) return null;
     const address = path.split('/').map(encodeURIComponent).join('/');

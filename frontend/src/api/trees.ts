@@ -1,11 +1,11 @@
 import { requestJson } from './http';
 import type { Diagnostic } from './types';
 
-/** Where a node stands in a text; offsets as JavaScript counts. */
+/** The place of a node in a text; offsets count UTF-16 code units, as in JavaScript. */
 export interface NodeRange {
   readonly node: string;
   readonly start: number;
-  /** Behind its start tag. */
+  /** The offset behind its start tag. */
   readonly open_end: number;
   readonly end: number;
 }
@@ -16,16 +16,16 @@ export interface TreeText {
   readonly ranges: readonly NodeRange[];
 }
 
-/** The tree that an edited text stands for. */
+/** The tree that results from an edited text. */
 export interface ReadTree extends TreeText {
-  /** null: the text cannot be read, and the diagnostics say why. */
+  /** null: the text cannot be read; the diagnostics explain why. */
   readonly diagram: string | null;
   readonly diagnostics: readonly Diagnostic[];
 }
 
-/** The translator's two ways between one tree and its XML. */
+/** The translator in both directions: from one tree to its XML, and back. */
 export const trees = {
-  /** `base` and `ids`: an earlier text whose comments and blanks are kept, and the nodes in it. */
+  /** `base` is an earlier text whose comments and blanks are kept; `ids` are the nodes in it. */
   write: (diagram: string, base = '', ids: readonly string[] = []) =>
     requestJson<TreeText>('/trees/xml', { method: 'POST', body: { diagram, base, ids } }),
   read: (xml: string, diagram: string) =>

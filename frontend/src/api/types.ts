@@ -1,4 +1,4 @@
-/** What the REST API speaks; field names are the server's. */
+/** Types of the REST API; field names are the server's. */
 import type { OnError, OnFinish } from '@/generated/messages';
 
 export type Severity = 'error' | 'warning' | 'note';
@@ -9,7 +9,7 @@ export interface Diagnostic {
   severity: Severity;
   message: string;
   hint?: string | null;
-  /** What message and hint were filled with, for who tells them in another language. */
+  /** The values that fill the placeholders of message and hint, for a translation. */
   values?: Readonly<Record<string, string>>;
   tree?: string | null;
   node?: string | null;
@@ -30,14 +30,14 @@ export interface ActionPort {
   description?: string;
 }
 
-/** What reading an action's source says about it. */
+/** The declarations in an action's source. */
 export interface ActionModel {
   name: string;
   path?: string;
   doc?: string;
   kind: string;
   ports: ActionPort[];
-  /** Declares no ports, so that any is accepted. */
+  /** The action declares no ports, so that any port is accepted. */
   open: boolean;
   diagnostics?: Diagnostic[];
 }
@@ -50,7 +50,7 @@ export interface ProjectSettings {
   main_tree: string;
   tick_hz?: number;
   universe?: string;
-  /** Absent: the universe's own. */
+  /** If absent, the universe's own robot. */
   robot?: string | undefined;
   on_finish?: OnFinish;
   on_error?: OnError;
@@ -68,7 +68,7 @@ export interface ProjectSummary {
   revision: number;
   created_at: string;
   updated_at: string;
-  /** What the user may do with it. */
+  /** The user's role in the project. */
   role?: ProjectRole;
   owner?: string;
   /** The main tree's diagram, for the picture on the card. */
@@ -82,11 +82,11 @@ export interface ProjectPage {
   next_offset: number | null;
 }
 
-/** What a ROS 2 package will hold, before it is downloaded. */
+/** The content of a ROS 2 package, before it is downloaded. */
 export interface PackagePreview {
   name: string;
   files: { path: string; size: number }[];
-  /** `package.xml`. */
+  /** The text of `package.xml`. */
   manifest: string;
   diagnostics: Diagnostic[];
 }
@@ -107,7 +107,7 @@ export interface ProjectDetail extends ProjectSummary {
   diagnostics: Diagnostic[];
 }
 
-/** One file of a change set; `base_revision` 0 says that it must not exist yet. */
+/** One file of a change set; with `base_revision` 0 the file must not exist yet. */
 export interface FileChange {
   path: string;
   base_revision: number;
@@ -130,11 +130,11 @@ export interface ChangesResult extends CheckResult {
   files: SavedFile[];
 }
 
-/** Two versions of one file: what the server holds, and what was sent on an older base. */
+/** Two versions of one file: the server's, and one that was sent with an older base. */
 export interface Conflict {
   path: string;
   base_revision: number;
-  /** `null`: the file was deleted there. */
+  /** `null`: the file was deleted on the server. */
   theirs: { revision: number; content: string | null; updated_at?: string } | null;
   mine: { content: string | null };
 }
@@ -142,11 +142,11 @@ export interface Conflict {
 export interface CheckResult {
   diagnostics: Diagnostic[];
   actions: ActionModel[];
-  /** `false`: the project could not be checked, and its actions are not known. */
+  /** `false`: the check itself failed, so the project's actions are unknown. */
   checked?: boolean;
 }
 
-/** What the executor runs. */
+/** The application as the executor runs it. */
 export interface AppBundle {
   app_zip_base64: string;
   tick_hz: number;
@@ -184,7 +184,7 @@ export interface BehaviourInfo {
   files: Record<string, string>;
 }
 
-/** A universe or a robot to choose; `preview` is the address of its picture. */
+/** A universe or a robot to choose; `preview` is the URL of its picture. */
 export interface UniverseInfo {
   id: string;
   name: string;
@@ -194,7 +194,7 @@ export interface UniverseInfo {
 
 export interface Me {
   mode: string;
-  /** Empty for a guest, who came by a read-only link. */
+  /** Empty for a guest, who uses a read-only link. */
   user: string;
   name: string;
   email: string;
@@ -202,7 +202,7 @@ export interface Me {
   version: string;
 }
 
-/** RFC 9457 body of every refusal. */
+/** The body of every refusal (RFC 9457). */
 export interface Problem {
   type?: string;
   title: string;

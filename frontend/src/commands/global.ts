@@ -22,5 +22,5 @@ const languages = (Object.keys(LANGUAGES) as Language[]).map((code): UserCommand
   run: () => setLanguage(code),
 }));
 
-/** What can be done on the start page and in a project alike. */
+/** The commands of both the start page and an open project. */
 export const everywhere: readonly UserCommand[] = [palette, ...languages];

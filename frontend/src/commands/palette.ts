@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The page on which the command palette is open: a panel's own window has one, too. */
+/** The document whose window shows the command palette: a panel can have a window of its own. */
 export const usePalette = create<{ readonly page: Document | null }>(() => ({ page: null }));
 
 export function openPalette(page: Document = document): void {

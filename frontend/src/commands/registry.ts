@@ -3,23 +3,23 @@ import { create } from 'zustand';
 
 export type CommandGroup = 'run' | 'edit' | 'project' | 'view' | 'canvas' | 'go' | 'rates';
 
-/** Something that a user can do: the same row feeds toolbar, shortcuts and command palette. */
+/** A command of the user: one row serves the toolbar, the shortcuts and the command palette. */
 export interface UserCommand {
   id: string;
   group: CommandGroup;
   /** i18n key with its namespace: `frame:command.run`. */
   labelKey: string;
-  /** What the label is filled with. */
+  /** The values that fill the label's placeholders. */
   labelValues?: Readonly<Record<string, string | number>>;
   icon?: ComponentType<{ size?: number | string }>;
-  /** In tinykeys' words: `$mod+KeyK`, `F5`. */
+  /** The shortcut in the notation of tinykeys: `$mod+KeyK`, `F5`. */
   shortcut?: string;
-  /** Keys that another listener has, in the same words: shown, and not bound. */
+  /** Keys that another listener handles, in the same notation: shown, but not bound here. */
   keys?: string;
   enabled?: () => boolean;
-  /** `page` is the one on which it was asked for: a panel may have a window of its own. */
+  /** `page` is the document where the user called the command: a panel can have a window of its own. */
   run: (page?: Document) => void;
-  /** Absent from the command palette. */
+  /** Not listed in the command palette. */
   hidden?: boolean;
   /** The shortcut also works while a text field has the focus. */
   inTextFields?: boolean;
@@ -31,7 +31,7 @@ interface CommandTable {
 
 export const useCommandTable = create<CommandTable>(() => ({ commands: {} }));
 
-/** Adds rows to the table; the returned function takes them out again. */
+/** Adds rows to the table; the returned function removes them. */
 export function registerCommands(rows: readonly UserCommand[]): () => void {
   useCommandTable.setState(({ commands }) => {
     const next = { ...commands };
@@ -53,7 +53,7 @@ export function registerCommands(rows: readonly UserCommand[]): () => void {
   };
 }
 
-/** Does what the command does, unless it may not be done now. */
+/** Runs a command, if it is available now. */
 export function perform(id: string, page: Document = document): void {
   const command = useCommandTable.getState().commands[id];
   if (command && command.enabled?.() !== false) command.run(page);

@@ -4,11 +4,11 @@ import { useCommandTable, type UserCommand } from './registry';
 
 const isMac = /Mac|iPhone|iPad/.test(navigator.userAgent);
 
-/** Inputs that take no text: while one has the focus, shortcuts work. */
+/** Inputs without text: shortcuts work while one of them has the focus. */
 const NO_TEXT = ['checkbox', 'radio', 'button', 'submit', 'color', 'file'];
 
 function isTextField(target: EventTarget | null): boolean {
-  // No `instanceof`: a panel in another window has that window's classes.
+  // `instanceof` fails for a panel in another window, which has classes of its own.
   const { isContentEditable = false, tagName = '', type } = (target ?? {}) as Partial<HTMLInputElement>;
   if (tagName === 'INPUT') return !NO_TEXT.includes(type ?? '');
   return isContentEditable || ['TEXTAREA', 'SELECT'].includes(tagName);
@@ -41,14 +41,17 @@ function bind(target: Window, commands: readonly UserCommand[]): () => void {
   };
 }
 
-/** A key of another window as a key of this one: the library knows no other class of events. */
+/** Copies a key event of another window: the library accepts only events of this window's class. */
 function ownCopy(event: KeyboardEvent): KeyboardEvent {
   const copy = new KeyboardEvent(event.type, event);
   Object.defineProperty(copy, 'target', { value: event.target });
   return copy;
 }
 
-/** Binds every shortcut of the table, as it is at any time, to a window; answers how to end that. */
+/**
+ * Binds all shortcuts of the table to a window, also those that are added later; returns a function that
+ * unbinds them.
+ */
 export function bindShortcuts(target: Window): () => void {
   let unbind = bind(target, Object.values(useCommandTable.getState().commands));
   const unfollow = useCommandTable.subscribe(({ commands }) => {
@@ -61,7 +64,7 @@ export function bindShortcuts(target: Window): () => void {
   };
 }
 
-/** Binds every shortcut of the table to the window. */
+/** Binds all shortcuts of the table to this window. */
 export function useShortcuts(): void {
   useEffect(() => bindShortcuts(window), []);
 }
@@ -76,13 +79,13 @@ const KEY_NAMES: Record<string, string> = {
   Delete: 'Del',
 };
 
-/** The keys of a command as people write them; null of one that has none. */
+/** The keys of a command for display; null if it has none. */
 export function keysOf({ shortcut, keys }: UserCommand): string | null {
   const known = shortcut ?? keys;
   return known === undefined ? null : shortcutLabel(known);
 }
 
-/** A shortcut as people write it: `Ctrl+Shift+P`. */
+/** A shortcut for display: `Ctrl+Shift+P`. */
 export function shortcutLabel(shortcut: string): string {
   return shortcut
     .split('+')

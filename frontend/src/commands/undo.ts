@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** What undo and redo work on while another document than a tree is in front. */
+/** The steps that undo and redo act on while a document other than a tree is in front. */
 export interface UndoTarget {
   readonly canUndo: boolean;
   readonly canRedo: boolean;

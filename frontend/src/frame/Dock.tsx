@@ -41,7 +41,7 @@ function renderTabButton(node: TabNode, values: ITabRenderValues): void {
   if (!tab) values.buttons.push(<PanelBadge key="badge" panel={node.getId()} />);
 }
 
-/** The button of tabs that have no room: its name says what they are, and its picture how many. */
+/** The button for tabs that do not fit; it shows their number. */
 const ICONS: IIcons = {
   more: (_tabset, hidden) => (
     <>
@@ -51,7 +51,7 @@ const ICONS: IIcons = {
   ),
 };
 
-/** What the docking library says, by its own keys. */
+/** Translations of the docking library's texts, by its own keys. */
 const WORDS: ReadonlyMap<string, string> = new Map([
   [I18nLabel.Close_Tab, 'dock.closeTab'],
   [I18nLabel.Close_Tabset, 'dock.closeTabs'],
@@ -68,15 +68,18 @@ const WORDS: ReadonlyMap<string, string> = new Map([
   [I18nLabel.Error_rendering_component_retry, 'dock.retry'],
 ]);
 
-/** In the language that the page has when it asks: the library keeps this function through a change of it. */
+/** Translates at each call, since the library keeps this function when the language changes. */
 function translated(key: string): string {
   const word = WORDS.get(key) ?? key;
-  // Trees and files are called as their author wills, be it as one of our texts.
+  // Names of trees and files come from the user, and may equal one of our text keys.
   const isOurs = word !== key || key.startsWith('panel.');
   return isOurs && translates(`frame:${word}`) ? t(`frame:${word}`) : word;
 }
 
-/** Does the last of many things a moment later, or at once when the page goes; nothing once the panels are gone. */
+/**
+ * Delays an action: of several in a row the last runs after a moment, or at once when the page closes; none
+ * runs once the panels are gone.
+ */
 function useLater(): (act: () => void) => void {
   const waiting = useRef<{ act: () => void; timer: ReturnType<typeof setTimeout> } | null>(null);
   const cancel = useCallback(() => {
@@ -101,7 +104,7 @@ function useLater(): (act: () => void) => void {
   };
 }
 
-/** The panels, docked as the user likes them. */
+/** The panels, which the user can arrange. */
 export function Dock({ model, width }: DockProps) {
   useTranslation('frame');
   const keepSoon = useLater();
@@ -135,7 +138,7 @@ export function Dock({ model, width }: DockProps) {
   );
 }
 
-/** Puts every panel back where it was the first time. */
+/** Restores the default layout. */
 export function resetLayout(): void {
   forgetLayouts();
   useTabs.setState({ model: null });

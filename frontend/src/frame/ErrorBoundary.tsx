@@ -11,7 +11,10 @@ interface State {
   readonly error: Error | null;
 }
 
-/** Shown for an internal error or a part that did not load: says that edits are kept, and offers to continue. */
+/**
+ * Shown for an internal error or a part that did not load: it says that edits are kept, and offers to
+ * continue.
+ */
 export class ErrorBoundary extends Component<Props, State> {
   override state: State = { error: null };
 

@@ -5,7 +5,7 @@ interface PanelBadgeProps {
   readonly panel: string;
 }
 
-/** How many problems there are, on the tab of their panel. */
+/** The number of problems, on the tab of their panel. */
 export function PanelBadge({ panel }: PanelBadgeProps) {
   const diagnostics = useProjectStore((state) => state.diagnostics);
   const errors = diagnostics.filter((item) => item.severity === 'error').length;

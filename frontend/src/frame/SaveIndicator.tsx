@@ -13,7 +13,7 @@ const ICONS: Record<SaveState['kind'], typeof IconCloudCheck> = {
   conflict: IconGitMerge,
 };
 
-/** Whether the server has the edits; always in sight. */
+/** Shows whether the server has saved the edits; always visible. */
 export function SaveIndicator() {
   const { t } = useTranslation('frame');
   const state = useSavingStore((saving) => saving.state);

@@ -44,13 +44,13 @@ function ConnectionStatus() {
   );
 }
 
-/** `walled_room` as one reads it. */
+/** The readable form of an id such as `walled_room`. */
 function titleOf(universe: string): string {
   const words = universe.replaceAll('_', ' ');
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-/** Where the robot will be; a click chooses another place. */
+/** The universe of the next run; a click opens the chooser. */
 function UniverseButton() {
   const { t } = useTranslation('frame');
   const own = useProjectStore((state) => state.settings?.universe ?? '');
@@ -94,7 +94,7 @@ function ProblemCount() {
   );
 }
 
-/** The numbers of the simulation; also what tests read, as data attributes. */
+/** The numbers of the simulation, also as data attributes for tests. */
 function SimStatus() {
   const { t } = useTranslation('frame');
   const sim = useSessionStore((state) => state.sim);

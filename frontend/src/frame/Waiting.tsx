@@ -2,11 +2,11 @@ import { Center, Loader, Stack, Text } from '@mantine/core';
 import { useTranslation } from 'react-i18next';
 
 interface WaitingProps {
-  /** The text of `frame:waiting` for this wait. */
+  /** The key in `frame:waiting` of the reason. */
   readonly reason: 'openingProject' | 'loadingViewer' | 'loadingEditor';
 }
 
-/** A spinner that says why. */
+/** A spinner with a reason. */
 export function Waiting({ reason }: WaitingProps) {
   const { t } = useTranslation('frame');
   return (

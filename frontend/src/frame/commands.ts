@@ -37,19 +37,19 @@ import { WINDOWED, type PanelId } from '@/workspace/layoutModel';
 import { popOut } from './popouts';
 import { openTab, showPanel, togglePanel } from '@/workspace/tabs';
 
-/** The tree that was edited last, with the keyboard in it. */
+/** Moves the keyboard focus to the tree that was edited last. */
 function goToTree(): void {
   const { activeTree, mainTree } = useProjectStore.getState();
   openTab({ kind: 'tree', id: activeTree ?? mainTree });
 }
 
-/** The properties of the selected block, with the keyboard in the first of them. */
+/** Moves the keyboard focus to the first property of the selected block. */
 function goToInspector(): void {
   showPanel('inspector');
   setTimeout(focusInspector);
 }
 
-/** Escape in a field of the inspector leads back to the block that it is about. */
+/** Escape in a field of the inspector moves the focus back to its block. */
 export function leaveInspector(event: KeyboardEvent): void {
   const { target } = event;
   if (event.key !== 'Escape' || event.defaultPrevented || !(target instanceof HTMLElement)) return;
@@ -209,7 +209,7 @@ const rows: UserCommand[] = [
   },
 ];
 
-/** Panels that no command of their own brings to the front. */
+/** Panels without a command of their own that opens them. */
 const PANELS: readonly PanelId[] = [
   'explorer',
   'outline',

@@ -74,7 +74,7 @@ function Document({ node }: { readonly node: TabNode }) {
   );
 }
 
-/** Universes and robots are seen in 3D with their text beside; every other file is text. */
+/** Universes and robots have a 3D editor beside their text; every other file has a text editor. */
 function FileTab({ path }: { readonly path: string }) {
   if (ROBOT_FILE.test(path)) return <RobotTab key={path} path={path} />;
   return UNIVERSE_FILE.test(path) ? <UniverseTab key={path} path={path} /> : <CodeTab path={path} />;

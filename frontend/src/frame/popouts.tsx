@@ -7,7 +7,7 @@ import { t } from '@/i18n';
 import { companionsOf, type PanelId } from '@/workspace/layoutModel';
 import { useTabs } from '@/workspace/tabs';
 
-/** Panels in windows of their own: each keeps where it came from, and goes back there when its window closes. */
+/** The place of a panel before it got its own window; it returns there when the window closes. */
 
 interface Home {
   readonly tabset: string;
@@ -26,7 +26,7 @@ function tabsIn(model: Model, layoutId: string): TabNode[] {
 
 const titleOf = (tab: TabNode): string => t(`frame:${tab.getName()}`);
 
-/** Opens a panel in a window of its own. */
+/** Opens a panel in its own window. */
 export function popOut(panel: PanelId): void {
   const { model } = useTabs.getState();
   const tab = model?.getNodeById(panel);
@@ -45,7 +45,7 @@ function rememberHome(model: Model, id: string): void {
   model.doAction(Actions.updateNodeAttributes(id, { config: { ...configOf(tab), home } }));
 }
 
-/** Where a panel goes back to: its place, or beside one of its kind when that place is gone. */
+/** The place to which a panel returns: its old one, or beside a panel of its kind if that is gone. */
 function placeFor(model: Model, tab: TabNode): Home | null {
   const { home } = configOf(tab);
   if (home && model.getNodeById(home.tabset) instanceof TabSetNode) return home;
@@ -64,7 +64,7 @@ function giveBack(model: Model, tabs: readonly TabNode[]): void {
   }
 }
 
-/** Notifies of blocked windows and offers to open them by a press, which browsers allow. */
+/** Notifies of blocked windows and offers a button to open them, since browsers allow that after a press. */
 function tellBlocked(tabs: readonly TabNode[]): void {
   const id = 'popout-blocked';
   const panels = tabs.map((tab) => tab.getId() as PanelId);
@@ -91,19 +91,22 @@ function tellBlocked(tabs: readonly TabNode[]): void {
   });
 }
 
-/** Follows the windows of one layout; its methods are what the docking library asks for. */
+/** Tracks the windows of one layout; its methods are callbacks of the docking library. */
 export class Popouts {
   private readonly open = new Map<string, () => void>();
 
   constructor(private readonly model: Model) {}
 
-  /** Before an action of the user: a panel remembers its place, and a window that closes gives its panels back. */
+  /**
+   * Runs before an action of the user: it records a panel's place, and returns panels from a window that
+   * closes.
+   */
   readonly onAction = (action: Action): Action | undefined => {
     if (action.type === Actions.POPOUT_TAB) rememberHome(this.model, String(action.data['node']));
     if (action.type !== Actions.CLOSE_POPOUT) return action;
     const layoutId = String(action.data['layoutId']);
     const tabs = tabsIn(this.model, layoutId);
-    // A window that never opened was kept from it by the browser.
+    // The browser blocked a window that never opened.
     if (!this.open.has(layoutId)) tellBlocked(tabs);
     giveBack(this.model, tabs);
     return undefined;
@@ -131,7 +134,7 @@ export class Popouts {
   };
 }
 
-/** Menus and tooltips of a panel come in the window that the panel is in. */
+/** Menus and tooltips of a panel appear in the panel's own window. */
 export function InItsWindow({ node, children }: { readonly node: TabNode; readonly children: ReactNode }) {
   const page = node.getWindow()?.document;
   const theme = useMemo(

@@ -10,7 +10,7 @@ import { leave, reattach } from '@/store/session/connection';
 
 type Opening = { kind: 'loading' } | { kind: 'open' } | { kind: 'failed'; error: Error };
 
-/** Opens a project: loads it, brings unsaved edits back, watches edits, joins its running session. */
+/** Opens a project: loads it, restores unsaved edits, starts autosaving, and joins its running session. */
 export function useProject(projectId: string): Opening {
   const [opening, setOpening] = useState<Opening>({ kind: 'loading' });
   useEffect(() => {

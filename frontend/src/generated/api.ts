@@ -13,7 +13,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description The declarations in the source of an action. */
+        /** @description Returns the declarations in the source of an action. */
         post: operations["inspect_action"];
         delete?: never;
         options?: never;
@@ -28,7 +28,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The built-in library, with every file that a behaviour brings. */
+        /** @description Lists the built-in library, with every file of each behaviour. */
         get: operations["list_behaviours"];
         put?: never;
         post?: never;
@@ -45,7 +45,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Every built-in node with its ports. */
+        /** @description Lists every built-in node with its ports. */
         get: operations["list_nodes"];
         put?: never;
         post?: never;
@@ -62,7 +62,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Every built-in robot. */
+        /** @description Lists every built-in robot. */
         get: operations["list_robots"];
         put?: never;
         post?: never;
@@ -79,7 +79,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Its `robot.yaml`, to make a project's own of. */
+        /** @description Returns its `robot.yaml`, from which a project can make its own robot. */
         get: operations["get_robot_config"];
         put?: never;
         post?: never;
@@ -96,7 +96,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description A picture of 480 by 270 pixels. */
+        /** @description Returns a picture of 480 by 270 pixels. */
         get: operations["get_robot_preview"];
         put?: never;
         post?: never;
@@ -113,7 +113,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Its URDF, to draw it. */
+        /** @description Returns its URDF, with which the browser draws the robot. */
         get: operations["get_robot_urdf"];
         put?: never;
         post?: never;
@@ -130,7 +130,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The empty project and the examples. */
+        /** @description Lists the empty project and the examples. */
         get: operations["list_templates"];
         put?: never;
         post?: never;
@@ -147,7 +147,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Every built-in universe. */
+        /** @description Lists every built-in universe. */
         get: operations["list_universes"];
         put?: never;
         post?: never;
@@ -164,7 +164,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description A picture of 480 by 270 pixels. */
+        /** @description Returns a picture of 480 by 270 pixels. */
         get: operations["get_universe_preview"];
         put?: never;
         post?: never;
@@ -181,7 +181,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Its YAML, to make a project's own of. */
+        /** @description Returns its YAML, from which a project can make its own universe. */
         get: operations["get_universe_text"];
         put?: never;
         post?: never;
@@ -198,7 +198,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Those that the user made or is in. */
+        /** @description Lists the groups that the user made or is in. */
         get: operations["list_groups"];
         put?: never;
         /** @description Makes a group; for teachers. */
@@ -216,7 +216,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The group; its managers also get the members and invitations. */
+        /** @description Returns a group; its managers also get the members and invitations. */
         get: operations["get_group"];
         put?: never;
         post?: never;
@@ -224,7 +224,7 @@ export interface paths {
         delete: operations["delete_group"];
         options?: never;
         head?: never;
-        /** @description Gives the group another name. */
+        /** @description Renames a group. */
         patch: operations["rename_group"];
         trace?: never;
     };
@@ -237,7 +237,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a link by which people make accounts and join. */
+        /** @description Makes a link with which people create accounts and join. */
         post: operations["invite_to_group"];
         delete?: never;
         options?: never;
@@ -255,7 +255,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Takes someone out, or leaves. */
+        /** @description Removes someone from the group; everyone may leave it. */
         delete: operations["remove_group_member"];
         options?: never;
         head?: never;
@@ -286,7 +286,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The user, what they may, and the version of the server. */
+        /** @description Returns the user, their rights, and the version of the server. */
         get: operations["get_me"];
         put?: never;
         post?: never;
@@ -303,11 +303,15 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The account, its log and its projects, as one zip. */
+        /** @description Returns the account, its log and its projects, as one zip. */
         get: operations["export_my_data"];
         put?: never;
         post?: never;
-        /** @description Deletes the account with all its projects, for good; the body is `{"username": one's own name}`. */
+        /**
+         * @description Deletes the account with all its projects irreversibly.
+         *
+         *     The body is `{"username": the user's own name}`.
+         */
         delete: operations["delete_my_account"];
         options?: never;
         head?: never;
@@ -321,7 +325,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Projects and bytes, with their limits. */
+        /** @description Returns the number and the bytes of projects, with their limits. */
         get: operations["get_my_usage"];
         put?: never;
         post?: never;
@@ -375,7 +379,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The project in the form that the executor runs; 422 with `diagnostics` when it has errors. */
+        /** @description Returns the project in the form that the executor runs; 422 with `diagnostics` if it has errors. */
         get: operations["get_app"];
         put?: never;
         post?: never;
@@ -428,7 +432,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Checks the project as it would be with these files. */
+        /** @description Checks the project with these unsaved files. */
         post: operations["check_project"];
         delete?: never;
         options?: never;
@@ -443,7 +447,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The user's drafts in this project. */
+        /** @description Lists the user's drafts in this project. */
         get: operations["list_drafts"];
         put?: never;
         post?: never;
@@ -461,10 +465,10 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        /** @description Keeps a draft; saving the file ends it. */
+        /** @description Stores a draft; saving the file removes it. */
         put: operations["save_draft"];
         post?: never;
-        /** @description Forgets a draft. */
+        /** @description Discards a draft. */
         delete: operations["discard_draft"];
         options?: never;
         head?: never;
@@ -495,7 +499,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The current files as a zip; the same revision gives the same bytes. */
+        /** @description Returns the current files as a zip; the same revision gives the same bytes. */
         get: operations["export_project"];
         put?: never;
         post?: never;
@@ -512,7 +516,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The bytes of a current file. */
+        /** @description Returns the bytes of a current file. */
         get: operations["download_file"];
         put?: never;
         post?: never;
@@ -529,7 +533,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The ROS 2 package as a zip; 422 with `diagnostics` when the project has errors. */
+        /** @description Returns the ROS 2 package as a zip; 422 with `diagnostics` if the project has errors. */
         get: operations["get_package"];
         put?: never;
         post?: never;
@@ -546,7 +550,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The files of the ROS 2 package, before it is downloaded. */
+        /** @description Lists the files of the ROS 2 package before it is downloaded. */
         get: operations["preview_package"];
         put?: never;
         post?: never;
@@ -580,7 +584,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The change sets, the newest first; all, or those that touched one file. */
+        /** @description Lists the change sets, the newest first; all, or those that changed one file. */
         get: operations["list_revisions"];
         put?: never;
         post?: never;
@@ -603,7 +607,7 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        /** @description Gives a revision a name, or takes it away. */
+        /** @description Gives a revision a name, or removes it. */
         patch: operations["label_revision"];
         trace?: never;
     };
@@ -631,7 +635,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The bytes of a file as it was after a revision. */
+        /** @description Returns the bytes of a file in a revision. */
         get: operations["download_old_file"];
         put?: never;
         post?: never;
@@ -650,7 +654,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a new revision with files as they were. */
+        /** @description Makes a new revision in which files are as they were in this one. */
         post: operations["restore_revision"];
         delete?: never;
         options?: never;
@@ -682,10 +686,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description People, groups and links; for the owner. */
+        /** @description Lists people, groups and links; for the owner. */
         get: operations["get_shares"];
         put?: never;
-        /** @description Gives someone a role, or another one. */
+        /** @description Gives a person a role, or changes it. */
         post: operations["share_with_person"];
         delete?: never;
         options?: never;
@@ -701,10 +705,10 @@ export interface paths {
             cookie?: never;
         };
         get?: never;
-        /** @description Gives everybody in the group a role. */
+        /** @description Gives all members of a group a role. */
         put: operations["share_with_group"];
         post?: never;
-        /** @description Takes the role of the group away. */
+        /** @description Removes the role of a group. */
         delete: operations["unshare_with_group"];
         options?: never;
         head?: never;
@@ -720,7 +724,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Makes a link by which anybody may read the project. */
+        /** @description Makes a link with which anyone can read the project. */
         post: operations["make_share_link"];
         delete?: never;
         options?: never;
@@ -738,7 +742,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Ends the link at once, also for those who opened it. */
+        /** @description Revokes the link immediately, also for those who have opened it. */
         delete: operations["revoke_share_link"];
         options?: never;
         head?: never;
@@ -755,7 +759,7 @@ export interface paths {
         get?: never;
         put?: never;
         post?: never;
-        /** @description Takes their role away; one's own is given up. */
+        /** @description Removes the role of a person; users can remove their own. */
         delete: operations["unshare_with_person"];
         options?: never;
         head?: never;
@@ -771,7 +775,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Gives the project to one of its editors; who gave it stays an editor. */
+        /** @description Makes an editor the owner; the previous owner becomes an editor. */
         post: operations["transfer_project"];
         delete?: never;
         options?: never;
@@ -803,7 +807,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description The tree as BT.CPP v4 XML; 422 with `diagnostics` when the project has errors. */
+        /** @description Returns the tree as BT.CPP v4 XML; 422 with `diagnostics` if the project has errors. */
         get: operations["get_xml"];
         put?: never;
         post?: never;
@@ -843,7 +847,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description The source in the usual style; 422 when it does not parse. */
+        /** @description Formats a source; answers 422 if it does not parse. */
         post: operations["format_python"];
         delete?: never;
         options?: never;
@@ -860,7 +864,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Probable errors, with the edits that fix them. */
+        /** @description Lists probable errors, with the edits that fix them. */
         post: operations["lint_python"];
         delete?: never;
         options?: never;
@@ -875,7 +879,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** @description Whether it starts, runs, failed or has ended. */
+        /** @description Returns the session: whether it starts, runs, failed or has ended. */
         get: operations["get_session"];
         put?: never;
         post?: never;
@@ -895,7 +899,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Reads the XML of one tree, nodes keeping their ids; `diagnostics` say why there is none. */
+        /** @description Reads the XML of one tree; nodes keep their ids. `diagnostics` say why it cannot be read. */
         post: operations["read_tree_xml"];
         delete?: never;
         options?: never;
@@ -912,7 +916,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** @description Writes one diagram as BT.CPP v4 XML; comments and blanks of an earlier text stay. */
+        /** @description Converts one diagram to BT.CPP v4 XML; comments and blanks of an earlier text are kept. */
         post: operations["write_tree_xml"];
         delete?: never;
         options?: never;
@@ -981,7 +985,7 @@ export interface components {
         BehaviourList: {
             items: components["schemas"]["Behaviour"][];
         };
-        /** @description The project after the change: all files, and what the translator says now. */
+        /** @description The project after the change: all files, and the translator's findings. */
         ChangesDone: {
             revision: number;
             files: components["schemas"]["FileInfo"][];
@@ -1073,7 +1077,7 @@ export interface components {
             /** @default  */
             name: string;
         };
-        /** @description A piece of text to be replaced. */
+        /** @description A range of a text, and its replacement. */
         Edit: {
             start: components["schemas"]["Place"];
             end: components["schemas"]["Place"];
@@ -1100,7 +1104,7 @@ export interface components {
             updated_at: string;
             content: string | null;
         };
-        /** @description New content, a new path, both, or the end of one file. */
+        /** @description New content, a new path, both, or the deletion of one file. */
         FileChangeRequest: {
             path: string;
             /** @description 0: the file must not exist yet. */
@@ -1112,7 +1116,7 @@ export interface components {
             /** @default  */
             rename_to: string;
         };
-        /** @description One file that differs; `diff` is null when a side is not text. */
+        /** @description One file that differs; `diff` is null if a side is not text. */
         FileDiff: {
             path: string;
             change: components["schemas"]["FileDiffChangeEnum"];
@@ -1201,7 +1205,7 @@ export interface components {
         MakeLinkRequest: {
             days?: number | null;
         };
-        /** @description The user and the server. */
+        /** @description The user and the server's version. */
         Me: {
             mode: components["schemas"]["ModeEnum"];
             /** @description Empty for a guest, who came by a read-only link. */
@@ -1221,7 +1225,7 @@ export interface components {
         NamedRequest: {
             name: string;
         };
-        /** @description Where a node stands in the text; offsets in UTF-16 code units, lines ending in one. */
+        /** @description The range of a node in the text; offsets in UTF-16 code units, lines end with one unit. */
         NodeRange: {
             node: string;
             start: number;
@@ -1229,7 +1233,7 @@ export interface components {
             open_end: number;
             end: number;
         };
-        /** @description `tree_gardener/catalog.json`. */
+        /** @description The nodes of `tree_gardener/catalog.json`. */
         Nodes: {
             format: string;
             version: number;
@@ -1241,7 +1245,7 @@ export interface components {
         OnErrorEnum: "stop" | "failure";
         /** @enum {string} */
         OnFinishEnum: "stop" | "repeat";
-        /** @description A file as it is in the editor. */
+        /** @description A file with the content of the editor. */
         OverlayFileRequest: {
             path: string;
             content: string;
@@ -1268,7 +1272,7 @@ export interface components {
                 [key: string]: unknown;
             };
         };
-        /** @description A name for a revision; empty takes it away. */
+        /** @description A name for a revision; an empty one removes it. */
         PatchedLabelRequest: {
             label?: string;
         };
@@ -1276,7 +1280,7 @@ export interface components {
         PatchedNamedRequest: {
             name?: string;
         };
-        /** @description Someone as others see them. */
+        /** @description A person as other users see them. */
         Person: {
             username: string;
             name: string;
@@ -1375,7 +1379,7 @@ export interface components {
                 [key: string]: unknown;
             } | null;
         };
-        /** @description The tree that a text stands for. */
+        /** @description The tree that was read from a text. */
         ReadTreeDone: {
             xml: string;
             ranges: components["schemas"]["NodeRange"][];
@@ -1383,7 +1387,7 @@ export interface components {
             diagram: string | null;
             diagnostics: components["schemas"]["Diagnostic"][];
         };
-        /** @description An edited text. */
+        /** @description An edited XML text of a tree. */
         ReadTreeRequest: {
             xml: string;
             /** @description The diagram before the text was edited. */
@@ -1396,7 +1400,7 @@ export interface components {
             /** @description false: the project could not be checked, so that its actions are not known. */
             checked: boolean;
         };
-        /** @description Which files to put back; all, when none are named. */
+        /** @description The files to restore; all, if none are named. */
         RestoreRevisionRequest: {
             paths?: string[];
         };
@@ -1444,20 +1448,20 @@ export interface components {
             /** Format: date-time */
             created_at: string;
         };
-        /** @description With whom, and what they may do. */
+        /** @description A person, and their new role. */
         SharePersonRequest: {
             role: components["schemas"]["SharedRole"];
             /** @description Name or e-mail address of an account. */
             name: string;
         };
-        /** @description A group with the role of all in it. */
+        /** @description A group with the role of its members. */
         SharedGroup: {
             /** Format: uuid */
             id: string;
             name: string;
             role: components["schemas"]["SharedRole"];
         };
-        /** @description Someone with their role. */
+        /** @description A person with their role. */
         SharedPerson: {
             username: string;
             name: string;
@@ -1469,7 +1473,7 @@ export interface components {
         SharedRoleRequest: {
             role: components["schemas"]["SharedRole"];
         };
-        /** @description With whom a project is shared. */
+        /** @description Everyone with whom a project is shared. */
         Shares: {
             owner: components["schemas"]["Person"];
             people: components["schemas"]["SharedPerson"][];
@@ -1484,7 +1488,7 @@ export interface components {
         };
         /** @enum {string} */
         StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
-        /** @description A project that new ones start from. */
+        /** @description A template of new projects. */
         Template: {
             id: string;
             name: string;
@@ -1498,14 +1502,14 @@ export interface components {
         TemplateList: {
             items: components["schemas"]["Template"][];
         };
-        /** @description The version that exists. */
+        /** @description The version on the server. */
         Theirs: {
             revision: number;
             content: string | null;
             /** Format: date-time */
             updated_at: string;
         };
-        /** @description The next owner. */
+        /** @description The person who becomes the owner. */
         TransferRequest: {
             /** @description Name or e-mail address of an editor. */
             name: string;
@@ -1522,14 +1526,14 @@ export interface components {
             /** @description Escape bare & and < in attributes of XML. */
             repair?: boolean;
         };
-        /** @description Room taken, and room given. */
+        /** @description The space that is used, and its limits. */
         Usage: {
             projects: number;
             max_projects: number;
             bytes: number;
             max_bytes: number;
         };
-        /** @description A diagram to be written as XML. */
+        /** @description A diagram to convert to XML. */
         WriteTreeRequest: {
             /** @description Diagram JSON, as in trees/<TreeID>.json. */
             diagram: string;

@@ -1,7 +1,10 @@
 import i18next from 'i18next';
 import { initReactI18next } from 'react-i18next';
 
-/** One JSON a feature and language: `locales/<language>/<feature>.json`; the namespace is the feature. */
+/**
+ * One JSON file for each feature and language, `locales/<language>/<feature>.json`; the namespace is the
+ * feature.
+ */
 const files = import.meta.glob<Record<string, unknown>>('./locales/*/*.json', {
   eager: true,
   import: 'default',

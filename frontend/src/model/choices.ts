@@ -2,14 +2,14 @@ import type { Diagram } from './diagram';
 import { canMorph, canWrapIn, isKindLegal, type Kind } from './rules';
 import type { NodeSpec, Vocabulary } from './vocabulary';
 
-/** A kind of block that can be chosen, with what is known about it. */
+/** A type of block that can be chosen, with its description. */
 export interface Choice {
   readonly kind: Kind;
   readonly spec: NodeSpec;
   readonly label: string;
 }
 
-/** Every kind of block that this tree may contain: built-ins, actions, and subtrees by their names. */
+/** Every type of block that this tree may contain: built-ins, actions, and subtrees by name. */
 export function allChoices(diagram: Pick<Diagram, 'id'> | null, vocabulary: Vocabulary): Choice[] {
   const choices: Choice[] = [];
   for (const spec of vocabulary.specs.values()) {
@@ -31,7 +31,7 @@ export type Purpose =
   | { readonly for: 'wrap'; readonly count: number }
   | { readonly for: 'morph'; readonly node: string };
 
-/** Whether a choice serves the purpose. */
+/** Whether a choice is legal for the goal. */
 export function suits(choice: Choice, diagram: Diagram, purpose: Purpose): boolean {
   switch (purpose.for) {
     case 'add':
@@ -43,7 +43,10 @@ export function suits(choice: Choice, diagram: Diagram, purpose: Purpose): boole
   }
 }
 
-/** How well a text matches a search, 0 for not at all: start, word start, capitals, inside, letters in order. */
+/**
+ * How well a text matches a search; 0: not at all. Best first: start, start of a word, capitals, anywhere,
+ * letters in order.
+ */
 export function matchScore(text: string, search: string): number {
   if (search === '') return 1;
   const [hay, needle] = [text.toLowerCase(), search.toLowerCase()];
@@ -59,7 +62,7 @@ export function matchScore(text: string, search: string): number {
 
 const FAMILY_ORDER = ['action', 'condition', 'control', 'decorator', 'subtree'] as const;
 
-/** The user's own actions first, then by family, in the order of the catalogue. */
+/** Matching choices: the user's own actions first, then by family in the order of the catalogue. */
 export function searchChoices(choices: readonly Choice[], search: string): Choice[] {
   return choices
     .map((choice, index) => {

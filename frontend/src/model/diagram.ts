@@ -1,4 +1,4 @@
-/** Diagram JSON, `trees/<TreeID>.json` (docs/reference: formats): types and plain queries. */
+/** Types and simple queries of diagram JSON, `trees/<TreeID>.json` (docs/reference: formats). */
 
 export type NodeId = string;
 export type Orientation = 'vertical' | 'horizontal';
@@ -7,7 +7,7 @@ export type Point = readonly [x: number, y: number];
 export interface DiagramNode {
   readonly type: string;
   readonly name?: string;
-  /** The BehaviorTree ID, of a `SubTree` alone. */
+  /** The BehaviorTree ID; only of a `SubTree`. */
   readonly tree?: string;
   readonly ports?: Readonly<Record<string, string>>;
   readonly children?: readonly NodeId[];
@@ -18,7 +18,7 @@ export interface DiagramNode {
   readonly disabled?: boolean;
   readonly collapsed?: boolean;
   readonly position?: Point;
-  /** Unknown attributes of an imported XML element, kept for the way back. */
+  /** Unknown attributes of an imported XML element, kept for the export. */
   readonly attributes?: Readonly<Record<string, string>>;
 }
 
@@ -28,10 +28,10 @@ export interface Diagram {
   readonly id: string;
   readonly root: NodeId | null;
   readonly nodes: Readonly<Record<NodeId, DiagramNode>>;
-  /** Roots of pieces that are not connected yet: saved, never translated. */
+  /** Roots of unconnected pieces: saved, but never translated. */
   readonly drafts: readonly NodeId[];
   readonly layout: Orientation;
-  /** Its model as a SubTree, kept as it was read; `treeFacts` knows what it says. */
+  /** The tree's ports as a SubTree, unparsed; `treeFacts` reads them. */
   readonly ports?: unknown;
 }
 
@@ -53,7 +53,7 @@ export function childrenOf(diagram: Diagram, id: NodeId): readonly NodeId[] {
   return diagram.nodes[id]?.children ?? NO_CHILDREN;
 }
 
-/** Every node's parent; roots and drafts are absent. */
+/** The parent of every node; roots and drafts are absent. */
 export function parentsOf(diagram: Diagram): ReadonlyMap<NodeId, NodeId> {
   const parents = new Map<NodeId, NodeId>();
   for (const [id, node] of Object.entries(diagram.nodes)) {
@@ -69,12 +69,12 @@ export function parentOf(diagram: Diagram, id: NodeId): NodeId | null {
   return null;
 }
 
-/** The tops of the forest: the root if there is one, then the drafts. */
+/** The root, if there is one, then the drafts. */
 export function topsOf(diagram: Diagram): readonly NodeId[] {
   return diagram.root === null ? diagram.drafts : [diagram.root, ...diagram.drafts];
 }
 
-/** `id` and all below it, in pre-order. */
+/** `id` and all nodes below it, in pre-order. */
 export function subtreeOf(diagram: Diagram, id: NodeId): NodeId[] {
   const found: NodeId[] = [];
   const open = [id];
@@ -97,7 +97,7 @@ export function isWithin(diagram: Diagram, id: NodeId, ancestor: NodeId): boolea
   return subtreeOf(diagram, ancestor).includes(id);
 }
 
-/** Of a selection, the nodes that have no selected ancestor, in execution order. */
+/** The selected nodes that have no selected ancestor, in execution order. */
 export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
   const wanted = new Set(ids);
   const parents = parentsOf(diagram);
@@ -110,12 +110,12 @@ export function topmost(diagram: Diagram, ids: Iterable<NodeId>): NodeId[] {
   return preorder(diagram).filter((id) => wanted.has(id) && !covered(id));
 }
 
-/** The displayed name of a node: its instance name, else the tree it stands for, else its type. */
+/** The displayed name of a node: its instance name, else its tree, else its type. */
 export function displayName(node: DiagramNode): string {
   return node.name ?? node.tree ?? node.type;
 }
 
-/** A node id that the diagram does not have; `random` is an argument so that tests repeat. */
+/** A node id that the diagram does not contain; `random` is an argument so that tests are repeatable. */
 export function freshId(
   taken: Readonly<Record<NodeId, unknown>>,
   random: () => number = Math.random,

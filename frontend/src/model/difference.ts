@@ -2,7 +2,7 @@ import { childrenOf, parentsOf, type Diagram, type DiagramNode, type NodeId } fr
 
 export type ChangeKind = 'added' | 'removed' | 'changed' | 'moved';
 
-/** One property of a node before and after; null: it was not set. */
+/** One property of a node before and after; null: not set. */
 export interface FieldChange {
   /** `type`, `name`, `comment`…, or the name of a port or condition. */
   readonly field: string;
@@ -13,12 +13,12 @@ export interface FieldChange {
 export interface NodeDifference {
   readonly kind: ChangeKind;
   readonly fields: readonly FieldChange[];
-  /** It hangs elsewhere, or in another order. */
+  /** Whether its parent or its order has changed. */
   readonly isMoved: boolean;
 }
 
 export interface TreeDifference {
-  /** The newer tree, with what was removed still hanging where it was. */
+  /** The newer tree, with the removed nodes at their old places. */
   readonly merged: Diagram;
   readonly changes: ReadonlyMap<NodeId, NodeDifference>;
 }
@@ -42,7 +42,7 @@ function fieldChanges(older: DiagramNode, newer: DiagramNode): FieldChange[] {
     .filter((change) => change.before !== change.after);
 }
 
-/** The place of each node: its parent, and its rank among the siblings that both trees have there. */
+/** The place of each node: its parent, and its rank among the siblings that both trees contain. */
 function placesOf(diagram: Diagram, other: Diagram): Map<NodeId, string> {
   const elsewhere = parentsOf(other);
   const places = new Map<NodeId, string>();
@@ -58,7 +58,7 @@ function placesOf(diagram: Diagram, other: Diagram): Map<NodeId, string> {
   return places;
 }
 
-/** Hangs removed nodes where they were, after the sibling that they followed. */
+/** Adds removed nodes at their old places, after their former previous siblings. */
 function merge(older: Diagram, newer: Diagram, removed: ReadonlySet<NodeId>): Diagram {
   const nodes: Record<NodeId, DiagramNode> = {};
   for (const [id, node] of Object.entries(newer.nodes)) nodes[id] = { ...node, collapsed: false };

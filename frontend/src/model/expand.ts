@@ -1,28 +1,28 @@
 import type { Diagram, DiagramNode, NodeId } from './diagram';
 
-/** Where a block that is seen inside of a SubTree really stands. */
+/** The real tree and node of a block that is shown inside of a SubTree. */
 export interface Inside {
   readonly tree: string;
   readonly node: NodeId;
 }
 
-/** A tree as it is drawn: with the trees inside of the SubTrees that are looked into. */
+/** A tree as it is drawn: with the trees of its expanded SubTrees. */
 export interface ExpandedTree {
   readonly diagram: Diagram;
-  /** Of each block that belongs to another tree, its own place. */
+  /** The real place of each block that belongs to another tree. */
   readonly inside: ReadonlyMap<NodeId, Inside>;
-  /** The blocks inside of each SubTree that is looked into, the innermost included. */
+  /** The blocks inside of each expanded SubTree, nested ones included. */
   readonly groups: ReadonlyMap<NodeId, readonly NodeId[]>;
 }
 
 const NOTHING: Pick<ExpandedTree, 'inside' | 'groups'> = { inside: new Map(), groups: new Map() };
 
-/** The id of a block inside of a SubTree: no diagram has such ids, since it has a blank. */
+/** The id of a block inside of a SubTree; it contains a blank, so that no diagram can contain it. */
 const innerId = (outer: NodeId, inner: NodeId): NodeId => `${outer} ${inner}`;
 
 /**
- * Puts the tree of every SubTree in `expanded` below it, to be looked at and never to be saved: its
- * blocks have ids of their own, and no places that a user gave them in the other tree.
+ * Adds the tree of every SubTree in `expanded` below it, for display only: its blocks have other ids, and no
+ * manual positions.
  */
 export function expandTrees(
   diagram: Diagram,

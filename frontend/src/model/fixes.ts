@@ -8,7 +8,7 @@ import { wouldRecurse, type Vocabulary } from './vocabulary';
 import { isPythonName } from './pythonNames';
 import { similarNames } from './similar';
 
-/** What a fix does in addition to changing the tree: it creates a file. */
+/** The other effect of a fix, beyond the tree: it creates a file. */
 export type Making =
   | { readonly makes: 'action'; readonly name: string; readonly ports: readonly string[] }
   | { readonly makes: 'tree'; readonly name: string };
@@ -20,7 +20,7 @@ export interface Fix {
   readonly does: Recipe | Making;
 }
 
-/** The part of a finding that fixes are made from: the editor's kind, or the server's code. */
+/** The part of a finding that determines its fixes: the editor's kind, or the server's code. */
 export type Fixable =
   | Pick<Problem, 'kind' | 'node' | 'port'>
   | { readonly code: string; readonly node: NodeId | null; readonly port?: string };
@@ -200,7 +200,7 @@ function kindFixes(
   }
 }
 
-/** The fixes of a finding, the most likely first. */
+/** The fixes of a finding, the most likely one first. */
 export function fixesFor(problem: Fixable, diagram: Diagram, vocabulary: Vocabulary): Fix[] {
   const id = problem.node;
   if (id === null || !(id in diagram.nodes)) return [];

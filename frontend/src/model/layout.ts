@@ -18,7 +18,7 @@ export interface Layout {
 
 export interface LayoutOptions {
   readonly orientation?: Orientation;
-  /** Puts every block where the algorithm wants it, as `tidy` will. */
+  /** Ignores manual positions, to show the result of `tidy`. */
   readonly ignorePositions?: boolean;
 }
 
@@ -26,12 +26,14 @@ export const GAP = { siblings: 24, levels: 56, trees: 64 } as const;
 
 type Mutable = { -readonly [K in keyof Box]: Box[K] };
 
-/** Children that are drawn: none below a folded block. */
+/** The children that are drawn; a folded block has none. */
 export function visibleChildren(diagram: Diagram, id: NodeId): readonly NodeId[] {
   return diagram.nodes[id]?.collapsed ? [] : childrenOf(diagram, id);
 }
 
-/** Lays one tree out with its root's top left corner at the origin, parents centred over their children. */
+/**
+ * Lays out one tree with its root's top left corner at the origin, and parents centred over their children.
+ */
 function arrange(
   diagram: Diagram,
   top: NodeId,
@@ -56,7 +58,7 @@ function arrange(
     const along = Math.round(middle - breadth / 2 + corner);
     const across = Math.round(start);
     const { width, height } = sizeOf(id);
-    // Written out: objects that are spread together are slow to read.
+    // Written out, since objects that are made by spreading are slow to read.
     placed.set(id, { x: vertical ? along : across, y: vertical ? across : along, width, height });
   }
   return placed;
@@ -69,7 +71,7 @@ function shift(boxes: Iterable<Mutable>, dx: number, dy: number): void {
   }
 }
 
-/** Moves every block that the user placed, with what hangs below it, to where they put it. */
+/** Applies the manual positions; a block's subtree moves with it. */
 function applyPositions(diagram: Diagram, top: NodeId, placed: Map<NodeId, Mutable>): void {
   const visit = (id: NodeId, dx: number, dy: number): void => {
     const box = placed.get(id);
@@ -96,8 +98,8 @@ function bounds(boxes: Iterable<Box>): { right: number; bottom: number; left: nu
 }
 
 /**
- * Positions (top left corners) and sizes of all visible blocks. Blocks without a position of their
- * own never overlap; the tree's root is at the origin, drafts without a position stand beside it.
+ * Positions (top left corners) and sizes of all visible blocks. Blocks without a manual position never
+ * overlap; the root is at the origin, and drafts without a position are beside it.
  */
 export function layoutTree(diagram: Diagram, vocabulary?: Vocabulary, options: LayoutOptions = {}): Layout {
   const orientation = options.orientation ?? diagram.layout;

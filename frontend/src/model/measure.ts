@@ -2,8 +2,8 @@ import { displayName, type DiagramNode } from './diagram';
 import type { NodeSpec } from './vocabulary';
 
 /**
- * Sizes of blocks, computed from their content, so that layout needs no browser and blocks no
- * measuring. The canvas draws blocks with exactly these numbers (features/canvas/block.css).
+ * Sizes of blocks, computed from their content, so that the layout needs neither a browser nor measuring. The
+ * canvas draws blocks with these numbers (features/canvas/block.css).
  */
 export const BLOCK = {
   minWidth: 132,
@@ -21,17 +21,17 @@ export interface Size {
   readonly height: number;
 }
 
-/** A line of ports as a block shows it. */
+/** A line of a block's ports. */
 export interface PortLine {
   readonly name: string;
-  /** null: nothing is set, the default is used. */
+  /** null: not set, so that the default applies. */
   readonly value: string | null;
   readonly default: string | null;
   readonly required: boolean;
   readonly direction: 'input' | 'output' | 'inout';
 }
 
-/** The declared ports in their order, then those set beyond them. */
+/** The declared ports in their order, then the other ports that are set. */
 export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLine[] {
   const declared = (spec?.ports ?? []).map((port) => ({
     name: port.name,
@@ -50,7 +50,7 @@ export function portLines(node: DiagramNode, spec: NodeSpec | undefined): PortLi
 const NARROW = /[iljtfrI.,:;'|()[\]{} ]/;
 const WIDE = /[mwMW@%]/;
 
-/** Width of a text in an em of 1, roughly: Inter's narrow, wide, capital and other letters. */
+/** The approximate width of a text in em, from Inter's narrow, wide, capital and other letters. */
 export function emWidth(text: string): number {
   let width = 0;
   for (const letter of text) {
@@ -63,7 +63,7 @@ export function emWidth(text: string): number {
   return width;
 }
 
-/** Only values of more letters than this are cut; `required` is the word for a missing one. */
+/** The width of a port's value; only values of more letters than this are cut. */
 function valueWidth(line: PortLine): number {
   const text = line.value ?? line.default ?? (line.required ? 'required' : '—');
   return Math.min(BLOCK.valueLetters, text.length) * 7;
@@ -71,7 +71,7 @@ function valueWidth(line: PortLine): number {
 
 const known = new WeakMap<DiagramNode, { readonly spec: NodeSpec | undefined; readonly size: Size }>();
 
-/** Measures once what never changes: a node, as its type is known. */
+/** Measures a node; the result is cached, since a node and its spec never change. */
 export function measureNode(node: DiagramNode, spec: NodeSpec | undefined): Size {
   const last = known.get(node);
   if (last && last.spec === spec) return last.size;

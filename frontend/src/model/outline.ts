@@ -9,7 +9,7 @@ export interface OutlineLine {
   readonly isDraft: boolean;
 }
 
-/** All shown lines in execution order; below a folded node there are none. */
+/** All visible lines in execution order; a folded node hides the lines below it. */
 export function outlineRows(diagram: Diagram): OutlineLine[] {
   const rows: OutlineLine[] = [];
   const visit = (id: NodeId, depth: number, isDraft: boolean): void => {

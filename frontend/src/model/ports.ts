@@ -1,4 +1,4 @@
-/** Ports: their declarations, and what the text of a value means. */
+/** Port declarations, and the meaning of port values. */
 
 import { STATUSES } from './values';
 
@@ -7,14 +7,16 @@ export type PortDirection = 'input' | 'output' | 'inout';
 export interface PortSpec {
   readonly name: string;
   readonly direction: PortDirection;
-  /** `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]` or an action's own. */
+  /**
+   * `int`, `uint`, `double`, `bool`, `string`, `status`, `script`, `any`, `list[…]`, or a type of an action.
+   */
   readonly type: string;
   readonly default: string | null;
   readonly required: boolean;
   readonly description: string;
 }
 
-/** Whether it can name a port: in XML a port is an attribute, beside those that mean something of their own. */
+/** Whether a port can have this name: in XML a port is an attribute, and some attributes are reserved. */
 export const canBePort = (name: string): boolean =>
   /^[A-Za-z][\w.-]*$/.test(name) && name !== 'name' && name !== 'ID';
 
@@ -27,7 +29,7 @@ export type PortText =
 
 const OUTER_BLANKS = /^[ \t\r\n]+|[ \t\r\n]+$/g;
 
-/** The text between the braces of `{key}`, `=` of `{=}`; null of a literal. */
+/** The text between the braces of `{key}`, `=` for `{=}`; null for a literal. */
 export function pointerOf(text: string): string | null {
   const stripped = text.replace(OUTER_BLANKS, '');
   return stripped.length > 2 && stripped.startsWith('{') && stripped.endsWith('}')
@@ -37,7 +39,7 @@ export function pointerOf(text: string): string | null {
 
 const count = (text: string, character: string): number => text.split(character).length - 1;
 
-/** A literal, `{key}`, `{=}` or `{@global_key}`, as in BT.CPP. */
+/** Parses a literal, `{key}`, `{=}` or `{@global_key}`, as in BT.CPP. */
 export function readPortText(text: string): PortText {
   const stripped = text.replace(OUTER_BLANKS, '');
   if (stripped === '') return { kind: 'empty' };
@@ -69,5 +71,5 @@ export function widgetOf(type: string): Widget {
   return choicesOf(type).length > 0 ? 'enum' : (WIDGETS.get(type) ?? 'text');
 }
 
-/** Values of an enumerated type. */
+/** The values of an enumerated type. */
 export const choicesOf = (type: string): readonly string[] => (type === 'status' ? STATUSES : []);

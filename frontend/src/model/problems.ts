@@ -8,8 +8,8 @@ import { specOf, type NodeSpec, type Vocabulary } from './vocabulary';
 export { CODES, type Problem, type Severity } from './check/problem';
 
 /**
- * Everything that can be said about a tree without the server, as the translator says it: kept so by
- * `tests/shared/problems.json`, which both are tested on.
+ * All checks that need no server. They agree with the translator's: both are tested on
+ * `tests/shared/problems.json`.
  */
 
 function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
@@ -24,7 +24,7 @@ function checkChildren(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[]
   return [];
 }
 
-/** A ReactiveSequence may have one child that keeps its own state between ticks. */
+/** A ReactiveSequence may have only one child that keeps state between ticks. */
 function checkWaiting(diagram: Diagram, node: DiagramNode): Problem[] {
   if (node.type !== 'ReactiveSequence') return [];
   const waiting = (node.children ?? []).filter((child) => diagram.nodes[child]?.type === 'AsyncSequence');
@@ -56,7 +56,7 @@ interface Checked {
 
 const checked = new WeakMap<DiagramNode, Checked>();
 
-/** What a node and its type alone say; of a node that did not change it is known. */
+/** The problems of a node that depend on the node and its type alone; cached for unchanged nodes. */
 function checkNode(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): readonly Problem[] {
   const known = checked.get(node);
   if (known && known.id === id && known.spec === spec) return known.problems;
@@ -69,10 +69,13 @@ function checkNode(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): r
   return problems;
 }
 
-/** Ports and scripts are looked at when a tree is built, which the engine does only where it is called. */
+/**
+ * Problems of ports and scripts are found when a tree is built, which the engine does only for trees that are
+ * called.
+ */
 const isOfBuilding = ({ kind }: Problem): boolean => /^BT0[23]/.test(CODES[kind][0] ?? '');
 
-/** Everything that can be said about a diagram without the server, in execution order. */
+/** All problems of a diagram that can be found without the server, in execution order. */
 export function findProblems(diagram: Diagram, vocabulary: Vocabulary): Problem[] {
   const runs = vocabulary.reachable.has(diagram.id);
   const found = checkTree(diagram, vocabulary).map((problem) =>

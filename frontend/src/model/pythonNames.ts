@@ -4,13 +4,13 @@ const KEYWORDS = new Set(
   ),
 );
 
-/** Whether a class, and the file that is called as it, can have this name. */
+/** Whether a class and its file can have this name. */
 export const isPythonName = (name: string): boolean => /^[A-Za-z_]\w*$/.test(name) && !KEYWORDS.has(name);
 
-/** What people wrote as text: a name in it may mean anything, such as a topic. */
+/** String literals: a name in them may mean anything, such as a topic. */
 const TEXT = String.raw`"""[^]*?"""|'''[^]*?'''|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'|#[^\n]*`;
 
-/** A name that stands alone, or the class of a module that is called as it: `Turn`, `Turn.Turn`. */
+/** A name alone, or the class of the module of the same name: `Turn`, `Turn.Turn`. */
 const nameOf = (name: string): RegExp =>
   new RegExp(String.raw`(${TEXT})|(?<![\p{L}\p{N}_.])${name}(\.${name})?(?![\p{L}\p{N}_])`, 'gu');
 
@@ -18,7 +18,7 @@ const nameOf = (name: string): RegExp =>
 const moduleOf = (name: string): RegExp =>
   new RegExp(String.raw`^(\s*(?:from|import)\s+actions\.)${name}(?![\p{L}\p{N}_])`, 'gmu');
 
-/** A source with one of its names changed, outside of strings and comments. */
+/** Renames a name in a source, except in strings and comments. */
 export function withName(source: string, from: string, to: string): string {
   return source
     .replace(moduleOf(from), `$1${to}`)
@@ -28,7 +28,7 @@ export function withName(source: string, from: string, to: string): string {
     });
 }
 
-/** Whether a source imports something of that name, on one line or in parentheses over several. */
+/** Whether a source imports this name, also in parentheses over several lines. */
 export function importsName(source: string, name: string): boolean {
   const asWord = String.raw`(?<![\p{L}\p{N}_])${name}(?![\p{L}\p{N}_])`;
   const onLine = String.raw`^[ \t]*(?:from|import)\s[^\n#]*${asWord}`;

@@ -1,23 +1,23 @@
 import { parseDiagram, serializeDiagram } from './serialize';
 import type { Diagram, DiagramNode } from './diagram';
 
-/** Files by their paths in a project. */
+/** File contents by path. */
 export type Sources = Readonly<Record<string, string>>;
 
 /** The result of adding a behaviour to a project. */
 export interface Insertion {
-  /** The tree to use, under the name that it has in the project. */
+  /** The tree to use, by its name in the project. */
   readonly tree: string;
-  /** What is to be written, by path; what is there already with the same content is left out. */
+  /** The files to write, by path, without those that already have the same content. */
   readonly files: Sources;
-  /** Where each file of the behaviour is in the project. */
+  /** The path in the project of each file of the behaviour. */
   readonly places: Readonly<Record<string, string>>;
 }
 
 const ACTION = /^actions\/([^/]+)\.py$/;
 const TREE = /^trees\/([^/]+)\.json$/;
 
-/** A tree's text as this editor writes it, so that the same trees are the same texts. */
+/** A tree's text in this editor's format, so that equal trees have equal texts. */
 function normal(path: string, text: string): string {
   if (!TREE.test(path)) return text;
   try {
@@ -32,7 +32,7 @@ function mapNodes(diagram: Diagram, change: (node: DiagramNode) => DiagramNode):
   return { ...diagram, nodes };
 }
 
-/** Gives an action's class, or a tree, and what refers to it, another name. */
+/** Renames an action's class, or a tree, and all references to it. */
 function renamed(sources: Sources, path: string, name: string): Record<string, string> {
   const action = ACTION.exec(path)?.[1];
   const tree = TREE.exec(path)?.[1];
@@ -54,9 +54,7 @@ function renamed(sources: Sources, path: string, name: string): Record<string, s
   return result;
 }
 
-/**
- * The files of one tree and of all that it uses, out of a project's: the trees below it and their actions.
- */
+/** The files of a tree and of everything that it uses: the trees below it and their actions. */
 export function closureOf(tree: string, files: Sources): Sources {
   const found: Record<string, string> = {};
   const waiting = [tree];
@@ -76,8 +74,8 @@ export function closureOf(tree: string, files: Sources): Sources {
 }
 
 /**
- * Plans how a behaviour comes into a project. What is there already, word for word, is used; where
- * something else has the name, the newcomer gets a free one, and all that refers to it follows.
+ * Plans how to add a behaviour to a project. Identical files are reused; if a name is taken by something
+ * else, the new file gets a free name and all references to it change.
  */
 export function planInsertion(
   tree: string,
@@ -93,7 +91,7 @@ export function planInsertion(
     const there = existing(path);
     return there !== null && normal(path, there) !== files[path];
   };
-  // A renamed file changes those that refer to it, which may then differ as well: again until none does.
+  // A renamed file changes the files that refer to it, which may then clash too: repeated until none does.
   for (let clash = Object.keys(files).find(differs); clash; clash = Object.keys(files).find(differs)) {
     const base = (ACTION.exec(clash) ?? TREE.exec(clash))?.[1] ?? clash;
     let count = 2;
@@ -108,7 +106,7 @@ export function planInsertion(
   return { tree: TREE.exec(place)?.[1] ?? tree, files: Object.fromEntries(fresh), places: origin };
 }
 
-/** The files of a behaviour as they would be at their places in a project. */
+/** The files of a behaviour at their places in a project. */
 export function atPlaces(sources: Sources, places: Readonly<Record<string, string>>): Sources {
   let files: Record<string, string> = Object.fromEntries(
     Object.entries(sources).map(([path, text]) => [path, normal(path, text)]),

@@ -1,13 +1,13 @@
 import { childrenOf, isWithin, parentOf, type Diagram, type NodeId } from './diagram';
 import { specOf, wouldRecurse, type NodeSpec, type Vocabulary } from './vocabulary';
 
-/** The kind of a new block: a type and, of a `SubTree`, the tree. */
+/** The kind of a new block: a type, and for a `SubTree` its tree. */
 export interface Kind {
   readonly type: string;
   readonly tree?: string;
 }
 
-/** Unknown types keep the children that they have, and accept no others. */
+/** The number of allowed children; unknown types keep theirs, and accept no more. */
 function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number {
   const node = diagram.nodes[id];
   if (!node) return 0;
@@ -16,7 +16,7 @@ function capacity(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): number 
 
 const NONE: ReadonlySet<NodeId> = new Set();
 
-/** Whether so many more children may hang under `id`, once those that are `leaving` have left it. */
+/** Whether this many more children fit under `id` after those in `leaving` have left it. */
 export function hasRoom(
   diagram: Diagram,
   id: NodeId,
@@ -29,12 +29,12 @@ export function hasRoom(
   return staying.length + count <= capacity(diagram, id, vocabulary);
 }
 
-/** Whether `id` may have one more child; `moving` is a child that is only changing its place. */
+/** Whether `id` can have one more child; `moving` is a child that only changes its place. */
 export function acceptsChild(diagram: Diagram, id: NodeId, vocabulary: Vocabulary, moving?: NodeId): boolean {
   return hasRoom(diagram, id, vocabulary, 1, moving === undefined ? NONE : new Set([moving]));
 }
 
-/** Whether `id` with all below it may hang under `parent`. */
+/** Whether `id` with its subtree may be moved under `parent`. */
 export function canMoveUnder(diagram: Diagram, id: NodeId, parent: NodeId, vocabulary: Vocabulary): boolean {
   return (
     id in diagram.nodes && !isWithin(diagram, parent, id) && acceptsChild(diagram, parent, vocabulary, id)
@@ -46,18 +46,18 @@ export function isKindLegal(diagram: Pick<Diagram, 'id'>, kind: Kind, vocabulary
   return !(kind.type === 'SubTree' && kind.tree && wouldRecurse(vocabulary, diagram.id, kind.tree));
 }
 
-/** Whether a node may become this type with the children that it has. */
+/** Whether a node may change to this type with its present children. */
 export function canMorph(diagram: Diagram, id: NodeId, spec: NodeSpec): boolean {
   const count = childrenOf(diagram, id).length;
   return count <= spec.maxChildren;
 }
 
-/** Whether a new node of this type may be put between a node and its parent. */
+/** Whether a new node of this type may be inserted between a node and its parent. */
 export function canWrapIn(spec: NodeSpec): boolean {
   return spec.maxChildren > 0;
 }
 
-/** Whether removing the node alone leaves its children a legal place. */
+/** Whether its children have a legal place if the node alone is removed. */
 export function canUnwrap(diagram: Diagram, id: NodeId, vocabulary: Vocabulary): boolean {
   const count = childrenOf(diagram, id).length;
   if (count === 0) return false;
@@ -66,9 +66,7 @@ export function canUnwrap(diagram: Diagram, id: NodeId, vocabulary: Vocabulary):
   return childrenOf(diagram, parent).length - 1 + count <= capacity(diagram, parent, vocabulary);
 }
 
-/**
- * Where a click in the palette puts a block: under the selected node, beside it, at the root, or free.
- */
+/** The place of a block: at the root, under a parent, or as a draft. */
 export type Placement =
   | { readonly at: 'root' }
   | { readonly at: 'child'; readonly parent: NodeId; readonly index: number }

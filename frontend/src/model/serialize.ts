@@ -8,7 +8,7 @@ import {
   type Point,
 } from './diagram';
 
-/** The text is not a diagram; the message says where and why, for people. */
+/** The text is not a diagram; the message for the user says where and why. */
 export class DiagramError extends Error {
   override readonly name = 'DiagramError';
 }
@@ -39,7 +39,7 @@ function ids(value: unknown, where: string): NodeId[] {
   return value.map(String);
 }
 
-/** One node; keys that this version does not know are kept. */
+/** Parses one node; unknown keys are kept. */
 function parseNode(id: NodeId, value: unknown): DiagramNode {
   const where = `nodes.${id}`;
   if (!isObject(value) || typeof value['type'] !== 'string') {
@@ -58,8 +58,8 @@ function parseNode(id: NodeId, value: unknown): DiagramNode {
 }
 
 /**
- * Makes the nodes a forest: links to nothing and second parents are dropped, and every piece that
- * hangs nowhere becomes a draft, so that nothing a user wrote is lost.
+ * Makes the nodes a forest: dangling links and second parents are dropped, and unconnected pieces become
+ * drafts, so that nothing is lost.
  */
 function repair(root: NodeId | null, drafts: NodeId[], nodes: Record<NodeId, DiagramNode>) {
   const seen = new Set<NodeId>();
@@ -124,7 +124,7 @@ export function parseDiagram(source: unknown): Diagram {
     layout,
     ...repair(root, ids(value['drafts'] ?? [], 'drafts'), nodes),
   };
-  // Edits pass over what is frozen.
+  // Edits do not copy frozen objects.
   return freeze(diagram, true);
 }
 
@@ -164,12 +164,12 @@ function inline(value: unknown): string {
 
 const written = new WeakMap<DiagramNode, string>();
 
-/** A node as it is saved: written once, since a node never changes. */
+/** A node as it is saved; cached, since nodes are immutable. */
 function nodeText(node: DiagramNode): string {
   const known = written.get(node);
   if (known !== undefined) return known;
   const text = inline(orderedNode(node));
-  // Of what is only being made, the next line may change it.
+  // A draft is still mutable and must not be cached.
   if (!isDraft(node)) written.set(node, text);
   return text;
 }

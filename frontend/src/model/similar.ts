@@ -1,4 +1,4 @@
-/** Names that one may have meant, by Damerau's distance; the nearest first. */
+/** The Damerau distance of two names. */
 
 function distance(a: string, b: string): number {
   const width = b.length + 1;
@@ -19,7 +19,7 @@ function distance(a: string, b: string): number {
   return at(a.length, b.length);
 }
 
-/** Up to `limit` of the names that are near enough to be meant. */
+/** Up to `limit` similar names, the nearest first. */
 export function similarNames(name: string, names: Iterable<string>, limit = 2): string[] {
   const wanted = name.toLowerCase().slice(0, 100);
   const allowed = Math.min(3, Math.max(1, Math.floor(wanted.length / 3)));

@@ -6,7 +6,7 @@ import type { Vocabulary } from './vocabulary';
 /** A place under a parent where a dragged block may be dropped, and the mark that shows it. */
 export interface Slot {
   readonly parent: NodeId;
-  /** Counts the children as they are before the drop. */
+  /** Counts the children before the drop. */
   readonly index: number;
   /** `between`: a bar between siblings; `onto`: the parent itself is marked. */
   readonly kind: 'between' | 'onto';
@@ -21,11 +21,11 @@ interface Query {
   readonly diagram: Diagram;
   readonly layout: Layout;
   readonly vocabulary: Vocabulary;
-  /** The blocks that are moved, each with all below it; absent for a new one. */
+  /** The blocks that are moved, each with its subtree; absent for a new block. */
   readonly moving?: readonly NodeId[] | undefined;
 }
 
-/** The work is done for a top-down layout; left-right is the same with the axes exchanged. */
+/** Computed for a top-down layout; left-right exchanges the axes. */
 interface Field {
   readonly boxOf: (id: NodeId) => Box | undefined;
   readonly accepts: (id: NodeId) => boolean;
@@ -36,7 +36,7 @@ interface Field {
   readonly diagram: Diagram;
 }
 
-/** The children of one parent, with as much around them as a hand may miss. */
+/** The children of one parent, with a margin around them for imprecise drops. */
 interface Row {
   readonly parent: NodeId;
   readonly left: number;
@@ -68,7 +68,7 @@ function slotBetween(field: Field, parent: NodeId, x: number): Slot | null {
   const tops = [left, right].filter((box) => box !== undefined);
   const y = Math.min(...tops.map((box) => box.y)) - 4;
   const bottom = Math.max(...tops.map((box) => box.y + box.height)) + 4;
-  // The index is among the shown siblings; the moved block itself is not shown.
+  // The index refers to the visible siblings, without the moved block.
   const next = siblings[index];
   const all = childrenOf(field.diagram, parent);
   return {
@@ -88,7 +88,7 @@ function slotOnto(field: Field, parent: NodeId): Slot | null {
 const inside = (box: Box, x: number, y: number): boolean =>
   x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
 
-/** On a block: its middle takes the block as a child, its sides put it beside. */
+/** The slot on a block: in its middle as a child, on its sides beside it. */
 function slotOnBlock(field: Field, id: NodeId, parent: NodeId | undefined, x: number): Slot | null {
   const box = field.boxOf(id);
   if (!box) return null;
@@ -160,10 +160,10 @@ function fieldOf({ diagram, layout, vocabulary, moving = [] }: Query): Field {
   return { boxOf, siblings, parentOf, diagram, accepts, ids, rows };
 }
 
-/** Finds where a block that is dragged to a point would be put, or null for nowhere in the tree. */
+/** Finds the slot at a point; null if there is none. */
 export type SlotFinder = (x: number, y: number) => Slot | null;
 
-/** Looks the tree over once, for all points that a hand will pass. */
+/** Prepares the slots of a tree once, for all moves of a drag. */
 export function slotFinder(query: Query): SlotFinder {
   const field = fieldOf(query);
   if (query.diagram.layout === 'vertical') return (x, y) => findSlot(field, x, y);
@@ -173,7 +173,7 @@ export function slotFinder(query: Query): SlotFinder {
   };
 }
 
-/** Whether dropping the blocks, in this order, into the slot would leave them where they are. */
+/** Whether the blocks, dropped into the slot in this order, would stay where they are. */
 export function isSamePlace(diagram: Diagram, moving: readonly NodeId[], slot: Slot): boolean {
   const children = childrenOf(diagram, slot.parent);
   const at = children.indexOf(moving[0] ?? '');

@@ -10,7 +10,7 @@ export interface Extent {
   readonly depth: number;
 }
 
-/** A node of the tree: its middle along the row, and where it begins in depth; both are found out. */
+/** A node of the tree; the layout computes its middle along the row and its start in depth. */
 export interface Spot<Id> extends Extent {
   readonly id: Id;
   readonly parent: number;
@@ -18,18 +18,18 @@ export interface Spot<Id> extends Extent {
   start: number;
 }
 
-/** One side of a subtree, from its top down: a step wherever another node is the outermost. */
+/** One side of a subtree from the top down: a step for each outermost node. */
 interface Step {
-  /** Where the side is, in the frame of the step before. */
+  /** The position of the side, in the frame of the step before. */
   readonly at: number;
-  /** The depth to which it is there. */
+  /** The depth where the step ends. */
   readonly end: number;
   readonly next: Step | null;
-  /** By how much the frame of what follows is moved. */
+  /** The offset of the next step's frame. */
   readonly by: number;
 }
 
-/** A side in the frame of a row of siblings, in which the first child's middle is at 0. */
+/** A side in the frame of a row of siblings, whose first child has its middle at 0. */
 interface Side {
   readonly step: Step;
   readonly by: number;
@@ -39,12 +39,12 @@ interface Side {
 interface Row {
   left: Side;
   right: Side;
-  /** The depth to which the row reaches. */
+  /** The depth of the row. */
   end: number;
-  /** The outermost nodes on the right, from the top down: each with the depth it reaches. */
+  /** The outermost nodes on the right from the top down, each with its depth. */
   readonly reach: { readonly index: number; readonly end: number }[];
   readonly middles: number[];
-  /** What is given to those in between when a subtree is pushed away by one that is not its neighbour. */
+  /** The extra offsets of the siblings between a subtree and the distant sibling that pushes it. */
   readonly extra: number[];
 }
 
@@ -55,7 +55,7 @@ interface Subtree {
   readonly end: number;
 }
 
-/** `upper`, and below its end what `lower` has there. */
+/** `upper`, continued below its end by `lower`. */
 function extended(upper: Side, upperEnd: number, lower: Side, lowerEnd: number): Side {
   if (upperEnd >= lowerEnd) return upper;
   let tail: Step | null = lower.step;
@@ -80,14 +80,14 @@ function extended(upper: Side, upperEnd: number, lower: Side, lowerEnd: number):
   return step ? { step, by: 0 } : upper;
 }
 
-/** Shares a push among the siblings between the one that pushes and the one that is pushed. */
+/** Spreads an offset over the siblings between the pushing and the pushed one. */
 function spread({ extra }: Row, from: number, to: number, push: number): void {
   for (let i = from + 1; i < to; i += 1) {
     extra[i] = (extra[i] ?? 0) + (push * (i - from)) / (to - from);
   }
 }
 
-/** Puts a subtree to the right of a row, as near as the gap allows at every depth. */
+/** Adds a subtree to the right of a row, as near as the gap allows at every depth. */
 function add(row: Row, subtree: Subtree, gap: number): void {
   const index = row.middles.length;
   let right: Step | null = row.right.step;
@@ -136,8 +136,8 @@ function rowOf({ left, right, end }: Subtree): Row {
 }
 
 /**
- * Lays a tree out. `spots` has every parent before its children, and siblings in their order; the
- * root is the first, and its middle is put at 0.
+ * Lays out a tree. In `spots` every parent comes before its children, and siblings are in order; the first is
+ * the root, with its middle at 0.
  */
 export function tidyTree<Id>(spots: readonly Spot<Id>[], gap: number): void {
   const children: number[][] = spots.map(() => []);
@@ -156,7 +156,7 @@ export function tidyTree<Id>(spots: readonly Spot<Id>[], gap: number): void {
   });
 }
 
-/** Puts the children of a node into a row, their middles in the frame of the node's own. */
+/** Arranges the children of a node in a row, relative to the node's middle. */
 function subtreeOf<Id>(
   spot: Spot<Id>,
   children: readonly number[],

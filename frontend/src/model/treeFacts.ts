@@ -1,11 +1,11 @@
 import { subtreeOf, type Diagram } from './diagram';
 import type { PortDirection, PortSpec } from './ports';
 
-/** The facts about a tree that the other trees of a project use. */
+/** Facts about a tree for other trees of the project. */
 export interface TreeFacts {
-  /** Trees that it calls when it runs; those of drafts do not count. */
+  /** The trees that the tree calls, except from drafts. */
   readonly calls: ReadonlySet<string>;
-  /** Its model as a SubTree. */
+  /** Its ports as a SubTree. */
   readonly ports: readonly PortSpec[];
 }
 
@@ -41,7 +41,7 @@ function read(diagram: Diagram): TreeFacts {
 
 const known = new WeakMap<Diagram, TreeFacts>();
 
-/** Reads them once of each diagram, which never changes. */
+/** The facts of a diagram, cached, since diagrams are immutable. */
 export function treeFacts(diagram: Diagram): TreeFacts {
   const facts = known.get(diagram) ?? read(diagram);
   known.set(diagram, facts);

@@ -5,16 +5,16 @@ export interface Renaming {
   readonly to: string;
 }
 
-/** One undoable step of one tree: a name for the menu, and how to go both ways. */
+/** One undoable step of one tree: its label, and the patches in both directions. */
 export interface UndoEntry {
   readonly label: string;
-  /** Steps with the same key in a row are one: typing in a field, dragging a block. */
+  /** Consecutive steps with the same key are one: typing in a field, dragging a block. */
   readonly mergeKey: string | null;
   readonly patches: readonly Patch[];
   readonly inverse: readonly Patch[];
-  /** An action that got another name, with its file. */
+  /** An action that the step renamed, with its file. */
   readonly renamed?: Renaming | undefined;
-  /** What was selected before and after, so that undo shows where it happened. */
+  /** The selection before and after, so that undo shows where the change was. */
   readonly before: readonly string[];
   readonly after: readonly string[];
 }
@@ -22,7 +22,7 @@ export interface UndoEntry {
 export interface UndoStack {
   readonly past: readonly UndoEntry[];
   readonly future: readonly UndoEntry[];
-  /** Closed: the next entry is not merged into the last, whatever its key. */
+  /** The next entry is not merged with this one, whatever its key. */
   readonly sealed: boolean;
 }
 
@@ -30,7 +30,7 @@ export const emptyUndo: UndoStack = { past: [], future: [], sealed: true };
 
 const LIMIT = 500;
 
-/** Adds a step. What could be redone is gone; the oldest steps beyond 500 are forgotten. */
+/** Adds a step. It clears the redo stack and drops the oldest steps beyond 500. */
 export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
   if (entry.patches.length === 0) return undoStack;
   const last = undoStack.past.at(-1);
@@ -47,7 +47,7 @@ export function record(undoStack: UndoStack, entry: UndoEntry): UndoStack {
   return { past: [...undoStack.past, entry].slice(-LIMIT), future: [], sealed: false };
 }
 
-/** Ends a gesture: the next step stands for itself. */
+/** Ends a gesture: the next step is a new one. */
 export function seal(undoStack: UndoStack): UndoStack {
   return undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 }

@@ -1,6 +1,11 @@
-/** Whether a literal suits the type of a port: `translator/values.py` in TypeScript, by the same cases. */
+/**
+ * Checks whether a literal matches a port's type, like `translator/values.py`; both are tested on the same
+ * cases.
+ */
 
-/** `loose` is taken, but not as it reads (`12abc` as 12); `range` is a number that the type cannot hold. */
+/**
+ * `loose` is accepted but read differently (`12abc` as 12); `range` is a number that the type cannot hold.
+ */
 export type Fit = 'good' | 'loose' | 'range' | 'bad';
 
 const INTEGER = /^-?[0-9]+/;
@@ -12,7 +17,7 @@ const WORST: readonly Fit[] = ['bad', 'range', 'loose'];
 
 export const STATUSES = ['SUCCESS', 'FAILURE', 'RUNNING', 'SKIPPED'] as const;
 
-/** What looks like a number of the type at the beginning of a literal. */
+/** The number at the beginning of a literal; null if there is none. */
 function numberIn(type: string, text: string): string | undefined {
   if (type === 'double') return REAL.exec(text)?.[0];
   return (type === 'uint' ? UNSIGNED : INTEGER).exec(text)?.[0];
@@ -32,7 +37,7 @@ function outsideDouble(number: string): Outside | null {
   return isLost ? { number, low: '4.9e-324', high: '1.8e308' } : null;
 }
 
-/** A number that the type cannot hold, with the limits of the type; null where there is none. */
+/** A number that the type cannot hold, with the limits of the type; null if it can. */
 export function outside(type: string, text: string): Outside | null {
   if (type.startsWith('list[')) {
     const found = text.split(';').map((part) => outside(type.slice(5, -1), part));
@@ -47,7 +52,7 @@ export function outside(type: string, text: string): Outside | null {
   return isWithin ? null : { number, low: String(low), high: String(high) };
 }
 
-/** The part of a literal that is read as a value of the type; null where none is. */
+/** The part of a literal that is read as a value of the type; null if no part is. */
 export function partRead(type: string, text: string): string | null {
   if (type !== 'int' && type !== 'uint' && type !== 'double') return null;
   return outside(type, text) ? null : (numberIn(type, text) ?? null);
@@ -68,7 +73,7 @@ function fitList(item: string, text: string): Fit {
   return WORST.find((each) => fits.has(each)) ?? 'good';
 }
 
-/** How a literal suits a type of the catalogue; types without a check suit everything. */
+/** How well a literal matches a type of the catalogue; a type without a check matches everything. */
 export function fit(type: string, text: string): Fit {
   if (type.startsWith('list[')) return fitList(type.slice(5, -1), text);
   switch (type) {

@@ -4,7 +4,7 @@ import type { TreeFacts } from './treeFacts';
 
 export type Family = 'control' | 'decorator' | 'action' | 'condition' | 'subtree';
 
-/** The description of a node type: from the catalogue, the project's actions, or a subtree. */
+/** The description of a node type: from the catalogue, an action, or a subtree. */
 export interface NodeSpec {
   readonly type: string;
   readonly family: Family;
@@ -18,7 +18,7 @@ export interface NodeSpec {
   readonly source: 'builtin' | 'action' | 'subtree';
 }
 
-/** The part of an action's description (REST `ActionModel`) that the model reads. */
+/** The fields of an action's description (REST `ActionModel`) that the model reads. */
 export interface ActionDescription {
   readonly name: string;
   readonly doc?: string | undefined;
@@ -34,12 +34,12 @@ export interface ActionDescription {
   }[];
 }
 
-/** Everything that a node's type may be in one project, and what is to be known of its trees. */
+/** All node types of one project, and facts about its trees. */
 export interface Vocabulary {
   readonly specs: ReadonlyMap<string, NodeSpec>;
   readonly trees: ReadonlyMap<string, TreeFacts>;
   readonly mainTree: string;
-  /** The trees that run: the main tree, and what it calls. */
+  /** The trees that run: the main tree and those that it calls. */
   readonly reachable: ReadonlySet<string>;
 }
 
@@ -105,7 +105,7 @@ export function makeVocabulary(
   mainTree = '',
 ): Vocabulary {
   const specs = new Map<string, NodeSpec>();
-  // A built-in of the same name wins, as in the engine's loader.
+  // A built-in node with the same name takes precedence, as in the engine's loader.
   for (const action of actions) specs.set(action.name, actionSpec(action));
   for (const spec of catalog) specs.set(spec.type, spec);
   return { specs, trees, mainTree, reachable: trees.has(mainTree) ? called(trees, mainTree) : new Set() };
@@ -120,7 +120,7 @@ export function wouldRecurse(vocabulary: Vocabulary, user: string, used: string)
   return called(vocabulary.trees, used).has(user);
 }
 
-/** A tree with all that it calls, and what those call. */
+/** A tree with all trees that it calls, directly or indirectly. */
 function called(trees: Vocabulary['trees'], start: string): ReadonlySet<string> {
   const seen = new Set([start]);
   for (const tree of seen) {
@@ -129,7 +129,7 @@ function called(trees: Vocabulary['trees'], start: string): ReadonlySet<string> 
   return seen;
 }
 
-/** Blackboard keys that a diagram names in its ports, each with the types it is used as. */
+/** Blackboard keys in a diagram's ports, each with the types of its uses. */
 export function blackboardKeys(
   diagram: Diagram,
   vocabulary: Vocabulary,

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** A finding of the language server or of ruff, by place in the text that it was made for. */
+/** A finding of the language server or of ruff, with its place in the text that was checked. */
 export interface CodeFinding {
   readonly from: { readonly line: number; readonly character: number };
   readonly to: { readonly line: number; readonly character: number };
@@ -13,7 +13,7 @@ export type LanguageState =
   | { readonly kind: 'off' }
   | { readonly kind: 'starting' }
   | { readonly kind: 'ready' }
-  /** It ended, or this server has none; `reason` is the server's sentence. */
+  /** The server has ended or cannot run; `reason` is its own message. */
   | { readonly kind: 'failed'; readonly reason: string; readonly willRetry: boolean };
 
 interface LanguageData {
@@ -22,5 +22,5 @@ interface LanguageData {
   readonly findings: Readonly<Record<string, readonly CodeFinding[]>>;
 }
 
-/** The state of the language server; never saved, never undone. */
+/** The state of the language server; not saved and without undo. */
 export const useLanguageStore = create<LanguageData>(() => ({ state: { kind: 'off' }, findings: {} }));

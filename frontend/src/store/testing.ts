@@ -1,6 +1,6 @@
 import type { ProjectDetail, ProjectFile } from '@/api/types';
 
-/** A file as the server tells it. */
+/** A file in the server's format. */
 export const projectFile = (path: string, revision: number, content: string): ProjectFile => ({
   path,
   revision,
@@ -20,7 +20,7 @@ export const oneBlock = (tree: string, type: string): string =>
     drafts: [],
   });
 
-/** A project as the server tells it, for tests of the stores. */
+/** A project in the server's format, for tests of the stores. */
 export const projectDetail = (
   revision: number,
   files: readonly ProjectFile[],

@@ -9,7 +9,7 @@ interface CommandButtonProps extends Pick<ActionIconProps, 'color' | 'variant' |
   readonly testId?: string;
 }
 
-/** A button of the table of user commands: its icon, its text and shortcut as tooltip. */
+/** A button for a command of the table, with icon and tooltip. */
 export function CommandButton({ command: id, isDisabled = false, testId, ...look }: CommandButtonProps) {
   const { t } = useTranslation();
   const command = useCommandTable((table) => table.commands[id]);

@@ -8,7 +8,7 @@ interface FamilyTileProps {
   readonly size?: number;
 }
 
-/** A type of node in small: the shape and colour of its family, with its symbol. */
+/** A small picture of a node type: the shape and colour of its family, with its symbol. */
 export function FamilyTile({ type, family, size = 24 }: FamilyTileProps) {
   return (
     <span

@@ -8,7 +8,7 @@ import { applyFix } from '@/store/project/edits/fixes';
 interface QuickFixesProps {
   readonly tree: string;
   readonly fixes: readonly Fix[];
-  /** Called after one was applied. */
+  /** Called after a fix was applied. */
   readonly onDone?: (() => void) | undefined;
 }
 

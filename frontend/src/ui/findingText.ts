@@ -8,8 +8,8 @@ interface Finding {
 }
 
 /**
- * The words of a finding of the server: in the language of the page where `findings` has them, by the
- * finding's code, else as they came, in English. `near` is a name that was meant, where one is alike.
+ * The texts of a server finding: translated if `findings` has its code, otherwise the English ones. `near` is
+ * a similar name, if there is one.
  */
 export function findingText({ code, message, hint, values }: Finding): { message: string; hint: string } {
   const say = (part: 'message' | 'hint', given: string): string => {

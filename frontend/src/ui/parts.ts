@@ -1,16 +1,16 @@
 import { lazy, type ComponentType, type LazyExoticComponent } from 'react';
 
-/** A part of the page, or its style, did not come, however often it was asked for. */
+/** A part of the page, or its style sheet, could not be loaded after several attempts. */
 export class PartMissing extends Error {
   override readonly name = 'PartMissing';
 }
 
-/** A server under load, or one that is being restarted, answers again within seconds. */
+/** The pauses between attempts: a server that is busy or restarting answers again within seconds. */
 const AGAIN_AFTER_MS = [400, 1500, 4000] as const;
 
 const pause = (ms: number) => new Promise((done) => setTimeout(done, ms));
 
-/** Asks until it comes; the last refusal is the answer. */
+/** Retries until it succeeds; the last error is thrown. */
 async function insist<T>(ask: () => Promise<T>): Promise<T> {
   for (const wait of AGAIN_AFTER_MS) {
     try {
@@ -22,7 +22,7 @@ async function insist<T>(ask: () => Promise<T>): Promise<T> {
   return ask();
 }
 
-/** Whether it has not come: what a browser could not fetch is to it a style sheet without rules. */
+/** Whether a style sheet failed to load: browsers give it no rules then. */
 function isMissing({ sheet }: HTMLLinkElement): boolean {
   try {
     return !sheet || sheet.cssRules.length === 0;
@@ -31,7 +31,7 @@ function isMissing({ sheet }: HTMLLinkElement): boolean {
   }
 }
 
-/** Puts a style sheet in the place of one that did not come, or is still coming. */
+/** Replaces a style sheet that failed or is still loading by a new request. */
 function fetchAnew(link: HTMLLinkElement): Promise<void> {
   const next = link.cloneNode() as HTMLLinkElement;
   return new Promise((done, fail) => {
@@ -48,16 +48,15 @@ function fetchAnew(link: HTMLLinkElement): Promise<void> {
 }
 
 /**
- * Waits until the page has every style sheet that it names. A browser asks once for a style sheet,
- * and then shows the page without it; and the loader of lazy parts takes one for loaded once it has
- * asked for it.
+ * Waits for all style sheets of the page. A browser requests each once and shows the page without it if that
+ * fails; the loader of lazy parts treats a requested style sheet as loaded.
  */
 export async function stylesArrive(page: Document = document): Promise<void> {
   const links = [...page.querySelectorAll<HTMLLinkElement>('link[rel=stylesheet]')];
   await Promise.all(links.filter(isMissing).map((link) => insist(() => fetchAnew(link))));
 }
 
-/** Loads a part of the page with its style, and asks again when it does not come. */
+/** Loads a part of the page with its style sheets; retries if that fails. */
 export async function loadPart<T>(load: () => Promise<T>): Promise<T> {
   try {
     const part = await insist(load);

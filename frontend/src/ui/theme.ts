@@ -6,7 +6,7 @@ import {
   type MantineColorsTuple,
 } from '@mantine/core';
 
-/** Ten steps of the accent, light to dark, around `--bts-accent`. */
+/** The accent in ten steps from light to dark, around `--bts-accent`. */
 const indigo: MantineColorsTuple = [
   '#eef0fd',
   '#dadffa',
@@ -20,7 +20,7 @@ const indigo: MantineColorsTuple = [
   '#24318a',
 ];
 
-/** Mantine's dark scale in the slate of our dark tokens: text first, deepest ground last. */
+/** Mantine's dark scale, made of our dark tokens: from the text to the deepest background. */
 const dark: MantineColorsTuple = [
   '#e9ebf1',
   '#c3c9d6',
@@ -62,7 +62,7 @@ export const theme = createTheme({
   },
 });
 
-/** Mantine draws with our tokens, so that there is one source for both themes. */
+/** Maps Mantine's variables to our tokens, so that both themes have one source. */
 export const cssVariablesResolver: CSSVariablesResolver = () => {
   const shared = {
     '--mantine-color-body': 'var(--bts-surface)',

@@ -7,7 +7,7 @@ interface UndoNotification {
   undo: () => void;
 }
 
-/** Reports what was done, and offers to undo it while the notification is shown. */
+/** Shows a notification that offers to undo what was done. */
 export function undoNotification({ message, undoLabel, undo }: UndoNotification): void {
   const id = notifications.show({
     autoClose: 10_000,

@@ -12,7 +12,7 @@ import classes from './commandPalette.module.css';
 import type { DocumentTab } from './documents';
 import { openTab, useTabs } from './tabs';
 
-/** The most frequent ones come first. */
+/** The most frequent groups come first. */
 const GROUPS: CommandGroup[] = ['run', 'project', 'canvas', 'edit', 'view', 'go', 'rates'];
 
 interface Command {
@@ -20,20 +20,21 @@ interface Command {
   readonly label: string;
   readonly icon: ComponentType<{ size?: number | string }> | undefined;
   readonly keys?: string | null;
-  /** It can be done now; what cannot is shown all the same, so that it is known to be there. */
+  /** Whether the command is available now; unavailable ones are shown too, so that users can find them. */
   readonly isReady: boolean;
   readonly run: () => void;
 }
 
-/** Everything that can be done, and every file. */
+/** All commands, and all files. */
 function useCommands(page: Document): Command[] {
   const { t } = useTranslation('frame');
   const table = useCommandTable((state) => state.commands);
-  // On the start page no document can be opened, though the store still knows those of the last project.
+  // On the start page no document can be opened, though the store still holds those of the last project.
   const hasDocuments = useTabs((state) => state.model !== null);
   const files = useProjectStore((state) => state.files);
   const diagrams = useProjectStore((state) => state.diagrams);
-  // Asked once, before the palette has taken the focus from where it was; what joins the table later can be done.
+  // Computed once, before the palette takes the focus, since some commands depend on it; later commands count
+  // as available.
   const [unready] = useState(() => {
     const rows = Object.values(table).filter((command) => command.enabled?.() === false);
     return new Set(rows.map(({ id }) => id));
@@ -69,7 +70,7 @@ function useCommands(page: Document): Command[] {
   }, [table, files, diagrams, hasDocuments, t, page, unready]);
 }
 
-/** Those whose words fit best, first; among equals what can be done now, and else the order stays. */
+/** Matching commands, the best first; equal matches keep their order, with the available ones first. */
 function matching(commands: readonly Command[], search: string): Command[] {
   const rated = commands.map((command) => ({ command, score: matchScore(command.label, search) }));
   return rated
@@ -78,7 +79,7 @@ function matching(commands: readonly Command[], search: string): Command[] {
     .map(({ command }) => command);
 }
 
-/** Everything that can be done, and every file, by name: in the window in which it is asked for. */
+/** A searchable list of all commands and files, in the window where the user opened it. */
 export function CommandPalette() {
   const page = usePalette((state) => state.page);
   return page && createPortal(<Palette page={page} />, page.body);
@@ -108,7 +109,7 @@ function Palette({ page }: { readonly page: Document }) {
   const choose = (at: number): void => {
     if (!found[at]?.isReady) return;
     closePalette();
-    // What it does may move the focus: that comes after the palette has given it back.
+    // A command may move the focus: it runs after the palette has returned it.
     setTimeout(() => found[at]?.run());
   };
   const moves: Record<string, () => void> = {
@@ -126,7 +127,7 @@ function Palette({ page }: { readonly page: Document }) {
   };
 
   return (
-    // A press beside the palette closes it, as Escape does.
+    // A press outside of the palette closes it, like Escape.
     <div
       className={classes['backdrop']}
       onPointerDown={(event) => {

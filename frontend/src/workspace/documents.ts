@@ -2,5 +2,5 @@
 export type DocumentTab =
   | { kind: 'tree'; id: string }
   | { kind: 'file'; path: string }
-  /** A revision beside another; there is one such tab. */
+  /** Compares two revisions; there is one such tab. */
   | { kind: 'compare' };

@@ -1,8 +1,8 @@
 import type { DocumentTab } from './documents';
 
-/** The editor of a document may still be loading over a slow line: the longest wait for it. */
+/** The longest wait for the editor of a document, which may be loading over a slow line. */
 const PATIENCE_MS = 30_000;
-/** A closing menu or palette returns the focus to where it was: the time it may take. */
+/** The time in which a closing menu or palette returns the focus. */
 const SETTLED_MS = 250;
 const RETRY_MS = 20;
 
@@ -22,7 +22,7 @@ function focusableOf(tab: DocumentTab): HTMLElement | null {
   );
 }
 
-/** Puts the keyboard where a document that was just opened is edited, once it is there. */
+/** Moves the keyboard focus to the editor of an opened document, once it has loaded. */
 export function focusDocument(tab: DocumentTab): void {
   pending.abort();
   const mine = new AbortController();
@@ -45,7 +45,7 @@ export function focusDocument(tab: DocumentTab): void {
   setTimeout(attempt);
 }
 
-/** A press elsewhere or Tab is the user's choice of focus; any other key is typing ahead. */
+/** A press elsewhere or Tab is the user's choice of focus; any other key is typed ahead. */
 function abortOnceChosen(request: AbortController): void {
   const listen = { capture: true, signal: request.signal };
   window.addEventListener('pointerdown', () => request.abort(), listen);
@@ -57,7 +57,7 @@ export function letGoOfDocument(): void {
   pending.abort();
 }
 
-/** The first field of the selected block's properties, or the panel itself. */
+/** Moves the focus to the first property of the selected block, or to the panel itself. */
 export function focusInspector(): void {
   letGoOfDocument();
   const panel = document.querySelector<HTMLElement>('[data-testid="inspector"]');

@@ -7,7 +7,7 @@ import {
   type IJsonTabSetNode,
 } from 'flexlayout-react';
 
-/** Panels of the frame; their names are texts of `frame:panel`. */
+/** The panels; their names are texts of `frame:panel`. */
 export type PanelId =
   | 'explorer'
   | 'outline'
@@ -25,7 +25,7 @@ export type PanelId =
   | 'history'
   | 'xml';
 
-/** Each with the panel that it comes to stand beside. */
+/** Panels that are newer than stored layouts, each with the panel beside which it is added. */
 const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['timeline', 'console'],
   ['topics', 'console'],
@@ -33,23 +33,23 @@ const NEW_PANELS: readonly (readonly [PanelId, PanelId])[] = [
   ['history', 'explorer'],
 ];
 
-/** Panels that can have a window of their own, with those of their kind: they look at the run. */
+/** Panels that can have their own window, grouped by kind: they show the run. */
 const LOOKING: readonly (readonly PanelId[])[] = [
   ['viewer3d', 'video', 'camera'],
   ['console', 'timeline', 'topics'],
   ['blackboard'],
 ];
-/** All of them. */
+/** All panels that can have their own window. */
 export const WINDOWED: readonly PanelId[] = LOOKING.flat();
 const NEIGHBOURS: readonly PanelId[] = ['problems', 'inspector', 'explorer'];
 
-/** The panels beside which another belongs, the most similar first. */
+/** The panels beside which a panel belongs, the most similar first. */
 export const companionsOf = (id: PanelId): readonly PanelId[] => [
   ...(LOOKING.find((kind) => kind.includes(id)) ?? []).filter((other) => other !== id),
   ...NEIGHBOURS,
 ];
 
-/** The docking options of a panel that may have a window. */
+/** The docking options of a panel that can have its own window. */
 const windowed = (id: PanelId): Partial<IJsonTabNode> =>
   WINDOWED.includes(id)
     ? // A WebGL canvas cannot move between documents: it is created again in the other one.
@@ -58,10 +58,10 @@ const windowed = (id: PanelId): Partial<IJsonTabNode> =>
 
 export type FrameWidth = 'wide' | 'narrow';
 
-/** The tab set of trees and code; it stays when it is empty. */
+/** The tab set of documents; it stays when it is empty. */
 export const EDITORS = 'editors';
 
-/** Raise it when the default layout changes, so that old ones are not kept. */
+/** Must be raised when the default layout changes, so that stored layouts are dropped. */
 const VERSION = 1;
 const storageKey = (width: FrameWidth) => `bts.layout.${VERSION}.${width}`;
 
@@ -91,7 +91,7 @@ const global: NonNullable<IJsonModel['global']> = {
   tabSetMinWidth: 120,
 };
 
-/** A panel that comes when it is called, and can be closed: the tree's XML beside its canvas. */
+/** Opens or closes an optional panel, such as the XML beside the canvas. */
 export function toggleBeside(model: Model, width: FrameWidth, id: PanelId): void {
   if (model.getNodeById(id)) {
     model.doAction(Actions.deleteTab(id));
@@ -171,7 +171,7 @@ function defaultLayout(width: FrameWidth, hasWebGl: boolean): IJsonModel {
   };
 }
 
-/** Without the open documents: those belong to a project, the arrangement to the user. */
+/** The layout without open documents: these belong to a project, the layout to the user. */
 function withoutDocuments(json: IJsonModel): IJsonModel {
   const text = JSON.stringify(json, (key, value: unknown) => {
     if (key !== 'children' || !Array.isArray(value)) return value;
@@ -210,7 +210,7 @@ export function loadLayout(width: FrameWidth, hasWebGl: boolean): Model {
   return Model.fromJson(defaultLayout(width, hasWebGl));
 }
 
-/** Panels that came with an update, which a kept layout does not know yet, beside their neighbours. */
+/** Adds panels that are newer than a stored layout, beside their neighbours. */
 function withNewPanels(model: Model): Model {
   for (const [id, neighbour] of NEW_PANELS) {
     const beside = model.getNodeById(neighbour)?.getParent();
@@ -220,7 +220,7 @@ function withNewPanels(model: Model): Model {
   return model;
 }
 
-/** A layout that was kept before panels could have windows. */
+/** Updates a layout that was stored before panels could have windows. */
 function withWindows(model: Model): Model {
   for (const id of WINDOWED) {
     if (model.getNodeById(id)) model.doAction(Actions.updateNodeAttributes(id, windowed(id)));

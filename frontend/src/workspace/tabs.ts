@@ -5,7 +5,7 @@ import type { DocumentTab } from './documents';
 import { focusDocument } from './focus';
 import { EDITORS, toggleBeside, type FrameWidth, type PanelId } from './layoutModel';
 
-/** Where an editor shall put its cursor; `request` makes the same line twice two requests. */
+/** The line for an editor's cursor; `request` distinguishes two requests for the same line. */
 export interface LineTarget {
   path: string;
   line: number;
@@ -14,12 +14,12 @@ export interface LineTarget {
 
 interface TabsData {
   model: Model | null;
-  /** Of which window width the model is the layout. */
+  /** The window width that the layout is for. */
   width: FrameWidth | null;
   target: LineTarget | null;
-  /** The tree or file that was in front last. */
+  /** The document that was in front last. */
   front: DocumentTab | null;
-  /** How often a tab was given another document: the docking library does not tell its content. */
+  /** The number of renamed tabs: the docking library does not notify a tab's content of a rename. */
   renames: number;
 }
 
@@ -39,15 +39,15 @@ function tabId(tab: DocumentTab): string {
 }
 
 function nameOf(tab: DocumentTab): string {
-  // Translated by the frame, as the names of its panels are.
+  // The frame translates it, like the names of its panels.
   if (tab.kind === 'compare') return 'panel.compare';
   if (tab.kind === 'tree') return tab.id;
-  // All robots are in files of the same name.
+  // All robots have files of the same name, so the tab shows the folder's name.
   const robot = /^robots\/([^/]+)\/robot\.yaml$/.exec(tab.path)?.[1];
   return robot ?? tab.path.split('/').at(-1) ?? tab.path;
 }
 
-/** What a tab shows, and what it is called after it. */
+/** The icon and name of a document's tab. */
 function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpText'> {
   const name = nameOf(tab);
   const helpText = tab.kind === 'file' ? tab.path : tab.kind === 'tree' ? name : '';
@@ -57,7 +57,7 @@ function faceOf(tab: DocumentTab): Pick<IJsonTabNode, 'name' | 'config' | 'helpT
 export const documentOf = (node: TabNode): DocumentTab | undefined =>
   (node.getConfig() as { tab?: DocumentTab } | undefined)?.tab;
 
-/** The tab of a document, also one opened under an earlier name. */
+/** The tab of a document, also if it was opened under an earlier name. */
 function nodeOf(model: Model | null, tab: DocumentTab): TabNode | null {
   let found: TabNode | null = null;
   model?.visitNodes((node) => {
@@ -93,7 +93,7 @@ export function closeTab(tab: DocumentTab): void {
   if (open) model?.doAction(Actions.deleteTab(open.getId()));
 }
 
-/** Gives a document's tab its new name in place. */
+/** Renames a document's tab in place. */
 export function followRename(from: DocumentTab, to: DocumentTab): void {
   const { model } = useTabs.getState();
   const open = nodeOf(model, from);
@@ -115,14 +115,14 @@ export function closeGone(): void {
   }
 }
 
-/** Brings a panel to the front, if the user has not closed it. */
+/** Brings a panel to the front, unless the user has closed it. */
 export function showPanel(panel: PanelId): void {
   const { model } = useTabs.getState();
   const node = model?.getNodeById(panel);
   if (node instanceof TabNode && !node.isVisible()) model?.doAction(Actions.selectTab(panel));
 }
 
-/** Opens a panel beside the documents, or closes it. */
+/** Opens or closes a panel beside the documents. */
 export function togglePanel(panel: PanelId): void {
   const { model, width } = useTabs.getState();
   if (model && width) toggleBeside(model, width, panel);
@@ -137,7 +137,7 @@ export function openDocuments(model: Model): DocumentTab[] {
   return found;
 }
 
-/** The document in front, in the tab set of the editors or the one the user made active. */
+/** The document in front, in the tab set of the editors or in the active one. */
 export function frontDocument(model: Model): DocumentTab | null {
   const active = model.getActiveTabset();
   for (const tabset of [active, model.getNodeById(EDITORS)]) {
@@ -150,7 +150,7 @@ export function frontDocument(model: Model): DocumentTab | null {
 
 const isSame = (a: DocumentTab, b: DocumentTab | null) => b !== null && tabId(a) === tabId(b);
 
-/** The canvas, inspector and undo work on the tree in front. */
+/** Makes the tree in front the active one for canvas, inspector and undo. */
 export function followFront(model: Model): void {
   const front = frontDocument(model);
   if (front && front.kind !== 'compare' && !isSame(front, useTabs.getState().front))
@@ -166,13 +166,13 @@ export function keepOpen(projectId: string, model: Model): void {
   localStorage.setItem(openKey(projectId), JSON.stringify({ tabs: openDocuments(model), front }));
 }
 
-/** Opens what was open in this project the last time, and at least its main tree. */
+/** Opens the documents of the last visit to this project, and at least its main tree. */
 export function reopen(projectId: string, mainTree: string): void {
   let kept: { tabs?: DocumentTab[]; front?: DocumentTab | null } = {};
   try {
     kept = JSON.parse(localStorage.getItem(openKey(projectId)) ?? '{}') as typeof kept;
   } catch {
-    // Unreadable: treated as if no tab had been open.
+    // The stored tabs are unreadable: treated as none.
   }
   const tabs = (kept.tabs ?? []).filter(exists);
   for (const tab of tabs) openTab(tab);

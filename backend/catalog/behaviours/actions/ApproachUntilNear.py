@@ -9,7 +9,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class ApproachUntilNear(py_trees.behaviour.Behaviour):
-    """Creeps ahead until the LIDAR says that what stands ahead is near enough."""
+    """Drives slowly ahead until the LIDAR measures an obstacle near enough."""
 
     INPUT_PORTS = {
         "distance": Port(float, default=0.4, description="Where to stop, in m from the LIDAR."),

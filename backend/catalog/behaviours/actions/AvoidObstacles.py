@@ -9,7 +9,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class AvoidObstacles(py_trees.behaviour.Behaviour):
-    """Drives about without touching anything: towards the free side; it goes on until it is halted."""
+    """Drives around without touching anything, towards the free side, until it is halted."""
 
     INPUT_PORTS = {
         "distance": Port(float, default=0.8, description="From where on obstacles are avoided, in m."),
@@ -28,7 +28,7 @@ class AvoidObstacles(py_trees.behaviour.Behaviour):
         self.scan = scan
 
     def nearest(self, low, high):
-        """The nearest thing between two bearings, in degrees; without one, the farthest that is seen."""
+        """Returns the nearest distance between two bearings in degrees, else the largest range."""
         scan, found = self.scan, self.scan.range_max
         for i, distance in enumerate(scan.ranges):
             bearing = math.degrees(math.remainder(scan.angle_min + i * scan.angle_increment, math.tau))

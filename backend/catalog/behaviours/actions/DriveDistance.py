@@ -37,7 +37,7 @@ class DriveDistance(py_trees.behaviour.Behaviour):
         if left <= 0.01:
             return py_trees.common.Status.SUCCESS
         twist = Twist()
-        # The last stretch is driven slowly, so that the robot stops where it shall.
+        # The last part is driven slowly, so that the robot stops at the right place.
         speed = max(0.05, min(get_input(self, "speed"), 1.5 * left))
         twist.linear.x = math.copysign(speed, distance)
         self.publisher.publish(twist)

@@ -31,7 +31,7 @@ class FollowLine(py_trees.behaviour.Behaviour):
         self.lost = 0
 
     def line_offset(self):
-        """Where the line is in the lower part of the picture, from -1 to 1, or None."""
+        """Returns the position of the line in the lower part of the picture, from -1 to 1, or None."""
         image = self.image
         pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
         pixels = pixels[:, : image.width * 3].reshape(image.height, image.width, 3)
@@ -46,7 +46,7 @@ class FollowLine(py_trees.behaviour.Behaviour):
         self.lost = 0 if offset is not None else self.lost + 1
         if self.lost > 20:
             return py_trees.common.Status.FAILURE
-        # Out of sight, the line is where it was seen last, and a little farther.
+        # A line out of sight is assumed a little farther than where it was seen last.
         self.offset = offset if offset is not None else max(-1.0, min(1.0, 1.5 * self.offset))
         twist = Twist()
         twist.angular.z = -1.6 * self.offset

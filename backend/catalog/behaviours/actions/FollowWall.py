@@ -9,7 +9,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class FollowWall(py_trees.behaviour.Behaviour):
-    """Drives along a wall at a distance, round inner and outer corners; it goes on until it is halted."""
+    """Drives along a wall at a distance, round inner and outer corners, until it is halted."""
 
     INPUT_PORTS = {
         "side": Port(str, default="left", description="On which side the wall is: left or right."),
@@ -32,7 +32,7 @@ class FollowWall(py_trees.behaviour.Behaviour):
         self.had_wall = False
 
     def nearest(self, low, high):
-        """The nearest thing between two bearings, in degrees; without one, the farthest that is seen."""
+        """Returns the nearest distance between two bearings in degrees, else the largest range."""
         scan, found = self.scan, self.scan.range_max
         for i, distance in enumerate(scan.ranges):
             bearing = math.degrees(math.remainder(scan.angle_min + i * scan.angle_increment, math.tau))
@@ -52,7 +52,7 @@ class FollowWall(py_trees.behaviour.Behaviour):
         if ahead < 1.3 * wanted:
             twist.angular.z = -left * 0.8
         elif min(side, front_side) > 2.5 * wanted:
-            # No wall is near yet, or it ended: go on ahead, and round the end.
+            # No wall is near yet, or it ended: continue ahead, and round the end.
             twist.linear.x = speed
             twist.angular.z = left * 0.6 * speed / wanted if self.had_wall else 0.0
         else:

@@ -4,7 +4,7 @@ from tree_gardener.ports import Port, get_input, set_output
 
 
 class NextWaypoint(py_trees.behaviour.Behaviour):
-    """Takes the next of a list of points; it fails when all have been taken, and then starts again."""
+    """Returns the points of a list one by one; after the last one it fails, and then starts again."""
 
     INPUT_PORTS = {
         "waypoints": Port(str, default="1,0; 1,1; 0,1; 0,0", description="Points in m: x,y; x,y; …"),

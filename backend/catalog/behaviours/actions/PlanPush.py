@@ -6,7 +6,7 @@ from tree_gardener.ports import Port, get_input, set_output
 
 
 class PlanPush(py_trees.behaviour.Behaviour):
-    """Says from where, in which direction and how far to drive so that an object ends at a goal."""
+    """Computes a start pose, a direction and a distance to push an object to a goal."""
 
     INPUT_PORTS = {
         "object_x": Port(float, required=True, description="Where the object is, in m."),

@@ -8,7 +8,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class RotateToHeading(py_trees.behaviour.Behaviour):
-    """Turns the short way until the robot looks where it shall, by its odometry."""
+    """Turns the shorter way to a heading, measured by odometry."""
 
     INPUT_PORTS = {
         "heading": Port(float, default=0.0, description="Where to look, in degrees, counter-clockwise."),

@@ -7,7 +7,7 @@ from tree_gardener.ports import Port, get_input, set_output
 
 
 class SeesColor(py_trees.behaviour.Behaviour):
-    """Succeeds if the camera sees a patch of a colour, and tells where."""
+    """Succeeds if the camera sees a patch of a colour, and outputs its position."""
 
     NODE_KIND = "Condition"
     INPUT_PORTS = {
@@ -33,7 +33,7 @@ class SeesColor(py_trees.behaviour.Behaviour):
         self.image = image
 
     def mask(self):
-        """Which pixels have the colour, whatever the light: every second in each direction is looked at."""
+        """Returns the pixels with the colour, whatever the light; it tests every second one."""
         image = self.image
         pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.step)
         pixels = (

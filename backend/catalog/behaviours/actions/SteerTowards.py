@@ -5,7 +5,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class SteerTowards(py_trees.behaviour.Behaviour):
-    """Drives towards what stands at an offset in the picture, until it is ahead and looks tall enough."""
+    """Drives towards an object at an offset in the picture, until it is ahead and large enough."""
 
     INPUT_PORTS = {
         "offset": Port(float, required=True, description="Where it is: -1 at the left edge, 1 at the right."),

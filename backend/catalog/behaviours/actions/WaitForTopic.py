@@ -7,7 +7,7 @@ from tree_gardener.ports import Port, get_input
 
 
 class WaitForTopic(py_trees.behaviour.Behaviour):
-    """Waits until a message arrives on a topic, of whatever type; it fails when none comes in time."""
+    """Waits for a message on a topic of any type; it fails after a timeout."""
 
     INPUT_PORTS = {
         "topic": Port(str, default="/scan", description="Name of the topic."),
@@ -31,7 +31,7 @@ class WaitForTopic(py_trees.behaviour.Behaviour):
         self.arrived = True
 
     def subscribe(self, topic):
-        """Subscribes as soon as somebody publishes: before that the type is not known."""
+        """Subscribes once there is a publisher: before that the type is unknown."""
         for name, types in self.node.get_topic_names_and_types():
             if name == topic:
                 package, kind, message = types[0].split("/")

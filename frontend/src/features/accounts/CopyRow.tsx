@@ -9,7 +9,7 @@ interface CopyRowProps {
   readonly onRevoke: () => void;
 }
 
-/** A link to copy, and to take back. */
+/** A link that the user can copy and revoke. */
 export function CopyRow({ url, label, note, onRevoke }: CopyRowProps) {
   const { t } = useTranslation('accounts');
   return (

@@ -13,7 +13,7 @@ interface GroupsDialogProps {
   readonly onClose: () => void;
 }
 
-/** Classes: their members, and the links that invite people. */
+/** Classes with their members and invitation links. */
 export function GroupsDialog({ me, isOpen, onClose }: GroupsDialogProps) {
   const { t } = useTranslation('accounts');
   return (

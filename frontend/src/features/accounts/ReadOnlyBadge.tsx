@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 
 const NOTE = 'read-only';
 
-/** Says that the project may only be read, and again when someone tries to change it. */
+/** A badge of projects that the user can only read; it also tells so when the user tries to change one. */
 export function ReadOnlyBadge() {
   const { t } = useTranslation('accounts');
   const refused = useProjectStore((state) => state.refusedEdits);

@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 import { ShareDialog } from './ShareDialog';
 import { useMe } from './useMe';
 
-/** Opens the sharing of the open project; for its owner, where there are accounts. */
+/** Opens the sharing dialogue of the open project; shown to its owner on servers with accounts. */
 export function ShareButton() {
   const { t } = useTranslation('accounts');
   const me = useMe();

@@ -16,7 +16,7 @@ interface ShareDialogProps {
   readonly onClose: () => void;
 }
 
-/** The people, classes and links with which a project is shared. For its owner. */
+/** Lists the people, classes and links that a project is shared with; for its owner. */
 export function ShareDialog({ projectId, name, isOpen, onClose }: ShareDialogProps) {
   const { t } = useTranslation('accounts');
   return (

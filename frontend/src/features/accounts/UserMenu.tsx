@@ -9,7 +9,7 @@ import { useMe } from './useMe';
 
 type Opened = 'groups' | 'data';
 
-/** The commands of the menu, for the command palette. */
+/** The menu's commands for the command palette. */
 function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): UserCommand[] {
   const row = (id: string, icon: typeof IconUsers, run: () => void): UserCommand => {
     return { id: `account.${id}`, group: 'go', labelKey: `accounts:${id}`, icon, run };
@@ -26,7 +26,7 @@ function rowsFor(isAdministrator: boolean, open: (dialog: Opened) => void): User
   ];
 }
 
-/** The menu of the signed-in user; nothing on localhost, where there are no accounts. */
+/** The menu of the signed-in user; hidden on localhost, where there are no accounts. */
 export function UserMenu() {
   const { t } = useTranslation('accounts');
   const me = useMe();

@@ -26,7 +26,7 @@ export interface UserGroup {
   id: string;
   name: string;
   owner: string;
-  /** The user looks after it, and sees its members and invitations. */
+  /** The user manages the group, and sees its members and invitations. */
   mine: boolean;
   members: Person[];
   invitations: Invitation[];

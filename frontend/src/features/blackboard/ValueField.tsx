@@ -5,7 +5,7 @@ import { send } from '@/store/session/connection';
 import type { BlackboardRow as Row } from '@/store/session/types';
 import { readValue, showValue } from './value';
 
-/** Writes an entry while time is paused; a refused value stays in the field, with the reason under it. */
+/** Edits an entry while time is paused; a refused value stays in the field, with the reason below. */
 export function ValueField({ row }: { readonly row: Row }) {
   const { t } = useTranslation('blackboard');
   const shown = showValue(row.value);

@@ -1,4 +1,4 @@
-/** A value as people read it: short numbers, JSON for what has parts. */
+/** A value for display: short numbers, and JSON for lists and objects. */
 export function showValue(value: unknown): string {
   if (value === null || value === undefined) return '—';
   if (typeof value === 'number')
@@ -7,12 +7,12 @@ export function showValue(value: unknown): string {
   return JSON.stringify(value) ?? String(value);
 }
 
-/** The typed text as a value, or the expected kind: a name of `blackboard:wrong`. */
+/** The value of the typed text, or the kind that was expected: a key of `blackboard:wrong`. */
 export type Read = { readonly value: unknown } | { readonly wrong: 'integer' | 'number' | 'list' | 'dict' };
 
 /**
- * What was typed, as the value that it stands for. A number stays a number and a list a list: the program was
- * written for that. What only the program knows is sent as JSON where it is JSON, else as text.
+ * Converts typed text to a value. Numbers and lists keep their type, since the program expects it. A type
+ * that only the program knows is sent as JSON if the text is JSON, else as text.
  */
 export function readValue(text: string, type: string): Read {
   const json = jsonOf(text);
@@ -39,7 +39,7 @@ export function readValue(text: string, type: string): Read {
   return { value: json === undefined ? text : json };
 }
 
-/** Undefined where the text is no JSON. */
+/** Undefined if the text is not JSON. */
 function jsonOf(text: string): unknown {
   try {
     return JSON.parse(text) as unknown;

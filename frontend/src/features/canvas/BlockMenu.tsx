@@ -10,7 +10,7 @@ export interface MenuPoint {
   readonly isOnBlock: boolean;
 }
 
-/** The groups of the menu: `id` of the table of commands. */
+/** The groups of the menu, by command `id`. */
 const ON_BLOCK = [
   ['canvas.fix'],
   ['canvas.look'],
@@ -54,7 +54,7 @@ interface BlockMenuProps {
   readonly onClose: () => void;
 }
 
-/** The menu of the right mouse button. */
+/** The context menu of the canvas. */
 export function BlockMenu({ point, onClose }: BlockMenuProps) {
   const { t } = useTranslation('canvas');
   if (!point) return null;

@@ -19,7 +19,7 @@ function nameOf(diagram: Diagram | undefined, id: NodeId): string {
   return node ? displayName(node) : id;
 }
 
-/** A tree that uses this one, up to the main tree: the way back. */
+/** The trees above this one, up to the main tree. */
 function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, main: string): string[] {
   const owners: string[] = [];
   let tree = treeId;
@@ -32,12 +32,12 @@ function ownersOf(diagrams: Readonly<Record<string, Diagram>>, treeId: string, m
   return owners;
 }
 
-/** As many blocks of a long path are named: its top, and the nearest to the block at its end. */
+/** A long path shows this many blocks: the first, and the last ones. */
 const NEAREST = 4;
 
 interface PartOfPath {
   readonly id: NodeId;
-  /** Blocks that are passed over before this one. */
+  /** The blocks that are left out before this one. */
   readonly passed: readonly NodeId[];
 }
 
@@ -49,7 +49,7 @@ function shortened(path: readonly NodeId[]): PartOfPath[] {
   });
 }
 
-/** The trees that lead to this one, and the path from the root to the selected block. */
+/** The trees above this one, and the path from the root to the selected block. */
 export const Breadcrumbs = memo(function Breadcrumbs({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   const diagrams = useProjectStore((state) => state.diagrams);

@@ -7,7 +7,7 @@ interface CanvasProps {
   readonly treeId: string;
 }
 
-/** The drawing of one tree, editable. */
+/** Draws one tree for editing. */
 export function Canvas({ treeId }: CanvasProps) {
   const exists = useProjectStore((state) => treeId in state.diagrams);
   if (!exists) return null;

@@ -65,7 +65,7 @@ export const CanvasToolbar = memo(function CanvasToolbar({ treeId }: { readonly 
   useEffect(() => showsTree(treeId, flow), [treeId, flow]);
 
   const fitSoon = (): void => {
-    // After React has drawn the new layout.
+    // Waits until React has drawn the new layout.
     requestAnimationFrame(() => void flow.fitView({ ...FIT, duration: 200 }));
   };
 

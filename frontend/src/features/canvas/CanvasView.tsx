@@ -41,7 +41,7 @@ const edgeTypes = { tree: TreeEdge };
 const FAR = 0.42;
 const DELETE_KEYS: string[] = [];
 const MULTI_KEYS = ['Meta', 'Control', 'Shift'];
-/** A press on a tool or on the way up leaves the keyboard with the blocks. */
+/** A press on a tool or a breadcrumb must leave the keyboard focus on the blocks. */
 const isTool = (target: HTMLElement): boolean => target.closest('[role="toolbar"], nav') !== null;
 
 export function CanvasView({ treeId }: { readonly treeId: string }) {
@@ -65,7 +65,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const [projection] = useState(() => new FlowProjection());
   const { diagram, shown, layout, vocabulary, problems, selection } = tree;
-  // A frame that is drawn round blocks holds their connections, too: then the blocks are meant.
+  // A selection rectangle also contains the connections between its blocks: then only the blocks count.
   const chosenEdge = selection.size === 0 ? pressedEdge : null;
   const { nodes: resting, edges } = useMemo(
     () => projection.project({ diagram, shown, layout, vocabulary, problems, selection }),
@@ -118,13 +118,13 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
 
   const openMenuByKeys = (): void => {
     const [first] = useProjectStore.getState().selection;
-    // A menu closes at any key beside it, also at the one that opens it.
+    // A key outside of a menu closes it, even the key that opens it.
     setTimeout(() => {
       setMenu({ ...pointOf(first), isOnBlock: first !== undefined });
     });
   };
 
-  // React Flow renders the frame of every block again when one of its listeners is another function.
+  // React Flow renders every block again when one of its listeners changes identity.
   const onPaneContextMenu = useCallback(
     (event: MouseEvent | globalThis.MouseEvent) => {
       openMenu(event, null);
@@ -134,7 +134,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
   const onNodeClick = useCallback(
     (event: MouseEvent, node: BlockNode) => {
       const { selection: chosen, select } = useProjectStore.getState();
-      // A press on one of several means that one, unless it begins to carry them.
+      // A press on one of several selected blocks selects it alone, unless a drag follows.
       if (chosen.length < 2 || node.data.inside || event.shiftKey || event.ctrlKey || event.metaKey) return;
       select(treeId, [node.id]);
     },
@@ -173,7 +173,7 @@ export function CanvasView({ treeId }: { readonly treeId: string }) {
         } else onCanvasKey(event);
       }}
       onContextMenu={(event) => {
-        // The browser's own answer to the same key.
+        // Prevents the browser's default action for this key.
         if (event.target === event.currentTarget) event.preventDefault();
       }}
       onPointerDownCapture={(event) => {

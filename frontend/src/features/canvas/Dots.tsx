@@ -3,10 +3,10 @@ import { useLayoutEffect, useRef } from 'react';
 import classes from './Canvas.module.css';
 
 const GAP = 24;
-/** Nearer dots would be a grey haze: from afar, every second one is left out, and so on. */
+/** Denser dots would blur to grey: when zoomed out, only every second, fourth … dot is drawn. */
 const CLOSEST = 12;
 
-/** The dots behind the tree. They follow the view without React, which else would render them each frame. */
+/** The dots behind the tree. They follow the view without React, which would render them at each frame. */
 export function Dots() {
   const dots = useRef<HTMLDivElement>(null);
   const store = useStoreApi();

@@ -5,7 +5,7 @@ import { FamilyTile } from '@/ui/FamilyTile';
 import { openQuickAdd } from './quickAdd/open';
 import classes from './Canvas.module.css';
 
-/** The hint of an empty canvas: the first block, and the two ways to add it. */
+/** The hint on an empty canvas: how to add the first block. */
 export function EmptyTree({ treeId }: { readonly treeId: string }) {
   const { t } = useTranslation('canvas');
   return (

@@ -8,14 +8,14 @@ import classes from './Canvas.module.css';
 interface FixBoxProps {
   readonly diagram: Diagram;
   readonly id: NodeId;
-  /** Returns the focus to the canvas. */
+  /** Called on closing; must return the focus to the canvas. */
   readonly onClose: () => void;
 }
 
 const WIDTH = 320;
 const HEIGHT = 240;
 
-/** The problems of a block and their fixes, below the block; opened by a press or by keys. */
+/** The problems of a block with their fixes, below the block; opened by pointer or keyboard. */
 export function FixBox({ diagram, id, onClose }: FixBoxProps) {
   const { t } = useTranslation('canvas');
   const box = useRef<HTMLDivElement>(null);

@@ -17,7 +17,7 @@ interface OverviewProps {
 
 const boxOf = ({ position, width = 0, height = 0 }: BlockNode): Box => ({ ...position, width, height });
 
-/** Draws the tree: one picture, drawn when the tree changes and not when the view moves. */
+/** Draws the tree as one picture, again only when the tree changes, not when the view moves. */
 function draw(picture: HTMLCanvasElement, { nodes, edges }: OverviewProps, { sx, sy, left, top }: Shrinking) {
   const ratio = window.devicePixelRatio || 1;
   picture.width = PICTURE.width * ratio;
@@ -55,7 +55,7 @@ function draw(picture: HTMLCanvasElement, { nodes, edges }: OverviewProps, { sx,
   for (const node of nodes) if (node.data.problem?.severity === 'error') paint(node, token('failure-bright'));
 }
 
-/** The whole tree, small, with the part that is in view; a press or a drag goes there. */
+/** A small picture of the whole tree with the visible part marked; a press or a drag moves the view. */
 export function Overview({ nodes, edges }: OverviewProps) {
   const { t } = useTranslation('canvas');
   const picture = useRef<HTMLCanvasElement>(null);

@@ -23,9 +23,9 @@ export interface BlockData extends Record<string, unknown> {
   readonly canGrow: boolean;
   /** How many blocks are hidden below this one; 0 unless it is folded. */
   readonly folded: number;
-  /** Of a SubTree whose tree can be looked into: whether it is. */
+  /** Whether a SubTree is expanded; null if it cannot be. */
   readonly look: 'closed' | 'open' | null;
-  /** Its own place, of a block that is only looked at inside of a SubTree. */
+  /** The block's tree and node, if it is shown inside of an expanded SubTree. */
   readonly inside: Inside | null;
 }
 
@@ -41,7 +41,10 @@ export interface FlowInput {
   readonly selection: ReadonlySet<NodeId>;
 }
 
-/** Where connections end: known without measuring, so that they are right at once when blocks change. */
+/**
+ * The ends of connections. They are computed and not measured, so that they are right as soon as blocks
+ * change.
+ */
 function handlesOf({ width, height }: Box, isHorizontal: boolean): NodeHandle[] {
   const end = (type: 'source' | 'target', position: Position, x: number, y: number): NodeHandle => ({
     type,
@@ -71,7 +74,7 @@ const FACTS = [
 
 const sameData = (a: BlockData, b: BlockData): boolean => FACTS.every((key) => a[key] === b[key]);
 
-/** The list as it was, where nothing in it has changed. */
+/** Returns the earlier list if no element has changed. */
 function kept<T>(before: readonly T[], now: T[]): T[] {
   const isSame = before.length === now.length && now.every((each, index) => each === before[index]);
   return isSame ? (before as T[]) : now;
@@ -85,8 +88,8 @@ function lookOf(id: NodeId, node: DiagramNode, { shown, vocabulary }: FlowInput)
 }
 
 /**
- * Projects a tree to React Flow's nodes. Nodes that did not change stay the same objects, so that
- * React renders the changed ones alone; so do the lists, which React Flow else looks through.
+ * Projects a tree to React Flow's nodes. Unchanged nodes and lists keep their identity, so that React renders
+ * only the changed ones and React Flow need not compare the lists.
  */
 export class FlowProjection {
   private nodes = new Map<NodeId, BlockNode>();
@@ -154,7 +157,7 @@ export class FlowProjection {
       selected: selection.has(id),
       data: sameContent ? known.data : data,
       ariaLabel: displayName(node),
-      // A name needs a role, also from afar, where the block shows no text.
+      // A name needs a role, also when zoomed out, where the block shows no text.
       ariaRole: 'group',
       ...(inside ? { draggable: false, selectable: false, connectable: false } : {}),
     };
@@ -171,7 +174,7 @@ export class FlowProjection {
       return known;
     }
     return {
-      // A block has one parent: its own id names what leads to it.
+      // A block has one parent, so its own id also identifies the edge to it.
       id: child,
       type: 'tree',
       source: parent,
@@ -183,13 +186,13 @@ export class FlowProjection {
   }
 }
 
-/** Marks the block in the hand, so that it stays drawn when the canvas moves away below it. */
+/** Marks the dragged block, so that it is drawn even when the canvas scrolls it out of view. */
 export function withHeld(nodes: readonly BlockNode[], held: NodeId | null): BlockNode[] {
   if (held === null) return nodes as BlockNode[];
   return nodes.map((node) => (node.id === held ? { ...node, dragging: true } : node));
 }
 
-/** The place of a node for a screen reader: "2 of 3". */
+/** The position of a node for screen readers: "2 of 3". */
 export function ordinal(
   diagram: Diagram,
   parent: NodeId | null,

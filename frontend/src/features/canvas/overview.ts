@@ -5,7 +5,7 @@ export interface Size {
   readonly height: number;
 }
 
-/** How a tree is drawn small: what to multiply by, and where its left top corner comes to lie. */
+/** The scale of a small picture of a tree, and the offset of the tree's top left corner. */
 export interface Shrinking {
   readonly sx: number;
   readonly sy: number;
@@ -14,12 +14,12 @@ export interface Shrinking {
 }
 
 const MARGIN = 6;
-/** Below these sizes a block is a hairline: then the tree is stretched to the available room. */
+/** Blocks smaller than this are hairlines: then the tree is stretched to the available room. */
 const LEGIBLE = { sx: 0.03, sy: 0.09 } as const;
 
 /**
- * Makes a tree fit a small picture. Trees that are far wider than high would be a line in it: the
- * short side is stretched until blocks can be seen.
+ * Fits a tree into a small picture. A tree that is far wider than high is stretched on its short side, so
+ * that its blocks stay visible.
  */
 export function shrink(bounds: Box, picture: Size): Shrinking {
   const width = picture.width - 2 * MARGIN;
@@ -50,10 +50,10 @@ export function boundsOf(boxes: Iterable<Box>): Box {
     : { x: left, y: top, width: right - left, height: bottom - top };
 }
 
-/** A view of the tree must be large enough to be grabbed. */
+/** The smallest size of the view's frame that can still be dragged. */
 const LEAST = 6;
 
-/** Where a view of the tree is in the picture, as far as it is in it. */
+/** The part of a view that lies in the picture, in the picture's coordinates. */
 export function frameOf(view: Box, { sx, sy, left, top }: Shrinking, picture: Size): Box {
   const span = (from: number, to: number, end: number): [number, number] => {
     const middle = Math.max(LEAST / 2, Math.min(end - LEAST / 2, (from + to) / 2));

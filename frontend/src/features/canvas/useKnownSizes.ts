@@ -4,13 +4,12 @@ import { useState } from 'react';
 const measureNothing = (): void => undefined;
 
 /**
- * Has React Flow take sizes of blocks and ends of connections from us (`flow.ts`). Else it measures each
- * block that comes into view, asks all that listen to it whether they care, and renders the block again: a
- * third of such a frame.
+ * Gives React Flow the sizes of blocks and the ends of connections (`flow.ts`). Otherwise it measures each
+ * block that comes into view and renders the block again, which takes a third of such a frame.
  */
 export function useKnownSizes(): void {
   const store = useStoreApi();
-  // Before React Flow first renders: it keeps what it finds then.
+  // Runs before React Flow's first render, which reads these values.
   useState(() => {
     if (store.getState().updateNodeInternals !== measureNothing)
       store.setState({ updateNodeInternals: measureNothing });

@@ -5,10 +5,10 @@ import type { Layout } from '@/model/layout';
 import { useProjectStore } from '@/store/project';
 
 const MARGIN = 48;
-/** The toolbar lies over the bottom of the canvas. */
+/** The height of the toolbar that covers the bottom of the canvas, in px. */
 const MARGIN_BELOW = 84;
 
-/** Brings a block into view when it is asked for, or when keys select one that is out of sight. */
+/** Scrolls a block into view on request, or when keys select one that is out of sight. */
 export function useReveal(treeId: string, layout: Layout): void {
   const flow = useReactFlow();
   const revealed = useProjectStore((state) => (state.revealed?.tree === treeId ? state.revealed : null));

@@ -22,7 +22,7 @@ const NONE: readonly string[] = [];
 const CLOSED: ReadonlySet<string> = new Set();
 const NO_TREES: Readonly<Record<string, Diagram>> = {};
 
-/** Everything about a tree that the canvas draws, computed once for each change. */
+/** All data of a tree that the canvas draws, computed once for each change. */
 export function useTree(treeId: string): TreeOnCanvas {
   const stored = useProjectStore((state) => state.diagrams[treeId]);
   const vocabulary = useProjectStore((state) => state.vocabulary);

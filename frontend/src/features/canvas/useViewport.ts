@@ -5,7 +5,7 @@ import type { Box, Layout } from '@/model/layout';
 import { disconnect } from '@/store/project/edits/blocks';
 import type { BlockNode, TreeEdge } from './flow';
 
-/** Where the user was looking in each tree, for as long as the page lives. */
+/** The last view of each tree, until the page closes. */
 const viewports = new Map<string, Viewport>();
 
 export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3 } as const;
@@ -14,7 +14,7 @@ export const FIT = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3 } as const;
 const READABLE = 0.6;
 const EDGE = 48;
 
-/** The top of the tree, readable, near the edge that it grows from: how a tree begins that does not fit. */
+/** The initial view of a tree that does not fit: its root, readable, near the edge that it grows from. */
 function atRoot(
   { width, height }: { width: number; height: number },
   root: Box,
@@ -51,7 +51,7 @@ export function useViewport(treeId: string, layout: Layout, diagram: Diagram) {
     [treeId],
   );
 
-  /** Cuts a block off its parent, leaving it where it is drawn. */
+  /** Disconnects a block from its parent and leaves it where it is drawn. */
   const cut = useCallback((id: NodeId, { positions }: Layout) => {
     const box = positions[id];
     disconnect(id, [box?.x ?? 0, (box?.y ?? 0) + 24]);

@@ -9,7 +9,7 @@ const views = new Map<string, View>();
 const FAST = { duration: 120 };
 const SLOW = { duration: 200 };
 
-/** Connects the commands of the view to a tree's view; the returned function disconnects them. */
+/** Connects the view commands to a tree's view; the returned function disconnects them. */
 export function showsTree(treeId: string, view: View): () => void {
   views.set(treeId, view);
   return () => {

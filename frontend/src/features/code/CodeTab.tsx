@@ -28,14 +28,14 @@ const fromStore = Annotation.define<boolean>();
 
 const KEPT = { history: historyField };
 
-/** The state of the editor before it was created again, because its file or the page's language changed. */
+/** The editor's state, kept while it is created again because its file or the page's language changed. */
 interface Left {
   readonly state: unknown;
   readonly scroll: StateEffect<unknown>;
   readonly hadFocus: boolean;
 }
 
-/** One file of the project, editable. */
+/** Edits one file of the project. */
 export function CodeTab({ path }: CodeTabProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);
@@ -103,17 +103,17 @@ export function CodeTab({ path }: CodeTabProps) {
 
 type ViewRef = { readonly current: EditorView | null };
 
-/** Follows changes made elsewhere: a merge, a rename, another tab's save. */
+/** Applies changes that were made elsewhere: a merge, a rename, another tab's save. */
 function useExternalText(view: ViewRef, text: string | null): void {
   useEffect(() => {
     if (view.current && text !== null) follow(view.current, text);
   }, [view, text]);
 }
 
-/** Shows a text in an editor; equal parts stay unchanged, with cursors and marks in them. */
+/** Sets the text of an editor; equal parts stay unchanged, with the cursors and marks in them. */
 function follow(editor: EditorView, text: string): void {
   const before = editor.state.doc.toString();
-  // The editor counts a line's end as one character, whatever a file has there.
+  // The editor counts each line end as one character, whichever the file has.
   const after = text.replace(/\r\n?/g, '\n');
   if (before === after) return;
   editor.dispatch({
@@ -125,7 +125,7 @@ function follow(editor: EditorView, text: string): void {
 interface Found {
   readonly linted: Linted | null;
   readonly errors: TextErrors | null;
-  /** With another one the editor is another. */
+  /** A new label creates a new editor. */
   readonly label: string;
 }
 
@@ -150,7 +150,7 @@ function useMarks(view: ViewRef, path: string, text: string | null, { linted, er
       ...textMarks(doc, errors),
     ];
     editor.dispatch(setDiagnostics(editor.state, marks));
-    // A text that came with the marks moves them: they are set again for it.
+    // When marks and text arrive together, the new text moves the marks: they must be set again for it.
   }, [view, path, diagnostics, faults, text, served, isServed, linted, errors, label]);
 }
 

@@ -10,7 +10,7 @@ import classes from './code.module.css';
 
 const MergeView = lazyPart(async () => (await import('./MergeView')).MergeView);
 
-/** Somebody else saved the same file: shows both versions, and lets the user choose or merge. */
+/** Another user saved the same file: shows both versions, and lets the user choose or merge. */
 export function ConflictDialog() {
   const { t } = useTranslation('code');
   const conflict = useSavingStore(({ state }) =>

@@ -16,7 +16,7 @@ import {
 import { renameDocument } from './renaming';
 import { ACTION_TEMPLATES, actionSource, type ActionTemplate } from './templates';
 
-/** Asks for a new file's name (and kind of action), or for another name of one that there is. */
+/** Asks for the name of a new file (and the kind of action), or for a new name of an existing file. */
 export function FileDialog() {
   const { t } = useTranslation('code');
   const dialog = useFileDialog((state) => state.dialog);

@@ -8,7 +8,7 @@ import { formatsOnSave, setFormatsOnSave } from './language/ruff';
 import classes from './code.module.css';
 import frame from './editorFrame.module.css';
 
-/** Under an editor of Python: whether there is help, and what to do when there is none. */
+/** The state of the language server, below a Python editor, with advice if it does not run. */
 export function LanguageStatus({ path }: { readonly path: string }) {
   const { t } = useTranslation('code');
   const state = useLanguageStore((store) => store.state);

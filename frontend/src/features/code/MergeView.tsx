@@ -15,7 +15,7 @@ interface MergeViewProps {
   readonly onChange: (merged: string) => void;
 }
 
-/** Theirs on the left; on the right mine, editable, with arrows that bring pieces over. */
+/** The server's version on the left; the user's on the right, editable, with arrows that copy pieces over. */
 export function MergeView({ path, theirs, mine, onChange }: MergeViewProps) {
   const { t } = useTranslation('code');
   const host = useRef<HTMLDivElement>(null);

@@ -22,7 +22,7 @@ import { editorTheme } from './editorTheme';
 import { fontSizeKeys } from './fontSize';
 import { phrases } from './phrases';
 
-/** What every editor of a project's text has: of files, and of a tree's XML; `keys` come before its own. */
+/** Extensions that every text editor has, for files and for a tree's XML; `keys` take precedence. */
 export function basics(label: string, keys: readonly KeyBinding[] = []): Extension {
   return [
     lineNumbers(),
@@ -39,7 +39,8 @@ export function basics(label: string, keys: readonly KeyBinding[] = []): Extensi
     lintGutter(),
     editorTheme,
     phrases(),
-    // What is edited takes the focus anyhow; that it is said lets what scrolls be known as reachable by keyboard.
+    // The element is focusable anyway; the attribute tells accessibility checks that its scroll area can be
+    // reached by keyboard.
     EditorView.contentAttributes.of({ 'aria-label': label, tabindex: '0' }),
     keymap.of([
       ...keys,

@@ -6,7 +6,7 @@ import { findingText } from '@/ui/findingText';
 
 const SEVERITY = { error: 'error', warning: 'warning', note: 'info' } as const;
 
-/** From the position that is given to the end of its word or line. */
+/** The range from a position to the end of its word or line. */
 function spanAt(doc: Text, line: number, column: number): { from: number; to: number } {
   const { from, to, text } = doc.line(Math.min(Math.max(line, 1), doc.lines));
   const indent = text.length - text.trimStart().length;
@@ -16,7 +16,7 @@ function spanAt(doc: Text, line: number, column: number): { from: number; to: nu
   return { from: Math.min(start, end), to: end };
 }
 
-/** The messages for the lines of one file: findings of the checks, and exceptions of the run. */
+/** Messages for the lines of one file: findings of the checks, and exceptions of the run. */
 export function marksFor(
   doc: Text,
   path: string,

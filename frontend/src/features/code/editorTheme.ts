@@ -3,7 +3,7 @@ import { EditorView } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
 import './code.css';
 
-/** Colours come from tokens, so that one theme serves light and dark. */
+/** Colours are tokens, so that one editor theme serves light and dark. */
 const look = EditorView.theme({
   '&': { height: '100%', color: 'var(--bts-text)', backgroundColor: 'var(--bts-surface)' },
   '.cm-scroller': {

@@ -6,7 +6,7 @@ import { languageOf } from './modes';
 import { languageSupport } from './language/client';
 import { saveKeys } from './language/keys';
 
-/** Everything that an editor of this file is made of. */
+/** All extensions of the editor of this file. */
 export function extensionsFor(path: string, label: string): Extension {
   return [
     basics(label, saveKeys(path)),

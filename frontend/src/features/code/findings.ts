@@ -11,7 +11,7 @@ function offset(doc: Text, { line, character }: CodeFinding['from']): number {
   return Math.min(from + character, to);
 }
 
-/** A finding of the language server, in the text as it is now. */
+/** A finding of the language server, mapped to the present text. */
 export function servedMark(doc: Text, finding: CodeFinding): Mark {
   const from = offset(doc, finding.from);
   return {
@@ -23,11 +23,14 @@ export function servedMark(doc: Text, finding: CodeFinding): Mark {
   };
 }
 
-/** The editor tells what is no JSON as one types, and the language server what is no Python. */
+/**
+ * Whether another checker reports the finding: the editor checks JSON while the user types, the language
+ * server Python.
+ */
 export const isToldBetter = (item: Diagnostic, isServed: boolean): boolean =>
   item.code === 'BT0001' || (isServed && item.code === 'BT0601');
 
-/** Findings of ruff, each with a button that fixes it; none while they are about an older text. */
+/** Findings of ruff, each with a button that fixes it; none while they refer to an older text. */
 export function lintMarks(doc: Text, linted: Linted | null, isServed: boolean): Mark[] {
   if (!linted?.doc.eq(doc)) return [];
   return linted.findings

@@ -13,11 +13,11 @@ export function pathFor(kind: NamedKind, name: string): string {
 
 interface Taken {
   paths: Iterable<string>;
-  /** Types of nodes that the catalogue or the project already has. */
+  /** The node types of the catalogue and of the project. */
   types: ReadonlySet<string>;
 }
 
-/** Why a file cannot be called so; null when it can. */
+/** The reason why a file cannot have this name; null if it can. */
 export function nameProblem(kind: NamedKind, name: string, { paths, types }: Taken): NameProblem | null {
   if (name.trim() === '') return 'empty';
   if (kind === 'action' && !isPythonName(name)) return 'notIdentifier';

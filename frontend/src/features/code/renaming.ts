@@ -19,7 +19,7 @@ export async function renameDocument(path: string, name: string): Promise<void> 
   followDocument(path, name);
   if (kindOf(path) === 'universe' || kindOf(path) === 'robot')
     useUniverseChoice.setState({ universe: null, robot: null });
-  // The new ones are saved before the old ones go.
+  // The new files are saved before the old ones are deleted.
   await putBinaries(binaries.map(({ path: file, data }) => ({ path: moved(file), data })));
   for (const file of files) {
     renamed('file', file, moved(file));

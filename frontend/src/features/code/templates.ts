@@ -3,13 +3,13 @@ import condition from './templates/condition.py?raw';
 import goal from './templates/goal.py?raw';
 import service from './templates/service.py?raw';
 
-/** What a new action starts from, in the order in which they are offered. */
+/** Templates of new actions, in the order in which they are offered. */
 const TEMPLATES = { action, condition, service, goal } as const;
 
 export type ActionTemplate = keyof typeof TEMPLATES;
 
 export const ACTION_TEMPLATES = Object.keys(TEMPLATES) as readonly ActionTemplate[];
 
-/** A template with its class called as the action. */
+/** A template whose class has the action's name. */
 export const actionSource = (name: string, template: ActionTemplate): string =>
   TEMPLATES[template].replaceAll('NewAction', name);

@@ -8,16 +8,16 @@ import { valueOfYaml } from '@/model/document/yaml';
 import { isXml } from './modes';
 
 const READ_AFTER_MS = 300;
-/** Parsing a longer text at each key would delay typing. */
+/** Longer texts are not parsed at each key, since that would delay typing. */
 const LONGEST = 500_000;
 
-/** The place from which a text is not of the format that its file's name declares. */
+/** The place where a text breaks the format of its file type. */
 interface TextError {
   readonly offset: number;
   readonly message: string;
 }
 
-/** The error of a text, with the text itself. */
+/** The error of a text, together with that text. */
 export interface TextErrors {
   readonly doc: Text;
   readonly errors: readonly TextError[];
@@ -28,7 +28,7 @@ function jsonErrors(text: string): TextError[] {
     JSON.parse(text);
     return [];
   } catch {
-    // Browsers tell places in ways of their own, or not at all.
+    // Each browser reports the position in its own way, or not at all.
     let offset: number | null = null;
     jsonLanguage.parser.parse(text).iterate({
       enter: ({ type, from }) => {
@@ -68,7 +68,7 @@ export function textErrors(path: string, text: string): readonly TextError[] {
   return isXml(path) ? xmlErrors(text) : [];
 }
 
-/** Reads the text a moment after the last change. */
+/** Checks the text shortly after the last change. */
 export function useTextErrors(path: string, text: string | null): TextErrors | null {
   const [found, setFound] = useState<TextErrors | null>(null);
   useEffect(() => {
@@ -84,7 +84,7 @@ export function useTextErrors(path: string, text: string | null): TextErrors | n
   return found;
 }
 
-/** Marks from the place to the end of its word, or of its line. */
+/** Marks from the error to the end of its word, or of its line. */
 export function textMarks(doc: Text, found: TextErrors | null): Mark[] {
   if (!found?.doc.eq(doc)) return [];
   return found.errors.map(({ offset, message }) => {

@@ -5,13 +5,13 @@ import type { PythonFinding } from '@/api/python';
 
 const LINT_AFTER_MS = 700;
 
-/** Findings of ruff, with the text that they are about. */
+/** Findings of ruff, together with the text that they refer to. */
 export interface Linted {
   readonly doc: Text;
   readonly findings: readonly PythonFinding[];
 }
 
-/** Asks ruff a moment after the last change. */
+/** Requests findings of ruff shortly after the last change. */
 export function useFindings(path: string, text: string | null): Linted | null {
   const [linted, setLinted] = useState<Linted | null>(null);
   useEffect(() => {
@@ -22,7 +22,7 @@ export function useFindings(path: string, text: string | null): Linted | null {
         (findings) => {
           setLinted({ doc: Text.of(text.split('\n')), findings });
         },
-        // Without an answer there are no marks of ruff; the next change asks again.
+        // Without an answer there are no marks; the next change asks again.
         () => undefined,
       );
     }, LINT_AFTER_MS);

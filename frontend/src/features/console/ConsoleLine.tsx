@@ -13,7 +13,7 @@ interface ConsoleLineProps {
   readonly files: ReadonlySet<string>;
   /** The block that printed it, if the running tree has it. */
   readonly node: TreeNode | undefined;
-  /** The launch node that printed it, by name. */
+  /** The name of the launch node that printed it. */
   readonly launched: string | undefined;
 }
 
@@ -24,7 +24,7 @@ function showBlock({ tree_id, node_id }: TreeNode): void {
 
 export const ConsoleLine = memo(function ConsoleLine({ line, files, node, launched }: ConsoleLineProps) {
   const { t } = useTranslation('console');
-  // The engine numbers nodes without a name of their own: `Forward::6`.
+  // The engine numbers unnamed nodes: `Forward::6`.
   const name = (line.node_path.split('/').at(-1) ?? '').replace(/::\d+$/, '');
   const said = name || launched || line.source;
   return (

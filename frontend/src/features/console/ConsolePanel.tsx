@@ -53,7 +53,7 @@ export function ConsolePanel() {
     if (!element) return;
     const { scrollTop, scrollHeight, clientHeight } = element;
     const isAtEnd = scrollHeight - scrollTop - clientHeight < LINE_HEIGHT * 2;
-    // Only a user who scrolls up stops following: filtering, measuring and showing a hidden panel scroll, too.
+    // Only a user who scrolls up stops following: filtering, measuring and showing a hidden panel scroll too.
     if (isAtEnd || (scrollTop < top.current && isScrolling())) setFollowing(isAtEnd);
     top.current = scrollTop;
   };
@@ -146,10 +146,10 @@ export function ConsolePanel() {
   );
 }
 
-/** For this long after a wheel or key event, scrolling counts as the user's. */
+/** Scrolling counts as the user's for this long after a wheel or key event. */
 const HAND_MS = 1000;
 
-/** The user's pointer and keys on the lines. */
+/** Tracks the user's pointer and keys on the lines. */
 function useHand() {
   const [isHeld, setHeld] = useState(false);
   const lastMove = useRef(-Infinity);
@@ -157,22 +157,24 @@ function useHand() {
     lastMove.current = performance.now();
   };
   const hold = ({ currentTarget: { ownerDocument } }: PointerEvent) => {
-    // The click follows, and must find the pressed element.
+    // The click comes after this event, and must hit the pressed element.
     const release = () => setTimeout(() => setHeld(false));
     setHeld(true);
     for (const end of ['pointerup', 'pointercancel'])
       ownerDocument.addEventListener(end, release, { once: true });
   };
   return {
-    /** A finger or a mouse button is down: the lines must not move before it is released. */
+    /** A finger or a mouse button is down: the lines must not move until it is released. */
     isHeld,
-    /** It is the user who scrolls. */
+    /** Whether the user is scrolling. */
     isScrolling: () => isHeld || performance.now() - lastMove.current < HAND_MS,
     onHand: { onPointerDown: hold, onWheel: move, onTouchMove: move, onKeyDown: move },
   };
 }
 
-/** The sources to choose from, with each extra node of the run, and the chosen one also when it is gone. */
+/**
+ * The sources to choose from, with each launch node of the run; the chosen source stays even if it has ended.
+ */
 function useSources(names: ReadonlyMap<string, string>, chosen: string): { value: string; label: string }[] {
   const { t } = useTranslation('console');
   return useMemo(() => {

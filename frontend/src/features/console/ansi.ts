@@ -1,6 +1,6 @@
 export interface Span {
   text: string;
-  /** Names of styles: `red`, `bright-red`, `bold`, `dim`, `underline`. */
+  /** Style names: `red`, `bright-red`, `bold`, `dim`, `underline`. */
   styles: string[];
 }
 
@@ -25,7 +25,7 @@ function applyCode(styles: string[], code: number): string[] {
   return styles;
 }
 
-/** Splits a line at its ANSI sequences; those that are no style (cursor moves) are dropped. */
+/** Splits a line at its ANSI sequences; sequences without a style (cursor moves) are dropped. */
 export function parseAnsi(line: string): Span[] {
   const spans: Span[] = [];
   let styles: string[] = [];

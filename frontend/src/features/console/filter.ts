@@ -4,16 +4,16 @@ import type { LogLine } from '@/store/session/types';
 import { plainText } from './ansi';
 
 export interface ConsoleFilter {
-  /** One of the extra nodes by its id, or a whole source. */
+  /** A whole source, or one launch node by its id. */
   source: LogSource | 'all' | `launch:${string}`;
-  /** This level and those above it. */
+  /** The lowest level that is shown. */
   level: LogLevel;
   search: string;
 }
 
 export const LEVELS: LogLevel[] = ['debug', 'info', 'warning', 'error'];
 
-/** The filter of the console; other panels set it when they lead the user there. */
+/** The filter of the console; other panels set it to show the lines that they link to. */
 export const useConsoleFilter = create<ConsoleFilter>(() => ({ source: 'all', level: 'info', search: '' }));
 
 const isOf = (line: LogLine, source: ConsoleFilter['source']) =>

@@ -10,7 +10,7 @@ function fileOf(name: string, files: ReadonlySet<string>): string | null {
   return files.has(inActions) ? inActions : null;
 }
 
-/** Splits a text so that mentions of lines in the project's files can be clicked. */
+/** Splits a text at mentions of lines in the project's files, so that these can be clicked. */
 export function findLinks(text: string, files: ReadonlySet<string>): Piece[] {
   const pieces: Piece[] = [];
   let end = 0;

@@ -9,7 +9,7 @@ interface Props {
   readonly children: ReactNode;
 }
 
-/** The dialogue in which something of the project is made from what is there; it holds a `CopyForm`. */
+/** A dialogue that makes a new document from an existing one; it contains a `CopyForm`. */
 export function CopyDialog({ title, isOpen, onClose, children }: Props) {
   const { t } = useTranslation('editor3d');
   return (

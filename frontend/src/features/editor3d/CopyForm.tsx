@@ -7,7 +7,7 @@ import universe from '@/features/universe/universe.module.css';
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
-/** The texts for the kind of thing. */
+/** The texts for one kind of document. */
 interface Words {
   readonly hint: string;
   readonly taken: string;
@@ -16,13 +16,13 @@ interface Words {
 
 interface CopyFormProps {
   readonly items: readonly UniverseInfo[];
-  /** What is chosen at first, and shown first: it is to be seen without scrolling. */
+  /** The initial choice, shown first so that it is visible without scrolling. */
   readonly first: string;
-  /** Ids that are taken, in small letters. */
+  /** Ids in use, in small letters. */
   readonly taken: ReadonlySet<string>;
   readonly words: Words;
   readonly testId: string;
-  /** Creates it; the text of an exception is shown. */
+  /** Creates the document; the form shows the text of an exception. */
   readonly onCreate: (base: string, name: string, isUsed: boolean) => Promise<void>;
   readonly onCancel: () => void;
 }
@@ -34,7 +34,7 @@ function freeName(wish: string, taken: ReadonlySet<string>): string {
   }
 }
 
-/** Makes something of the project out of something that we ship. */
+/** Copies one of our universes or robots into the project. */
 export function CopyForm({ items, first, taken, words, testId, onCreate, onCancel }: CopyFormProps) {
   const { t } = useTranslation('editor3d');
   const [base, setBase] = useState(first);
@@ -42,7 +42,7 @@ export function CopyForm({ items, first, taken, words, testId, onCreate, onCance
   const [isUsed, setUsed] = useState(true);
   const field = useRef<HTMLInputElement>(null);
   useEffect(() => {
-    // When the content arrives late, the dialogue's first button has the focus.
+    // When the content arrives late, the dialogue's first button already has the focus.
     const timer = setTimeout(() => field.current?.focus());
     return () => clearTimeout(timer);
   }, []);

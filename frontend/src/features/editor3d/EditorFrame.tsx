@@ -12,7 +12,7 @@ import { useUndoInFront } from './useUndoInFront';
 
 const CodeTab = lazyPart(async () => (await import('@/features/code/CodeTab')).CodeTab);
 
-/** The texts for a kind of document. */
+/** The texts for one kind of document. */
 interface Words {
   readonly unreadable: string;
   readonly problems: string;
@@ -21,16 +21,16 @@ interface Words {
 interface EditorFrameProps {
   readonly editor: Editor;
   readonly testId: string;
-  /** The files of the document that are there. */
+  /** The existing files of the document. */
   readonly paths: readonly string[];
   readonly problems: readonly DocumentProblem[];
   readonly words: Words;
   readonly toolbar: ReactNode;
-  /** View and panel; null where the document cannot be shown. */
+  /** View and panel; null if the document cannot be shown. */
   readonly children: ReactNode;
 }
 
-/** A document in 3D with its text beside; the text alone where there is no 3D. */
+/** A document in 3D with its text beside; only the text where 3D is not available. */
 export function EditorFrame({ editor, testId, paths, problems, words, toolbar, children }: EditorFrameProps) {
   const { t } = useTranslation('editor3d');
   const { isTextShown, shownText } = useStore(editor.store);

@@ -31,18 +31,18 @@ interface EditorToolbarProps {
   readonly label: string;
   readonly modes: readonly Mode[];
   readonly grids: readonly number[];
-  /** How the text beside is called. */
+  /** The label of the text. */
   readonly textLabel: string;
   readonly textTestId: string;
   readonly undoTestId: string;
   readonly onRun: () => void;
-  /** Tools of this editor alone. */
+  /** Tools that only this editor has. */
   readonly children?: ReactNode;
 }
 
 const gridLabel = (step: number): string => (step < 0.05 ? `${step * 1000} mm` : `${step} m`);
 
-/** Tools, grid, views, steps back, the text, and the way to a robot that drives here. */
+/** Tools, grid, views, undo, the text, and the button that runs a robot in this document. */
 export function EditorToolbar(props: EditorToolbarProps) {
   const { editor, label, modes, grids, textLabel, textTestId, undoTestId, onRun, children } = props;
   const { t } = useTranslation('editor3d');

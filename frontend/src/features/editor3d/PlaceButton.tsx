@@ -13,7 +13,7 @@ interface PaletteBarProps {
   readonly children: ReactNode;
 }
 
-/** What can be placed, at the edge of the view. */
+/** The things that can be placed, at the edge of the view. */
 export function PaletteBar({ label, children }: PaletteBarProps) {
   return (
     <div className={classes['palette']} role="toolbar" aria-label={label} aria-orientation="vertical">
@@ -26,12 +26,12 @@ interface PlaceButtonProps {
   readonly icon: Icon;
   readonly label: string;
   readonly testId: string;
-  /** What the view receives when the button is dropped there. */
+  /** The value that the view receives when the button is dropped on it. */
   readonly what: object;
   readonly onPlace: () => void;
 }
 
-/** Something to place: clicked, it comes to stand in the middle of the view; dragged, where it is let go. */
+/** A button for a thing: a click places it in the middle of the view, a drag places it under the pointer. */
 export function PlaceButton({ icon: Icon, label, testId, what, onPlace }: PlaceButtonProps) {
   const { t } = useTranslation('editor3d');
   return (
@@ -61,7 +61,7 @@ interface PlaceMenuProps {
   readonly children: ReactNode;
 }
 
-/** Several things to place under one button. */
+/** One button for several things that can be placed. */
 export function PlaceMenu({ icon: Icon, label, testId, position, children }: PlaceMenuProps) {
   return (
     <Menu position={position}>

@@ -4,7 +4,7 @@ import { FieldGroup, NumberField } from './fields';
 
 interface PoseFieldsProps {
   readonly pose: Pose;
-  /** Of the angles only the heading counts. */
+  /** Only the heading can be changed, not roll and pitch. */
   readonly isUpright?: boolean;
   readonly step?: number;
   /** The prefix of the fields' test ids. */
@@ -16,7 +16,7 @@ const PLACES = ['x', 'y', 'z'] as const;
 const ANGLES = ['roll', 'pitch', 'yaw'] as const;
 const DEGREES = 180 / Math.PI;
 
-/** Where something is, in m, and how it is turned, in degrees. */
+/** Position in m and orientation in degrees. */
 export function PoseFields({ pose, isUpright = false, step, testId = 'field', onChange }: PoseFieldsProps) {
   const { t } = useTranslation('editor3d');
   const set = (index: number, value: number) =>

@@ -7,16 +7,16 @@ import classes from './editor3d.module.css';
 
 interface ProblemListProps {
   readonly problems: readonly DocumentProblem[];
-  /** The files of the document's texts. */
+  /** The files of the document. */
   readonly paths: readonly string[];
-  /** The text for the whole document. */
+  /** The heading for problems of the whole document. */
   readonly title: string;
   readonly editor?: Editor;
 }
 
 const SHOWN = 50;
 
-/** What is wrong, each with a way to its line and to its thing. */
+/** The problems of the document, each with links to its line and its thing. */
 export function ProblemList({ problems, paths, title, editor }: ProblemListProps) {
   const { t } = useTranslation('editor3d');
   if (problems.length === 0) return null;

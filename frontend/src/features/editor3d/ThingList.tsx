@@ -6,7 +6,7 @@ import { useStore } from 'zustand';
 import classes from './editor3d.module.css';
 import { isReadOnly, select, toggle, type Editor } from './editing';
 
-/** A thing as the list shows it. */
+/** One row of the list. */
 export interface Listed {
   readonly key: string;
   readonly name: string;
@@ -18,16 +18,19 @@ interface ThingListProps {
   readonly editor: Editor;
   readonly title: string;
   readonly things: readonly Listed[];
-  /** The whole, which no row stands for. */
+  /** The document as a whole, which has no row. */
   readonly whole: { readonly label: string; readonly icon: typeof IconBox };
   readonly onDuplicate: () => void;
   readonly onDelete: () => void;
-  /** Why a name is invalid; null where it is valid. Without this function, things are not renamed here. */
+  /**
+   * The reason why a name is invalid; null if it is valid. Without this function, things cannot be renamed
+   * here.
+   */
   readonly nameProblem?: (key: string, name: string) => string | null;
   readonly onRename?: (key: string, name: string) => void;
 }
 
-/** Every thing by name, in the order of the document. */
+/** All things by name, in the order of the document. */
 export function ThingList(props: ThingListProps) {
   const { editor, title, things, whole, onDuplicate, onDelete, nameProblem, onRename } = props;
   const { t } = useTranslation('editor3d');

@@ -11,11 +11,11 @@ export type Tool = 'select' | 'wall';
 
 export const TURN_STEP = Math.PI / 12;
 
-/** What the view can do for the keyboard and for what is placed. */
+/** Operations of a view for keys and for placing things. */
 export interface ViewHandle {
-  /** The middle of what is seen of the floor. */
+  /** The middle of the visible floor. */
   center(): Point;
-  /** Away from the camera, along the nearest axis. */
+  /** The direction away from the camera, along the nearest axis. */
   forward(): Point;
   /** Cancels a gesture under way; returns whether there was one. */
   cancel(): boolean;
@@ -24,28 +24,28 @@ export interface ViewHandle {
 export interface EditorData {
   readonly undoStack: TextUndo;
   readonly selection: readonly string[];
-  /** The chosen point of the way of the selected person. */
+  /** The index of the chosen waypoint on the path of the selected person. */
   readonly waypoint: number | null;
   readonly mode: Mode;
   readonly tool: Tool;
   readonly grid: number;
-  /** A new object moves the camera, also to where it already was asked to go. */
+  /** A new object moves the camera, even to the place of the previous request. */
   readonly viewpoint: { readonly kind: 'default' | 'top' | 'selection' };
   readonly isTextShown: boolean;
-  /** Which of the texts is shown: 0 is the first. */
+  /** The index of the shown text. */
   readonly shownText: number;
 }
 
-/** How a document of one or several files is found again after a step of undo. */
+/** A kind of document: how its files and its things are found. */
 interface Kind {
-  /** The files that texts belong to; the first is always the same, what it says may name the others. */
+  /** The paths of all files; the first is fixed, its text can name the others. */
   readonly pathsOf: (first: string) => readonly string[];
-  /** Keys of what can be selected. */
+  /** Keys of the things that can be selected. */
   readonly keysOf: (texts: readonly string[]) => Iterable<string>;
   readonly grid: number;
 }
 
-/** A document that is being edited in 3D: its steps of undo, and what is selected in it. */
+/** The state of a document that is edited in 3D: its steps of undo and its selection. */
 export interface Editor {
   /** The document's first file. */
   readonly path: string;
@@ -58,7 +58,7 @@ const known = new Map<string, Editor>();
 
 const keyOf = (path: string): string => `${useProjectStore.getState().projectId ?? ''}:${path}`;
 
-/** The editor of a document of the open project; it outlives its tab. */
+/** The editor of a document of the open project; it stays when the document's tab is closed. */
 export function editorFor(path: string, kind: Kind): Editor {
   const key = keyOf(path);
   let editor = known.get(key);
@@ -86,17 +86,17 @@ function textsAt(path: string, kind: Kind): readonly string[] {
   return [first, ...kind.pathsOf(first).map((other) => currentText(other) ?? '')];
 }
 
-/** The texts as they are now. */
+/** The present texts. */
 export const textsOf = ({ path, kind }: Editor): readonly string[] => textsAt(path, kind);
 
 export const isReadOnly = (): boolean => useProjectStore.getState().role === 'viewer';
 
-/** Tells the editor of the view that shows it, or that there is none any more. */
+/** Sets the view that shows the editor's document, or null. */
 export function showIn(editor: Editor, view: ViewHandle | null): void {
   editor.view = view;
 }
 
-/** Notes what was typed in the text beside, or came from elsewhere, as a step like any other. */
+/** Records changes from the text editor or from elsewhere as steps of undo. */
 export function followTexts(editor: Editor): void {
   const { undoStack, selection } = editor.store.getState();
   const step = { label: 'text', mergeKey: 'text', before: selection, after: selection };
@@ -165,7 +165,7 @@ export function select(editor: Editor, selection: readonly string[], waypoint: n
   editor.store.setState({ selection, waypoint, undoStack: seal(undoStack) });
 }
 
-/** Adds one to the selection, or takes it out. */
+/** Adds a thing to the selection, or removes it. */
 export function toggle(editor: Editor, key: string): void {
   const { selection } = editor.store.getState();
   select(editor, selection.includes(key) ? selection.filter((other) => other !== key) : [...selection, key]);

@@ -15,7 +15,7 @@ interface NumberFieldProps {
   readonly onCommit: (value: number) => void;
 }
 
-/** A number that counts once one leaves the field, presses Enter, or steps with the arrows. */
+/** A number field; the value is applied on blur, on Enter, and on steps with the arrows. */
 export function NumberField({
   label,
   value,
@@ -68,7 +68,7 @@ interface TextFieldProps {
   readonly value: string;
   readonly testId?: string;
   readonly placeholder?: string;
-  /** Why the text cannot be taken; null where it can. */
+  /** The reason why the text is invalid; null if it is valid. */
   readonly problem?: (value: string) => string | null;
   readonly onCommit: (value: string) => void;
 }
@@ -100,7 +100,7 @@ export function TextField({ label, value, testId, placeholder, problem, onCommit
   );
 }
 
-/** Soft colours of walls and furniture first, then strong ones that a camera finds. */
+/** First soft colours for walls and furniture, then strong ones that a camera can detect. */
 const SWATCHES = [
   '#e9e4da',
   '#b8c4cf',
@@ -144,7 +144,7 @@ export function ColorField({ label, value, onChange, onEnd }: ColorFieldProps) {
   );
 }
 
-/** Fields of one kind, two or three in a row. */
+/** Two or three fields of one kind in a row. */
 export function FieldGroup({
   title,
   columns = 3,

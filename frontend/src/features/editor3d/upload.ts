@@ -7,16 +7,18 @@ import { readMesh } from './scene/meshes';
 
 export const MESH_KINDS = '.stl,.obj,.dae,.ply,.glb';
 
-/** As large as the simulator reads them. */
+/** The largest mesh that the simulator reads, in bytes. */
 const LARGEST = 50_000_000;
 
-/** A mesh that came into the project, and how long its longest side is in the file's own units. */
+/** A mesh that was added to the project, and its longest side in the units of its file. */
 interface Brought {
   readonly path: string;
   readonly extent: number;
 }
 
-/** Puts a mesh into a folder of the project, once it can be read; resolves to null where it cannot. */
+/**
+ * Adds a mesh to a folder of the project after checking that it can be read; resolves to null if it cannot.
+ */
 export async function bringMesh(file: File, folder: string): Promise<Brought | null> {
   const { projectId, files } = useProjectStore.getState();
   if (!projectId) return null;

@@ -26,7 +26,7 @@ const onFile = (act: (path: string) => void) => () => {
   if (path !== null) act(path);
 };
 
-/** What the explorer's menu does, for the document in front. */
+/** The commands of the explorer's menu, for the document in front. */
 export const fileCommands: readonly UserCommand[] = [
   {
     id: 'file.rename',

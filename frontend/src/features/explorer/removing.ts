@@ -8,13 +8,13 @@ import { useUniverseChoice } from '@/store/run/universeChoice';
 import { fetchBinaries, putBinaries } from '@/store/saving/binary';
 import { closeTab } from '@/workspace/tabs';
 
-/** Deletes a document (of a robot all its files); the notification offers to undo it. */
+/** Deletes a document (of a robot all its files); the notification offers to undo this. */
 export async function removeDocument(path: string): Promise<void> {
   const project = useProjectStore.getState();
   const files = filesOf(path);
   const name = documentName(path);
   try {
-    // What the browser does not hold must be fetched first, or it could not come back.
+    // Undo needs files that the browser does not hold: they are fetched before the deletion.
     const binaries = await fetchBinaries(files.filter((file) => project.files[file]?.kind === 'binary'));
     const texts = files.flatMap((file) => {
       const text = project.currentText(file);

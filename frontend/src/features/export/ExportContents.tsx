@@ -7,7 +7,7 @@ import { saveNow } from '@/store/saving/autosave';
 import { OtherDownloads } from './OtherDownloads';
 import { PackageSection } from './PackageSection';
 
-/** Saves first, so that the export equals the screen. */
+/** Saves before the export, so that the export equals the screen. */
 export function ExportContents() {
   const { t } = useTranslation('export');
   const projectId = useProjectStore((state) => state.projectId);

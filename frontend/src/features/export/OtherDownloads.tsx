@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 import type { Theme } from './palette';
 import { pngOf, saveAs, svgOf } from './picture';
 
-/** Everything else that leaves the studio: the project, XML, and pictures of a tree. */
+/** The other downloads: the project, XML, and pictures of a tree. */
 export function OtherDownloads({ projectId }: { readonly projectId: string }) {
   const { t } = useTranslation('export');
   const diagrams = useProjectStore((state) => state.diagrams);

@@ -36,7 +36,7 @@ function bytes(size: number, language: string): string {
   return format.format(isSmall ? size : size / 1024);
 }
 
-/** The user's package before the engine that comes with it. */
+/** Sorts the user's package before the engine that is exported with it. */
 function ownFirst<File extends { readonly path: string }>(name: string, files: readonly File[]): File[] {
   const isOther = ({ path }: File) => Number(!path.startsWith(`${name}/`));
   return files.toSorted((a, b) => isOther(a) - isOther(b));
@@ -90,7 +90,7 @@ function Commands({ name }: { readonly name: string }) {
   );
 }
 
-/** The ROS 2 package: its name, files, dependencies, what to know, and how to run it. */
+/** The ROS 2 package: name, files, dependencies, notes, and instructions to run it. */
 export function PackageSection({ projectId }: PackageSectionProps) {
   const { t, i18n } = useTranslation('export');
   const [typed, setTyped] = useState('');

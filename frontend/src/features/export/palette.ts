@@ -17,7 +17,7 @@ const [lightBlock = '', darkBlock = ''] = tokens.split(DARK);
 const light = read(lightBlock);
 const dark = read(darkBlock);
 
-/** The colours of a theme, also of the one that the page does not show: pictures stand alone. */
+/** The colours of a theme, even of the one that the page does not show, since pictures are used elsewhere. */
 export function paletteOf(theme: Theme): Palette {
   return (name) => (theme === 'dark' ? dark.get(name) : undefined) ?? light.get(name) ?? 'currentColor';
 }

@@ -6,9 +6,9 @@ import type { Vocabulary } from '@/model/vocabulary';
 import { paletteOf, type Theme } from './palette';
 import { TreeImage } from './TreeImage';
 
-/** Sharp on screens with two pixels to a point, and in print. */
+/** The scale of pictures: two pixels a point are sharp on high-resolution screens and in print. */
 const SCALE = 2;
-/** Browsers refuse larger canvases; a tree that needs more is drawn smaller. */
+/** Browsers refuse larger canvases; larger trees are drawn at a smaller scale. */
 const MAX_PIXELS = 8192;
 
 /** A tree as a standalone SVG document. */
@@ -42,13 +42,13 @@ export async function pngOf(svg: string): Promise<Blob> {
   });
 }
 
-/** Lets the browser save something that the page made. */
+/** Starts a download of data that the page made. */
 export function saveAs(blob: Blob, filename: string): void {
   const url = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = url;
   link.download = filename;
   link.click();
-  // The download reads the address after the click returns.
+  // The download reads the URL after the click has returned.
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }

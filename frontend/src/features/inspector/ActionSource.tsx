@@ -10,10 +10,10 @@ import classes from './Inspector.module.css';
 
 const SourceView = lazyPart(async () => (await import('./SourceView')).SourceView);
 
-/** A user who opened one action's source expects the next one's to be open, too. */
+/** The source stays open when the user selects another action. */
 const useShown = create<{ isOpen: boolean }>(() => ({ isOpen: false }));
 
-/** The Python of the block's action, to be read beside the tree. */
+/** The source of the block's action, read-only. */
 export function ActionSource({ action }: { readonly action: string }) {
   const { t } = useTranslation('inspector');
   const isOpen = useShown((state) => state.isOpen);

@@ -15,7 +15,7 @@ import { PortList } from './PortList';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
-/** The commands for several blocks that equal those for one. */
+/** The commands for several blocks that also exist for one. */
 const TOGETHER = ['canvas.wrap', 'canvas.extract', 'canvas.disable', 'edit.delete'] as const;
 
 interface Shown {
@@ -25,8 +25,8 @@ interface Shown {
 }
 
 /**
- * Everything about the selected block, editable. Another block's fields come after the picture of the
- * canvas, on which the user looks; what is typed here is here at once.
+ * All properties of the selected block. The fields of a newly selected block render after the canvas, where
+ * the user looks; typing in a field updates at once.
  */
 export function Inspector() {
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);

@@ -6,7 +6,7 @@ import { Section } from './Section';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** Dark enough for a white symbol in both themes. */
+/** All are dark enough for a white symbol in both themes. */
 const COLORS = [
   '#b45309',
   '#a16207',
@@ -18,7 +18,7 @@ const COLORS = [
   '#52525b',
 ] as const;
 
-/** Colour and whether the block takes part at all. */
+/** The block's colour, and whether the block is disabled. */
 export function LookFields({ id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
   return (

@@ -10,10 +10,10 @@ import { FamilyTile } from '@/ui/FamilyTile';
 import type { Target } from './target';
 import classes from './Inspector.module.css';
 
-/** Name, type, and the way to what the block stands for. */
+/** Name, type, and a button that opens the block's document. */
 export function NodeHeader({ tree, id, node, spec }: Target) {
   const { t } = useTranslation('inspector');
-  // The document keeps a name without outer blanks, and none that repeats the type: neither may stop the typing.
+  // The document drops outer blanks and a name that equals the type: neither may disturb the typing.
   const [typed, setTyped] = useState('');
   const plain = typed.trim();
   const named = plain === node.type || plain === node.tree ? '' : plain;

@@ -16,7 +16,7 @@ interface NodeProblemsProps {
   readonly onFixed?: () => void;
 }
 
-/** The block's problems and their fixes, above its fields; the fault of the last run is first. */
+/** The block's problems and their fixes; the fault of the last run is first. */
 export function NodeProblems({ diagram, id, onFixed }: NodeProblemsProps) {
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const diagnostics = useProjectStore((state) => state.diagnostics);

@@ -10,20 +10,20 @@ import classes from './Inspector.module.css';
 
 interface PortFieldProps {
   readonly port: PortSpec;
-  /** null: nothing is set. */
+  /** null: no value is set. */
   readonly value: string | null;
   readonly keys: readonly string[];
   readonly error: string | null;
   readonly onChange: (value: string | null) => void;
-  /** Of a port that is set without being declared. */
+  /** Present for a port that is set without being declared. */
   readonly onRemove?: (() => void) | undefined;
-  /** Of one that all blocks of the type share. */
+  /** Present for a port that all blocks of the type share. */
   readonly onRename?: ((name: string) => void) | undefined;
-  /** Names that other ports have. */
+  /** The names of the other ports. */
   readonly taken: readonly string[];
 }
 
-/** One port: its value or its blackboard key, with the widget that its type asks for. */
+/** One port: a value or a blackboard key, with the widget for its type. */
 export function PortField(props: PortFieldProps) {
   const { port, value, keys, error, onChange, onRemove, onRename, taken } = props;
   const { t } = useTranslation('inspector');

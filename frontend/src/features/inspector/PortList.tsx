@@ -25,11 +25,14 @@ const extraPort = (name: string): PortSpec => ({
   description: '',
 });
 
-/** Whether all blocks of a type have the same ports: of an action that declares none, or is not written yet. */
+/**
+ * Whether all blocks of the type have the same ports: of an action that declares none, or that is not written
+ * yet.
+ */
 const isShared = ({ node, spec }: Pick<Target, 'node' | 'spec'>): boolean =>
   node.type !== 'SubTree' && (spec === undefined || (spec.source === 'action' && spec.open));
 
-/** Ports of the block, declared ones first; an open type takes any other. */
+/** Ports of the block, declared ones first; an open type accepts further ones. */
 export function PortList(target: Target) {
   const { diagram, id, node, spec } = target;
   const { t } = useTranslation('inspector');

@@ -7,7 +7,7 @@ interface PortNameInputProps {
   /** The present name; empty for a new port. */
   readonly before?: string;
   readonly taken: readonly string[];
-  /** Called with the name, or null for no change. */
+  /** Called with the name, or with null if it did not change. */
   readonly onDone: (name: string | null) => void;
 }
 
@@ -46,7 +46,7 @@ export function PortNameInput({ before = '', taken, onDone }: PortNameInputProps
       onKeyDown={(event) => {
         if (event.key === 'Enter' && isValid) event.currentTarget.blur();
         if (event.key !== 'Escape') return;
-        // It leaves this field, not the panel.
+        // The key leaves this field, not the panel.
         event.preventDefault();
         finish(null);
       }}

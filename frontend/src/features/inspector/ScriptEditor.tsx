@@ -52,7 +52,7 @@ const look = EditorView.theme({
   },
 });
 
-/** The names that a script may use: keys of the blackboard, statuses, truth. */
+/** Completions for scripts: blackboard keys, statuses and booleans. */
 function completions(keys: () => readonly string[]): CompletionSource {
   return (context) => {
     const word = context.matchBefore(/[@A-Za-z_]\w*/);
@@ -80,7 +80,7 @@ export interface ScriptEditorProps {
   readonly onChange: (value: string) => void;
 }
 
-/** A script with colours, errors where they are, and completion; see ScriptInput. */
+/** A script editor with colours, marks at errors, and completion; see ScriptInput. */
 export function ScriptEditor({ value, keys, testId, labelledBy, label, onChange }: ScriptEditorProps) {
   const { t } = useTranslation();
   const host = useRef<HTMLDivElement>(null);

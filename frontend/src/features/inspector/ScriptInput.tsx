@@ -8,7 +8,10 @@ import type { ScriptEditorProps } from './ScriptEditor';
 
 const ScriptEditor = lazyPart(async () => (await import('./ScriptEditor')).ScriptEditor);
 
-/** A script of the blackboard: an editor that checks while one types, a plain field until that is loaded. */
+/**
+ * An editor for blackboard scripts that checks while the user types; a plain field until the editor is
+ * loaded.
+ */
 export function ScriptInput(props: ScriptEditorProps) {
   const { value, testId, labelledBy, label, onChange } = props;
   const { t } = useTranslation();

@@ -10,7 +10,7 @@ interface SourceViewProps {
   readonly text: string;
 }
 
-/** A file's text with its colours, to be read. */
+/** A file's text with syntax colours, read-only. */
 export function SourceView({ path, text }: SourceViewProps) {
   const { t } = useTranslation('inspector');
   const host = useRef<HTMLDivElement>(null);

@@ -7,6 +7,6 @@ export interface Target {
   readonly tree: string;
   readonly id: NodeId;
   readonly node: DiagramNode;
-  /** Absent of a type that nobody knows. */
+  /** Absent if the type is unknown. */
   readonly spec: NodeSpec | undefined;
 }

@@ -13,11 +13,11 @@ const UpdateDialog = lazyPart(async () => (await import('./UpdateDialog')).Updat
 
 interface BehaviourRowProps {
   readonly offer: Offer;
-  /** Which version the project has; null when it has none. */
+  /** The version in the project; null if the project does not have the behaviour. */
   readonly takenVersion: string | null;
 }
 
-/** One behaviour: what it does, what it looks like, and the ways to have it. */
+/** One behaviour: description, picture, and buttons to add it. */
 export function BehaviourRow({ offer, takenVersion }: BehaviourRowProps) {
   const { t } = useTranslation('library');
   const [isOpen, setOpen] = useState(false);

@@ -53,7 +53,7 @@ interface UpdateDialogProps {
   readonly onClose: () => void;
 }
 
-/** Shows what an update would change, before it does. */
+/** Shows the changes of an update before it is made. */
 export function UpdateDialog({ offer, onClose }: UpdateDialogProps) {
   const { t } = useTranslation('library');
   const [differences] = useState(() => differencesOf(offer));

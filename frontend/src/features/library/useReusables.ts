@@ -3,7 +3,7 @@ import { api } from '@/api/client';
 import type { BehaviourInfo } from '@/api/types';
 import { reusablesOf, type Reusable } from '@/store/project/library';
 
-/** A behaviour with the data that the panel shows. */
+/** A reusable behaviour with the data that the panel shows. */
 export interface Offer extends Reusable {
   readonly group: string;
   readonly summary: string;
@@ -36,7 +36,7 @@ export function useLibrary(language: string) {
   });
 }
 
-/** The user's other projects, to take trees from: the newest ones of those that a search finds. */
+/** The newest of the user's other projects that match a search. */
 export function useOtherProjects(projectId: string | null, search: string) {
   return useQuery({
     queryKey: ['projects', 'to reuse', search],

@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** The hints for a first user, one after the other; texts are `onboarding:hint.<id>`. */
+/** The hints for first users in order; their texts are `onboarding:hint.<id>`. */
 export const HINTS = ['build', 'run', 'find'] as const;
 export type HintId = (typeof HINTS)[number];
 
@@ -11,10 +11,10 @@ function known(): readonly HintId[] {
   return HINTS.filter((id) => words.includes(id));
 }
 
-/** The hints that this browser's user has read, or made needless by doing what they say. */
+/** The hints that the user of this browser has read, or has followed without reading. */
 export const useHints = create<{ readonly done: readonly HintId[] }>(() => ({ done: known() }));
 
-/** A hint never comes back. */
+/** Marks a hint as finished, so that it is never shown again. */
 export function finishHint(id: HintId): void {
   const { done } = useHints.getState();
   if (done.includes(id)) return;

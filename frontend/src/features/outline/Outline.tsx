@@ -11,7 +11,7 @@ import classes from './Outline.module.css';
 
 const ROW = 28;
 
-/** The same tree as indented lines: for reading, and for keys. */
+/** The tree as indented lines, for reading and for the keyboard. */
 export function Outline() {
   const { t } = useTranslation('outline');
   const diagram = useProjectStore((state) => state.diagrams[state.activeTree ?? '']);

@@ -19,7 +19,7 @@ interface OutlineRowProps {
   readonly top: number;
 }
 
-/** One line: symbol, name, type where it differs, status. The list above has the keys. */
+/** One line: symbol, name, type if it differs from the name, and status. The list handles the keys. */
 export function OutlineRow({ tree, row, node, spec, isSelected, top }: OutlineRowProps) {
   const { t } = useTranslation('outline');
   const status = useLiveStore((state) => state.statuses.get(liveKey(tree, row.id)) ?? 'IDLE');

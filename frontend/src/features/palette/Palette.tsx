@@ -16,11 +16,11 @@ function groupOf({ spec }: Choice): Group {
   return isLeaf && spec.source === 'builtin' ? 'builtin' : spec.family;
 }
 
-/** Every block there is, by family: the user's own first. */
+/** Every available block by family; the user's own come first. */
 export function Palette() {
   const { t } = useTranslation('palette');
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  // What may be added depends on which tree it is, not on what is in it.
+  // The blocks that may be added depend on which tree it is, not on its content.
   const tree = useProjectStore((state) => state.diagrams[state.activeTree ?? '']?.id ?? null);
   const [search, setSearch] = useState('');
   const [isNaming, setIsNaming] = useState(false);

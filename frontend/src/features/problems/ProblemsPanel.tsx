@@ -15,7 +15,7 @@ import classes from './problems.module.css';
 const ORDER: Severity[] = ['error', 'warning', 'note'];
 const ICONS = { error: IconCircleX, warning: IconAlertTriangle, note: IconInfoCircle };
 
-/** Takes the user to the place that a finding is about. */
+/** Shows the place of a finding. */
 function go(item: Diagnostic): void {
   if (item.tree && item.node) {
     openTree(item.tree);

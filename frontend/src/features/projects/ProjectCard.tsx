@@ -18,12 +18,12 @@ interface ProjectCardProps {
   readonly actions: ReturnType<typeof useProjectCommands>;
 }
 
-/** Ready to type another name as soon as the field is there. */
+/** Selects the text, so that typing replaces the name. */
 function focusAll(input: HTMLInputElement | null): void {
   input?.select();
 }
 
-/** A project with its picture; a deleted one can only be brought back. */
+/** A project with its picture; a deleted project can only be restored. */
 export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   const { t, i18n } = useTranslation('projects');
   const [isRenaming, setRenaming] = useState(false);
@@ -43,7 +43,7 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
     setRefusal(isKept && problem ? t(`settings:problem.${problem}`) : null);
     if (isKept && problem) return;
     if (isKept && wanted && wanted !== project.name) {
-      // A name that is refused stays in its field, with the reason.
+      // A refused name stays in its field, with the reason.
       const onError = (error: Error) => setRefusal(reasonOf(error));
       actions.rename.mutate({ project, name: wanted }, { onError });
       return;
@@ -53,7 +53,7 @@ export function ProjectCard({ project, shelf, actions }: ProjectCardProps) {
   };
   const onBlur = (event: FocusEvent<HTMLInputElement>) => {
     const input = event.currentTarget;
-    // The menu that started the renaming gives the focus back to its button when it has closed.
+    // When it has closed, the menu that started the renaming returns the focus to its button.
     if (input.closest('article')?.contains(event.relatedTarget)) setTimeout(() => input.focus());
     else finish(true);
   };

@@ -8,7 +8,7 @@ interface Props {
   readonly onClose: () => void;
 }
 
-/** Asks whether a file is to be repaired on import, with each change that this would make. */
+/** Asks whether to repair a file on import, and lists each change. */
 export function RepairDialog({ offer, onRepair, onClose }: Props) {
   const { t } = useTranslation('projects');
   const changes = offer?.changes ?? [];

@@ -20,10 +20,10 @@ import { useStartCommands } from './useStartCommands';
 
 const CommandPalette = lazyPart(async () => (await import('@/workspace/CommandPalette')).CommandPalette);
 
-/** Project zips of BT Studio and of JdeRobot, trees as XML, projects of Groot2. */
+/** Project zips of BT Studio and of JdeRobot, trees as XML, and projects of Groot2. */
 const IMPORTS = '.zip,.xml,.btproj,application/zip,text/xml';
 
-/** Where the user chooses or makes a project. */
+/** The page that lists the projects and creates new ones. */
 export function StartPage() {
   const { t } = useTranslation('projects');
   const actions = useProjectCommands();

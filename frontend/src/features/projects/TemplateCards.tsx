@@ -8,7 +8,7 @@ import { TreePicture } from './TreePicture';
 
 interface TemplateCardsProps {
   readonly onCreate: (template: string) => void;
-  /** The template whose project is being made. */
+  /** The template from which a project is being created. */
   readonly pending: string | null;
 }
 

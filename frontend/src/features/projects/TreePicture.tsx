@@ -24,7 +24,7 @@ function read(document: unknown): Picture | null {
     const layout = layoutTree(diagram, vocabulary, { ignorePositions: true });
     return layout.width > 0 ? { diagram, layout } : null;
   } catch {
-    // A diagram that cannot be read is reported when it is opened; its card has no picture.
+    // The diagram's error is reported when the project is opened; here its card has no picture.
     return null;
   }
 }
@@ -42,7 +42,7 @@ function edgePath(from: Box, to: Box, isVertical: boolean): string {
     : `M${x1} ${y1}C${middle} ${y1} ${middle} ${y2} ${x2} ${y2}`;
 }
 
-/** A tree as on the canvas, seen from far away: shapes and colours only. */
+/** A small picture of a tree: shapes and colours only. */
 export const TreePicture = memo(function TreePicture({ diagram: document }: TreePictureProps) {
   const picture = useMemo(() => read(document), [document]);
   if (!picture) return <div className={classes['noPicture']} aria-hidden="true" />;

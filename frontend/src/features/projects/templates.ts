@@ -5,7 +5,7 @@ import { api } from '@/api/client';
 import type { TemplateInfo } from '@/api/types';
 import { translates } from '@/i18n';
 
-/** Known templates keep this order; others follow. */
+/** The order of known templates; others follow. */
 const ORDER = ['laser_bump_and_go', 'visual_follow_person', 'empty'];
 
 const EMPTY: TemplateInfo = { id: 'empty', name: '', description: '' };
@@ -16,13 +16,13 @@ function sorted(templates: readonly TemplateInfo[]): TemplateInfo[] {
   return all.sort((a, b) => place(a) - place(b));
 }
 
-/** What a project can begin as; an empty one before the server has answered. */
+/** The templates of new projects; an empty list before the server has answered. */
 export function useSortedTemplates(): readonly TemplateInfo[] {
   const { data } = useQuery({ queryKey: ['templates'], queryFn: api.templates, staleTime: Infinity });
   return useMemo(() => sorted(data ?? []), [data]);
 }
 
-/** A template's own words, or those of the user's language where there are some. */
+/** The texts of a template, in the user's language if there is a translation. */
 export function templateText(
   t: TFunction<'projects'>,
   template: TemplateInfo,

@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'react';
 
-/** Files dropped anywhere on the page; tells whether some hang over it. */
+/** Accepts files that are dropped anywhere on the page; returns whether files are being dragged over it. */
 export function useFileDrop(onDrop: (file: File) => void): boolean {
   const [isOver, setOver] = useState(false);
   useEffect(() => {

@@ -8,10 +8,10 @@ import type { Diagnostic } from '@/api/types';
 import { navigate, projectPath } from '@/store/route';
 import { reasonOf } from './reason';
 
-/** The translator's finding of a character that a repair would write otherwise. */
+/** The translator's code for a character that a repair would escape. */
 const REPAIRABLE = 'BT0740';
 
-/** A file that can be imported once it is repaired, and what would be changed in it. */
+/** A file that can be imported after a repair, and the changes of that repair. */
 export interface RepairOffer {
   readonly file: File;
   readonly changes: readonly Diagnostic[];
@@ -22,7 +22,7 @@ const repairsOf = (error: Error): readonly Diagnostic[] => {
   return found.every(({ code }) => code === REPAIRABLE) ? found : [];
 };
 
-/** Imports a file; one that a repair makes readable is offered that repair, and never changed unasked. */
+/** Imports a file; if a repair makes it readable, asks before it is repaired. */
 export function useImport() {
   const { t } = useTranslation('projects');
   const [offer, setOffer] = useState<RepairOffer | null>(null);

@@ -12,7 +12,7 @@ import { useDifferences } from './useSides';
 import { useRevisions } from './useRevisions';
 import { sayRevision } from './words';
 
-/** A revision beside what it is compared with, and the way back to it. */
+/** Compares a revision with another state, and restores it. */
 export function CompareTab() {
   const { t } = useTranslation('revisions');
   const comparison = useComparison((state) => state.comparison);
@@ -79,7 +79,7 @@ interface AgainstSelectProps {
   readonly present: number;
 }
 
-/** What the revision is compared with: its past, the present, or any other revision. */
+/** Chooses the state to compare with: the one before, the present, or any other revision. */
 function AgainstSelect({ comparison, present }: AgainstSelectProps) {
   const { t } = useTranslation('revisions');
   const { items } = useRevisions('', true);

@@ -10,7 +10,7 @@ import { sayRevision } from './words';
 
 interface RevisionRowProps {
   readonly revision: Revision;
-  /** How many saves it stands for; 1 where it is one of a group. */
+  /** The number of saves in the row; 1 within an opened group. */
   readonly count: number;
   readonly isChosen: boolean;
   readonly isUnfolded?: boolean;
@@ -20,7 +20,7 @@ interface RevisionRowProps {
   readonly onUnfold?: () => void;
 }
 
-/** One revision of the list, or the saves of one sitting. */
+/** One revision, or the group of saves of one sitting. */
 export function RevisionRow({
   revision,
   count,

@@ -13,7 +13,7 @@ import { RevisionRow } from './RevisionRow';
 import { setScope, useScope } from '@/store/revisions/scope';
 import { useRevisions } from './useRevisions';
 
-/** Every state that the document in front, or the project, was saved in. */
+/** The revisions of the document in front, or of the project. */
 export function RevisionsPanel() {
   const { t } = useTranslation('revisions');
   const panel = useRef<HTMLDivElement>(null);

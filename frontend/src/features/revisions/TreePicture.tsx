@@ -29,7 +29,7 @@ const COLORS: Record<ChangeKind, string> = {
 };
 const onThePage = (name: string) => `var(--bts-${name})`;
 
-/** Both states of a tree in one picture: what came, went, changed and moved; and the same in words. */
+/** Both states of a tree in one picture, with added, removed, changed and moved blocks marked and listed. */
 export function TreePicture({ before, after }: TreePictureProps) {
   const { t } = useTranslation('revisions');
   const vocabulary = useProjectStore((state) => state.vocabulary);

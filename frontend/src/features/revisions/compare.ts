@@ -1,15 +1,15 @@
 import { create } from 'zustand';
 import type { Revision } from '@/api/revisions';
 
-/** With what a revision is compared: the state before it, the present, or another revision. */
+/** The state that a revision is compared with: the one before, the present, or another revision. */
 export type Against = 'before' | 'now' | number;
 
 export interface Comparison {
   readonly revision: Revision;
-  /** The state before its group of saves. */
+  /** The revision before its group of saves. */
   readonly before: number;
   readonly against: Against;
-  /** The file that is shown; null: the first that differs. */
+  /** The file that is shown; null: the first file that differs. */
   readonly path: string | null;
 }
 

@@ -1,6 +1,6 @@
 import type { Revision } from '@/api/revisions';
 
-/** Saves of one sitting: one author, one message, and never long between two. The newest comes first. */
+/** The saves of one sitting: one author and one message, without a long break. The newest comes first. */
 export interface RevisionGroup {
   readonly newest: Revision;
   readonly saves: readonly Revision[];
@@ -18,7 +18,7 @@ function continues(later: Revision, earlier: Revision): boolean {
   );
 }
 
-/** Joins the many saves of autosaving; a label begins a group, so that it is seen. */
+/** Groups the many revisions of autosaving; a labelled revision begins a group, so that it is visible. */
 export function groupRevisions(revisions: readonly Revision[]): RevisionGroup[] {
   const groups: Revision[][] = [];
   for (const revision of revisions) {

@@ -3,7 +3,7 @@ import { t } from '@/i18n';
 import { undoNotification } from '@/ui/undoNotification';
 import { restoreRevision } from '@/store/revisions/restore';
 
-/** Puts files (all, when none are named) back to a revision, and offers to take that back. */
+/** Restores files (all, if none are named) from a revision, and offers to undo this. */
 export async function restore(number: number, paths: readonly string[]): Promise<void> {
   try {
     const { previous, isChanged } = await restoreRevision(number, paths);

@@ -19,7 +19,7 @@ export function useRevisions(path: string, isVisible: boolean) {
     enabled: isVisible && projectId !== null,
   });
   useEffect(() => {
-    // A new revision was made, here or elsewhere.
+    // A new revision was saved here or elsewhere.
     void client.invalidateQueries({ queryKey: keyOf(projectId) });
   }, [client, projectId, revision]);
   const items: Revision[] = found.data?.pages.flatMap((page) => page.items) ?? [];

@@ -24,7 +24,7 @@ export interface FileSides {
   readonly after: string | null;
 }
 
-/** A file in two revisions; null where it is not there, or no text. */
+/** A file in two revisions; null if it does not exist there or is not text. */
 export function useFileSides(path: string | null, [older, newer]: Sides) {
   const projectId = useProjectStore((state) => state.projectId) ?? '';
   return useQuery({
@@ -39,7 +39,7 @@ export function useFileSides(path: string | null, [older, newer]: Sides) {
   });
 }
 
-/** A diagram of a revision; an empty one where there was none, null where it cannot be drawn. */
+/** The diagram in a revision; an empty one if it did not exist, null if it cannot be drawn. */
 export function diagramOf(text: string | null, id: string): Diagram | null {
   const none = { format: 'bt-studio/diagram', version: 1, id, root: null, nodes: {}, drafts: [] };
   try {
@@ -49,7 +49,7 @@ export function diagramOf(text: string | null, id: string): Diagram | null {
   }
 }
 
-/** Both states of a tree as XML; an empty text where there was none. */
+/** Both states of a tree as XML; an empty text if it did not exist. */
 export function useXmlSides(before: Diagram | null, after: Diagram | null, sides: Sides) {
   const id = after?.id ?? before?.id ?? '';
   return useQuery({

@@ -1,7 +1,7 @@
 import type { TFunction } from 'i18next';
 import type { Revision } from '@/api/revisions';
 
-/** The messages that the server and autosaving write, and the words for them. */
+/** Messages that the server and autosaving write, with the keys of their translations. */
 const KNOWN: readonly (readonly [RegExp, string])[] = [
   [/^Edit (\d+) files$/, 'message.editMany'],
   [/^Edit (.+)$/, 'message.edit'],

@@ -20,7 +20,7 @@ import { useBringMesh } from './useBringMesh';
 interface BodyFieldsProps {
   readonly editor: RobotEditor;
   readonly robot: Robot;
-  /** The link. */
+  /** The name of the link. */
   readonly name: string;
   /** The shapes of a driven wheel change with its radius and width. */
   readonly isSized: boolean;
@@ -40,7 +40,7 @@ const hex = (color: readonly number[]): string =>
     )
     .join('')}`;
 
-/** What a link weighs, and its shapes: seen, touched, or both. */
+/** A link's mass and its visual and collision shapes. */
 export function BodyFields({ editor, robot, name, isSized }: BodyFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const files = useProjectStore((state) => state.files);
@@ -118,7 +118,7 @@ const roleOf = ({ visual, collision }: Body): string =>
 interface BodyFormProps extends Omit<BodyFieldsProps, 'robot'> {
   readonly index: number;
   readonly body: Body;
-  /** Meshes that can be chosen, as the URDF names them. */
+  /** The available meshes, by their names in the URDF. */
   readonly meshes: readonly string[];
 }
 

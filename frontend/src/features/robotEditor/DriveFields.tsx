@@ -12,7 +12,7 @@ interface DriveFieldsProps {
   readonly robot: Robot;
 }
 
-/** What belongs to no part: the name, the wheels together, and how the robot drives. */
+/** Properties of the whole robot: name, wheels and drive. */
 export function DriveFields({ editor, robot }: DriveFieldsProps) {
   const { t } = useTranslation('robotEditor');
   return (
@@ -62,7 +62,7 @@ export function DriveFields({ editor, robot }: DriveFieldsProps) {
   );
 }
 
-/** The wheels that drive, together. */
+/** The properties of all driven wheels. */
 export function WheelFields({ editor, robot }: DriveFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const width = wheelWidth(robot);

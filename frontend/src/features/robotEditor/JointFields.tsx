@@ -30,7 +30,7 @@ const AXES = ['x', 'y', 'z'] as const;
 const ENDS = ['lower', 'upper'] as const;
 const DEGREES = 180 / Math.PI;
 
-/** How a part hangs on what carries it: fixed, or moved by a motor about or along an axis. */
+/** The joint between a part and its parent: fixed, or driven by a motor about or along an axis. */
 export function JointFields({ editor, robot, joint }: JointFieldsProps) {
   const { t } = useTranslation('robotEditor');
   const { name, type } = joint;

@@ -9,7 +9,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewRobot, ownRobots, TEMPLATE, useNewRobot } from '@/store/dialogs/newRobot';
 
-/** Makes a robot of the project: of our template, or of a robot that we ship. */
+/** Adds a robot to the project: a copy of the template or of one of our robots. */
 export function NewRobot() {
   const { t } = useTranslation('robotEditor');
   const base = useNewRobot((state) => state.base);

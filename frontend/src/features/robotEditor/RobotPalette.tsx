@@ -53,7 +53,7 @@ export function RobotPalette({ editor }: { readonly editor: RobotEditor }) {
   );
 }
 
-/** Pieces of body that look like a mesh: one of the robot's, or one that is brought now. */
+/** Adds visual parts from a mesh: one of the robot's, or one that is uploaded now. */
 function MeshMenu({ editor }: { readonly editor: RobotEditor }) {
   const { t } = useTranslation('robotEditor');
   const paths = useProjectStore((state) => state.files);

@@ -41,7 +41,7 @@ const ICONS: Readonly<Record<PartKind, typeof IconBox>> = {
   battery: IconBattery3,
 };
 
-/** The list of parts, and the numbers of what is selected; of the whole robot where nothing is. */
+/** The list of parts, and the fields of the selected one; of the whole robot if none is selected. */
 export function RobotPanel({ editor, robot }: RobotPanelProps) {
   const { t } = useTranslation('robotEditor');
   const selection = useStore(editor.store, (state) => state.selection);

@@ -11,7 +11,7 @@ import type { Part, Robot } from '@/model/robot/types';
 /** An invisible part is shown as a small cube. */
 const HANDLE_M = 0.024;
 const HANDLE_COLOR = [0.44, 0.49, 1, 1];
-/** Sensors see further than that, but it would hide the robot. */
+/** The longest drawn range of a sensor: its real range would hide the robot. */
 const FARTHEST_M = 0.8;
 const FRAME_PAD_M = 0.006;
 
@@ -22,11 +22,11 @@ function placeOf([x, y, z, roll, pitch, yaw]: Pose): number[] {
 
 const number = (value: unknown, fallback: number): number => (typeof value === 'number' ? value : fallback);
 
-/** The parts of a robot, drawn. */
+/** The three.js objects of a robot's parts. */
 export class RobotScene extends ThingScene<Part> {
   private robot: Robot | null = null;
 
-  /** `folder` is where the URDF lies: its meshes are named from there. */
+  /** `folder` is the folder of the URDF; mesh names are relative to it. */
   constructor(
     isSimple: boolean,
     onArrival: () => void,
@@ -40,7 +40,7 @@ export class RobotScene extends ThingScene<Part> {
     this.show(robot.parts);
   }
 
-  /** The parts that move with others: these, and all parts attached to them. */
+  /** The objects that a gesture moves: the given parts and all parts attached to them. */
   heldNodesOf(keys: readonly string[]): THREE.Object3D[] {
     const { robot } = this;
     if (!robot) return [];
@@ -95,7 +95,7 @@ export class RobotScene extends ThingScene<Part> {
   }
 }
 
-/** What a sensor sees, in its own frame: a ring, or a pyramid. */
+/** The field of view of a sensor in its own frame: a ring or a pyramid. */
 function sightOf({ sensor }: Part): THREE.BufferGeometry | null {
   if (sensor?.kind === 'camera') {
     return pyramidOf({ fov: number(sensor.raw['fov'], 1.047), range: FARTHEST_M / 2 });

@@ -22,7 +22,7 @@ interface RobotViewProps {
   readonly robot: Robot;
 }
 
-/** Keys of the view, as `docs/how-to/make-a-robot.md` lists them. */
+/** Keys of the view, as listed in `docs/how-to/make-a-robot.md`. */
 const keysOf = (editor: RobotEditor): KeyActs => ({
   modes: ['move', 'turn'],
   nudge: (along, aside, up, factor) => nudge(editor, along, aside, up, factor),

@@ -8,14 +8,14 @@ import { edit, type RobotEditor } from './editor';
 
 const selected = (editor: RobotEditor) => editor.store.getState().selection;
 
-/** Adds a part: where it is dropped, or where one of its kind usually sits. */
+/** Adds a part at the place of the drop, or at the usual place for its kind. */
 export function placePart(editor: RobotEditor, kind: Addable, at?: Point): void {
   const { grid } = editor.store.getState();
   const point = at ? ([snapped(at[0], grid), snapped(at[1], grid)] as const) : undefined;
   edit(editor, 'add', (robot) => addPart(robot, kind, point));
 }
 
-/** Adds a piece of body that looks like a mesh. */
+/** Adds a part that is drawn with a mesh. */
 export function placeMesh(editor: RobotEditor, mesh: MeshFile): void {
   edit(editor, 'add', (robot) => addMeshPart(robot, mesh));
 }
@@ -28,7 +28,7 @@ export function duplicateSelected(editor: RobotEditor): void {
   edit(editor, 'duplicate', (robot) => duplicateParts(robot, selected(editor), [0, 0.05]));
 }
 
-/** Moves what is selected by steps of the grid; the steps of one key in a row are one of undo. */
+/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
 export function nudge(editor: RobotEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection } = editor.store.getState();
   const step = (grid || 0.001) * factor;

@@ -6,19 +6,19 @@ import { useProjectStore } from '@/store/project';
 
 export const GRIDS = [0, 0.001, 0.005, 0.01, 0.05] as const;
 
-/** A robot that is being edited: `robot.yaml` and its URDF. */
+/** The editor of a robot: `robot.yaml` and its URDF. */
 export type RobotEditor = Editor;
 
 const folderOf = (path: string): string => path.slice(0, path.lastIndexOf('/') + 1);
 
-/** The file that holds a robot's links, if it is one that can be shown: a URDF beside `robot.yaml`. */
+/** The path of a robot's URDF beside its `robot.yaml`; null if the URDF cannot be shown. */
 export function urdfPathOf(path: string, yaml: string): string | null {
   const name = urdfNameOf(yaml);
   const isOurs = /\.urdf$/i.test(name) && !name.startsWith('/') && !name.split('/').includes('..');
   return isOurs ? `${folderOf(path)}${name}` : null;
 }
 
-/** The editor of a robot of the open project; it outlives its tab. */
+/** The editor of a robot of the open project; it stays when the robot's tab is closed. */
 export const editorOf = (path: string): RobotEditor =>
   editorFor(path, {
     pathsOf: (yaml) => {
@@ -29,7 +29,7 @@ export const editorOf = (path: string): RobotEditor =>
     grid: 0.005,
   });
 
-/** The robot as it is now, as far as it can be read. */
+/** The present robot, as far as its texts can be read. */
 export function readingOf({ path }: RobotEditor): RobotReading {
   const { currentText } = useProjectStore.getState();
   const yaml = currentText(path) ?? '';

@@ -7,14 +7,14 @@ import { partOf, type Part } from '@/model/robot/types';
 import { edit, readingOf, type RobotEditor } from './editor';
 import type { RobotScene } from './RobotScene';
 
-/** The selected parts that can be put elsewhere. */
+/** The selected parts that can be moved. */
 function movable(editor: RobotEditor): Part[] {
   const { robot } = readingOf(editor);
   const { selection } = editor.store.getState();
   return robot ? robot.parts.filter((part) => selection.includes(part.key) && jointOf(robot, part)) : [];
 }
 
-/** The effects of the gizmo on the parts of a robot. */
+/** The results of the gizmo's gestures on the parts of a robot. */
 export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   return {
     stand: () => {
@@ -56,7 +56,10 @@ export function handlesOf(editor: RobotEditor, scene: RobotScene): Handles {
   };
 }
 
-/** What the pointer does to the parts of a robot: the base stays, everything else is dragged at its height. */
+/**
+ * The results of the pointer's gestures on the parts of a robot: the base is fixed, other parts move at their
+ * height.
+ */
 export function dragHandlerOf(editor: RobotEditor, scene: RobotScene): DragHandler {
   return {
     take: (hit) => {

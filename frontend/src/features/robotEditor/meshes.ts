@@ -4,17 +4,17 @@ import { FILES } from '@/model/universe/types';
 import { useProjectStore } from '@/store/project';
 import { urdfPathOf, type RobotEditor } from './editor';
 
-/** Drawing programs often count in mm; no part of a robot here is larger than this in m. */
+/** The largest part in m: larger meshes are assumed to be in mm, as drawing programs often use. */
 const LARGEST_M = 3;
 const MILLIMETRE = 0.001;
 
-/** Where the URDF lies: its meshes are named from there. */
+/** The folder of the URDF; mesh names are relative to it. */
 export function urdfFolder({ path }: RobotEditor): string {
   const urdf = urdfPathOf(path, useProjectStore.getState().currentText(path) ?? '') ?? path;
   return urdf.slice(0, urdf.lastIndexOf('/') + 1);
 }
 
-/** The meshes beside the URDF, as it names them. */
+/** The meshes beside the URDF, by their names in it. */
 export function meshesOf(editor: RobotEditor, paths: readonly string[]): string[] {
   const folder = urdfFolder(editor);
   return paths
@@ -23,7 +23,7 @@ export function meshesOf(editor: RobotEditor, paths: readonly string[]): string[
     .sort((a, b) => a.localeCompare(b));
 }
 
-/** Puts a mesh beside the URDF; resolves to how the URDF names it, or to null where it cannot be used. */
+/** Adds a mesh beside the URDF; resolves to its name in the URDF, or to null if it cannot be used. */
 export async function bringHere(editor: RobotEditor, file: File): Promise<MeshFile | null> {
   const folder = urdfFolder(editor);
   const mesh = await bringMesh(file, `${folder}meshes`);

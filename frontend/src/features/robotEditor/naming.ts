@@ -2,7 +2,7 @@ import type { TFunction } from 'i18next';
 import { nameProblem, type Named } from '@/model/robot/names';
 import type { Robot, Sensor } from '@/model/robot/types';
 
-/** Returns why the name of a link or a joint is invalid; `t` is that of `robotEditor`. */
+/** The reason why a link's or a joint's name is invalid; `t` translates in the namespace `robotEditor`. */
 export const nameWords =
   (robot: Robot, what: Named, now: string, t: TFunction<'robotEditor'>) =>
   (wish: string): string | null => {
@@ -11,7 +11,7 @@ export const nameWords =
     return problem === 'form' ? t('badName') : t('editor3d:problem.sameId', { id: wish });
   };
 
-/** Returns why the name of a sensor is invalid. */
+/** The reason why a sensor's name is invalid. */
 export const sensorWords =
   (robot: Robot, sensor: Sensor, t: TFunction<'robotEditor'>) =>
   (wish: string): string | null => {

@@ -11,7 +11,10 @@ interface RobotTexts {
   readonly urdfName: string;
 }
 
-/** The files of a new robot, made of our template or of a robot that we ship; its name is that of its folder. */
+/**
+ * The files of a new robot, copied from the template or from one of our robots; its name is that of its
+ * folder.
+ */
 export async function textsOfRobot(base: string, name: string): Promise<RobotTexts> {
   const [yaml, urdf] =
     base === TEMPLATE

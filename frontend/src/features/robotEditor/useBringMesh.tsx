@@ -4,7 +4,7 @@ import type { MeshFile } from '@/model/robot/bodies';
 import type { RobotEditor } from './editor';
 import { bringHere } from './meshes';
 
-/** Brings a mesh from the user's disk to the robot: `ask` opens the choice, `input` is part of the page. */
+/** Uploads a mesh for the robot: `ask` opens the file dialogue, and the page must render `input`. */
 export function useBringMesh(
   editor: RobotEditor,
   testId: string,

@@ -17,7 +17,7 @@ const ICONS = {
   failure: IconAlertTriangle,
 };
 
-/** The error, its place and the next step; across the whole width, since it concerns the whole page. */
+/** The error, its place and the next step; as wide as the page. */
 export function Banner() {
   const { t, i18n } = useTranslation('run');
   const session = useSessionStore(
@@ -44,7 +44,7 @@ export function Banner() {
       data-tone={banner.tone}
       data-kind={banner.kind}
       data-testid="banner"
-      // The seconds change all the time; screen readers announce the silence from the state of the executor.
+      // The seconds change all the time, so screen readers get the silence from the executor's state instead.
       role={banner.kind === 'silence' ? undefined : 'alert'}
     >
       <Icon size={18} />

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 
-/** The state of the executor, in one word; the rung of its ladder as tooltip. */
+/** The executor's state in one word, with the rung of the ladder as tooltip. */
 export function ExecutorState() {
   const { t } = useTranslation('run');
   const executor = useSessionStore((state) => state.executor);

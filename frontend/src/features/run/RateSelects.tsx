@@ -64,7 +64,7 @@ function Choices({ value, options, format, onChoose }: ChoicesProps) {
   );
 }
 
-/** How often the tree is ticked, and how fast time passes. */
+/** The tick rate and the speed of simulated time. */
 function useRates(): readonly RateSelectProps[] {
   const { t } = useTranslation('run');
   const tickHz = useProjectStore((state) => state.settings?.tick_hz ?? DEFAULT_TICK_HZ);
@@ -96,7 +96,7 @@ export function RateSelects() {
   return useRates().map((rate) => <RateSelect key={rate.testId} {...rate} />);
 }
 
-/** The same within a menu: where the window is too narrow for both. */
+/** The same rates in a menu, for windows that are too narrow for both. */
 export function RateMenus() {
   return useRates().map(({ label, value, options, format, testId, isDisabled, onChoose }) => (
     <Menu.Sub key={testId}>

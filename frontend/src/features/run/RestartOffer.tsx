@@ -9,7 +9,7 @@ import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
-/** The program was edited while it runs: offers to restart it. */
+/** Offers a restart when the program has been edited while it runs. */
 export function RestartOffer() {
   const { t } = useTranslation('run');
   const hasApplication = useSessionStore(
@@ -19,7 +19,7 @@ export function RestartOffer() {
   const hasChanged = useHasChanged();
   const stage = useRunStore((state) => state.stage);
   const ranAt = useRunStore((state) => state.ranAt);
-  // An offer that was declined comes back with the next run, not with the next key.
+  // A declined offer appears again with the next run, not with the next edit.
   const [declined, setDeclined] = useState<number | null>(null);
   const hasProblems = useProjectStore((state) => state.diagnostics.some((d) => d.severity === 'error'));
   if (!hasApplication || !hasChanged || hasProblems || stage || declined === ranAt) return null;

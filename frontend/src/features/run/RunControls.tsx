@@ -13,7 +13,7 @@ import { RateSelects } from './RateSelects';
 import classes from './run.module.css';
 import { useHasChanged } from './useHasChanged';
 
-/** Run, and the commands for a running application. */
+/** The Run button, and the commands for a running application. */
 export function RunControls() {
   const { t } = useTranslation('run');
   const stage = useRunStore((state) => state.stage);
@@ -44,7 +44,7 @@ export function RunControls() {
           leftSection={<IconPlayerPlayFilled size={15} />}
           variant={hasApplication && !hasChanged ? 'light' : 'filled'}
           loading={stage !== null}
-          // It stays in the order of the keyboard, and can be asked why it does nothing.
+          // The button stays focusable, so that its tooltip can explain why it is disabled.
           data-disabled={isBlocked}
           aria-disabled={isBlocked}
           data-testid="run"

@@ -10,7 +10,7 @@ import { useFollowing } from './following';
 
 const COMMANDS = ['run.step10', 'run.restart', 'run.resetWorld', 'run.teleop', 'run.connectRos'];
 
-/** Rare commands, and the options for statuses on the blocks. */
+/** Rare commands, and options for the statuses on blocks. */
 export function RunMenu({ isDisabled }: { readonly isDisabled: boolean }) {
   const { t } = useTranslation('run');
   const table = useCommandTable((state) => state.commands);

@@ -6,14 +6,14 @@ import { perform } from '@/commands/registry';
 import { useSessionStore } from '@/store/session/store';
 import classes from './run.module.css';
 
-/** Shown while another page controls the session; offers to take control here. */
+/** Shown while another page controls the session; offers to take control. */
 export function ViewerNotice() {
   const { t } = useTranslation('run');
   const client = useSessionStore(({ connection, introspection }) =>
     connection === 'open' && introspection?.role === 'viewer' ? introspection.client_id : null,
   );
   const wasTakenOver = useSessionStore((state) => state.wasTakenOver);
-  // Dismissed; the tooltip of Run keeps the reason.
+  // The user dismissed the notice; Run's tooltip still shows the reason.
   const [read, setRead] = useState('');
   const key = `${client} ${wasTakenOver}`;
   if (client === null || read === key) return null;

@@ -8,7 +8,7 @@ import { findingText } from '@/ui/findingText';
 export interface BannerContent {
   kind: 'connection' | 'silence' | 'fault' | 'failure';
   tone: 'error' | 'warning';
-  /** i18n key of `run:banner`, with what it needs. */
+  /** The i18n key in `run:banner`, and its values. */
   titleKey: string;
   values: Record<string, string>;
   text: string;
@@ -19,7 +19,7 @@ export interface BannerContent {
 interface Situation {
   connection: Connection;
   connectionMessage: string;
-  /** For how many seconds the executor has not answered. */
+  /** The number of seconds since the executor's last answer. */
   silentS: number;
   /** The reason of the present rung, if no command led to it. */
   executorReason: string;
@@ -27,7 +27,7 @@ interface Situation {
   failure: LaunchFailure | null;
 }
 
-/** The lost connection first, then one that is silent, then the last fault, then why a command was refused. */
+/** The most urgent problem: a lost connection, a silent executor, the last fault, then a refused command. */
 export function bannerFor(situation: Situation): BannerContent | null {
   const { connection, connectionMessage, silentS, executorReason, faults, failure } = situation;
   if (connection === 'reconnecting' || connection === 'lost')
@@ -111,7 +111,7 @@ function failureBanner(failure: LaunchFailure): BannerContent {
   };
 }
 
-/** The place that a refusal of the simulator begins with: `robots/mine/robot.yaml:10:25: …`. */
+/** The place at the beginning of a message of the simulator: `robots/mine/robot.yaml:10:25: …`. */
 function linkToText(message: string): BannerContent['link'] {
   const [, file = '', line = ''] = /^([\w./-]+\.\w+):(\d+):(?:\d+:)? /.exec(message) ?? [];
   return file === '' ? null : { file, line: Number(line) };

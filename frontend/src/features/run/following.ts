@@ -6,7 +6,7 @@ import { useSessionStore } from '@/store/session/store';
 import type { TreeNode } from '@/generated/messages';
 
 const KEY = 'bts.followRunning';
-/** Often enough to keep up, seldom enough to be readable. */
+/** The shortest time between two moves of the view: short enough to keep up, long enough to read. */
 const SHORTEST_MS = 700;
 
 export const useFollowing = create<{ isOn: boolean }>(() => ({ isOn: localStorage.getItem(KEY) === '1' }));
@@ -17,7 +17,7 @@ export function toggleFollowing(): void {
   useFollowing.setState({ isOn });
 }
 
-/** The running leaf that comes first in the tree: what the robot is doing now. */
+/** The first running leaf of the tree: the robot's present activity. */
 export function runningLeaf(
   nodes: readonly TreeNode[],
   isRunning: (node: TreeNode) => boolean,
@@ -26,7 +26,7 @@ export function runningLeaf(
   return nodes.find((node) => node.node_id !== '' && isRunning(node) && !parents.has(node.uid));
 }
 
-/** While it is on, the canvas shows the block that runs; what is selected stays selected. */
+/** Scrolls the canvas to the running block while the option is on; the selection stays. */
 export function followRunning(): () => void {
   let shown = '';
   let timer: ReturnType<typeof setTimeout> | undefined;

@@ -3,11 +3,11 @@ import { setSpeed, setTickRate } from '@/store/run/commands';
 import { useRunStore } from '@/store/run/store';
 import { setStatusRate, STATUS_RATES } from '@/store/session/statusRate';
 
-/** How often a tree may be ticked, Hz. */
+/** The tick rates that can be chosen, Hz. */
 export const TICK_RATES = [1, 2, 5, 10, 20, 50, 100] as const;
-/** Of a project whose settings name none, Hz. */
+/** The tick rate of a project whose settings have none, Hz. */
 export const DEFAULT_TICK_HZ = 20;
-/** How fast time may pass; zero is as fast as the machine can. */
+/** The speeds of simulated time; zero is as fast as the machine can. */
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 0] as const;
 
 const mayRun = () => useRunStore.getState().runBlocker === null;

@@ -10,7 +10,7 @@ interface Frame {
   openFile: (path: string, line?: number) => void;
 }
 
-/** Shows the user the error: the list of problems, or the line that raised. */
+/** Shows the user the error: the list of problems, or the line that raised it. */
 export function useRunReactions({ showPanel, openFile }: Frame): void {
   const failure = useRunStore((state) => state.failure);
   const fault = useSessionStore((state) => state.faults.at(-1));
@@ -27,7 +27,7 @@ export function useRunReactions({ showPanel, openFile }: Frame): void {
   }, [failure]);
 
   useEffect(() => {
-    // The end of a launch node does not end the run, and must not move the user's view.
+    // The end of a launch node does not end the run, and must not change what the user sees.
     if (!fault?.file || fault.line <= 0 || fault.kind === 'process') return;
     if (fault.file in useProjectStore.getState().files) openFile(fault.file, fault.line);
     // eslint-disable-next-line react-hooks/exhaustive-deps

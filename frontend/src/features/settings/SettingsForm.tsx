@@ -47,7 +47,7 @@ export function SettingsForm() {
   const submit = (event: FormEvent) => {
     event.preventDefault();
     if (problem) return;
-    // Only what was changed here: somebody else may have changed the rest meanwhile.
+    // Saves only the fields that were changed here: another user may have changed the others.
     const { tick_hz, ...others } = form;
     if (others.name !== undefined) others.name = others.name.trim();
     if (Object.keys(others).length > 0) useProjectStore.getState().setSettings(others);

@@ -1,6 +1,9 @@
 const LONGEST = 100;
 
-/** Why a project cannot be called so (`settings:problem.<why>`), as the server sees it; null when it can. */
+/**
+ * The key in `settings:problem` of the reason why a project cannot have this name; null if it can. The server
+ * has the same rules.
+ */
 export function projectNameProblem(name: string): 'empty' | 'long' | 'path' | null {
   const clean = name.trim();
   if (clean === '') return 'empty';

@@ -16,7 +16,7 @@ interface RowButtonProps {
   readonly onFocus: (index: number) => void;
 }
 
-/** A node's row: its name beside its strip, and in words for those who cannot see the strip. */
+/** A node's row: its name, and its statuses as text for users who cannot see the strip. */
 export const RowButton = memo(function RowButton(props: RowButtonProps) {
   const { row, index, top, isTabStop, onSelect, onFocus } = props;
   const { t } = useTranslation(['timeline', 'run']);

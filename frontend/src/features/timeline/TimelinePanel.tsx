@@ -25,7 +25,7 @@ const ZOOM_STEP = 1.4;
 const PAN_STEP = 0.2;
 const CLICK_PX = 4;
 
-/** The statuses of each node over the last ten minutes of this run, one strip a node. */
+/** The statuses of each node over the last ten minutes of the run, one strip a node. */
 export function TimelinePanel() {
   const { t } = useTranslation('timeline');
   const nodes = useSessionStore((state) => state.tree);
@@ -205,7 +205,7 @@ function Tool({ label, icon: Icon, isPressed, onClick }: ToolProps) {
   );
 }
 
-/** The wheel scrolls the rows; with Ctrl it zooms about the pointer, with Shift or sideways it pans. */
+/** The wheel scrolls the rows; with Ctrl it zooms at the pointer, with Shift or sideways it pans. */
 function useWheel(
   scroller: { readonly current: HTMLDivElement | null },
   canvas: { readonly current: HTMLCanvasElement | null },

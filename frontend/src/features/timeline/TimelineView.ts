@@ -5,19 +5,19 @@ import { spanOf, zoomed, type Span } from './span';
 const FIRST_LENGTH_S = 30;
 const REDRAW_MS = 100;
 
-/** The shown part of the run, and its canvas; drawn ten times a second at most. */
+/** The visible range of the run, and its canvas; drawn at most ten times a second. */
 export class TimelineView {
-  /** Called when the view begins or ceases to follow the run. */
+  /** Called when the view starts or stops following the run. */
   onFollowing: (isFollowing: boolean) => void = () => undefined;
   private canvas: HTMLCanvasElement | null = null;
   private scroller: HTMLElement | null = null;
   private uids: readonly number[] = [];
-  /** The end that is shown; null follows the run. */
+  /** The end of the visible range; null follows the run. */
   private end: number | null = null;
   private length = FIRST_LENGTH_S;
   private frame = 0;
 
-  /** Draws on a canvas, for the rows of a scroller, until the returned function is called. */
+  /** Draws the rows of a scroller on a canvas until the returned function is called. */
   attach(canvas: HTMLCanvasElement, scroller: HTMLElement): () => void {
     this.canvas = canvas;
     this.scroller = scroller;
@@ -30,7 +30,7 @@ export class TimelineView {
     }, REDRAW_MS);
     const resized = new ResizeObserver(this.redraw);
     resized.observe(canvas);
-    // The colours are those of the theme.
+    // The colours depend on the theme.
     const themed = new MutationObserver(this.redraw);
     themed.observe(document.documentElement, { attributeFilter: ['data-mantine-color-scheme'] });
     return () => {
@@ -56,13 +56,13 @@ export class TimelineView {
     if (this.frame === 0) this.frame = requestAnimationFrame(() => this.draw());
   };
 
-  /** Zooms about a share of the width. */
+  /** Zooms about a point, given as a share of the width. */
   zoom(factor: number, share = 1): void {
     const longest = Math.min(HISTORY_S, trace.now - trace.begin);
     this.show(zoomed(this.span(), factor, share, longest));
   }
 
-  /** Moves by a share of the width. */
+  /** Pans by a share of the width. */
   pan(share: number): void {
     const { from, to } = this.span();
     const by = (to - from) * share;

@@ -35,13 +35,13 @@ interface Picture {
   width: number;
   height: number;
   span: Span;
-  /** The node of each row, and how far the rows are scrolled, px. */
+  /** The nodes of the rows; the scroll offset is in px. */
   uids: readonly number[];
   scrollTop: number;
   palette: Palette;
 }
 
-/** Draws the axis and the strips of the rows that can be seen; the cost does not depend on the others. */
+/** Draws the axis and the visible strips; hidden rows cost nothing. */
 export function drawTimeline(trace: Trace, picture: Picture): void {
   const { context, width, height, span, uids, scrollTop, palette } = picture;
   context.clearRect(0, 0, width, height);
@@ -82,7 +82,10 @@ export function drawTimeline(trace: Trace, picture: Picture): void {
   }
 }
 
-/** Told apart by place as well as colour: running fills the row, success stands, failure hangs, skipped is a line. */
+/**
+ * Draws a status so that its place tells it as well as its colour: running fills the row, success is in its
+ * lower half, failure in its upper half, skipped is a line.
+ */
 function drawStretch(
   context: CanvasRenderingContext2D,
   mask: number,

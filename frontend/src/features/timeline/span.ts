@@ -1,4 +1,4 @@
-/** The stretch of simulated time that is shown, s. */
+/** The visible range of simulated time, s. */
 export interface Span {
   from: number;
   to: number;
@@ -8,21 +8,21 @@ export const SHORTEST_S = 0.5;
 
 const STEPS = [0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600];
 
-/** The end of what is shown: now, while the view follows the run. */
+/** The visible range that ends at a time; null: at the present. */
 export function spanOf(end: number | null, length: number, begin: number, now: number): Span {
   const to = Math.min(end ?? now, Math.max(now, begin + length));
   const from = Math.max(Math.min(to - length, Math.max(now - length, begin)), begin);
   return { from, to: Math.max(from + length, to) };
 }
 
-/** Zooms by a factor about a share of the span, 0 its begin and 1 its end. */
+/** Zooms about a share of the range: 0 is its start, 1 its end. */
 export function zoomed({ from, to }: Span, factor: number, share: number, longest: number): Span {
   const length = Math.min(Math.max((to - from) * factor, SHORTEST_S), Math.max(longest, SHORTEST_S));
   const fixed = from + (to - from) * share;
   return { from: fixed - length * share, to: fixed + length * (1 - share) };
 }
 
-/** Times at which the axis has a mark, at least so many pixels apart. */
+/** The times of the axis marks, at least this many pixels apart. */
 export function marks({ from, to }: Span, width: number, apart = 70): number[] {
   const wanted = ((to - from) * apart) / Math.max(width, 1);
   const step = STEPS.find((candidate) => candidate >= wanted) ?? 600;

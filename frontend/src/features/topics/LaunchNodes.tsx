@@ -25,7 +25,7 @@ export function LaunchNodes({ nodes }: { readonly nodes: readonly LaunchNode[] }
   );
 }
 
-/** Shows all output of a node in the console. */
+/** Shows the output of a node in the console. */
 function showLog({ id }: LaunchNode): void {
   useConsoleFilter.setState({ source: `launch:${id}`, level: 'debug', search: '' });
   showPanel('console');

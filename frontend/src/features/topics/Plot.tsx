@@ -9,14 +9,17 @@ import classes from './topics.module.css';
 
 const HEIGHT_PX = 190;
 const REDRAW_MS = 100;
-/** Told apart on both themes and by colour-blind people (Okabe and Ito), in turn solid and dashed. */
+/**
+ * Colours that can be distinguished on both themes and by colour-blind people (Okabe and Ito), in turn solid
+ * and dashed.
+ */
 const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
 
 interface PlotProps {
   readonly isVisible: boolean;
 }
 
-/** The chosen fields over simulated time; drag to zoom, double click to see all again. */
+/** The chosen fields over simulated time; a drag zooms, a double click shows everything again. */
 export function Plot({ isVisible }: PlotProps) {
   const { t } = useTranslation('topics');
   const plotted = useTopicsStore((state) => state.plotted);
@@ -48,7 +51,7 @@ export function Plot({ isVisible }: PlotProps) {
       resized.disconnect();
       chart.destroy();
     };
-    // The colours of the axes are those of the theme.
+    // The colours of the axes depend on the theme.
   }, [plotted, isVisible, isDark]);
 
   return (
@@ -84,7 +87,7 @@ const colorOf = (index: number) => COLORS[index % COLORS.length] ?? '#0072b2';
 
 type Plotted = readonly { readonly topic: string; readonly path: string }[];
 
-/** All series over the union of their times; a series without a sample at a time has none there. */
+/** All series over the union of their times, with gaps where a series has no sample. */
 function dataOf(plotted: Plotted): uPlot.AlignedData {
   const tables = plotted.map(({ topic, path }): uPlot.AlignedData => {
     const { times, values } = seriesOf(topic, path);

@@ -7,7 +7,7 @@ import { closePublish, usePublishing } from './publishing';
 
 const DESCRIBE_AFTER_MS = 250;
 
-/** Publishes one message on a topic; the fields begin with the type's defaults. */
+/** Publishes one message on a topic; the fields start with the type's defaults. */
 export function PublishDialog() {
   const { t } = useTranslation('topics');
   const opened = usePublishing((state) => state.opened);
@@ -125,7 +125,7 @@ function PublishForm({ topic: firstTopic, type: firstType }: PublishFormProps) {
   );
 }
 
-/** Asks for a type's fields once it was typed; what is returned says why there are none. */
+/** Requests a type's fields after the user has typed it; returns the reason if there are none. */
 function useDescription(type: string): string | null {
   const isKnown = useTopicsStore((state) => type in state.descriptions);
   const [refusal, setRefusal] = useState<{ type: string; text: string } | null>(null);

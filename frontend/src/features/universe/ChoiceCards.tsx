@@ -4,7 +4,7 @@ import type { UniverseInfo } from '@/api/types';
 import { OUTSIDE } from './titles';
 import classes from './universe.module.css';
 
-/** The universe's own robot, the robot template, and no simulated world. */
+/** Choices without a picture: the universe's own robot, the robot template, and no simulated world. */
 const WITHOUT_PICTURE: ReadonlyMap<string, Icon> = new Map([
   ['', IconRobot],
   ['template', IconRobot],
@@ -16,11 +16,11 @@ interface ChoiceCardsProps {
   readonly items: readonly UniverseInfo[];
   readonly chosen: string;
   readonly onChoose: (id: string) => void;
-  /** A dialogue begins at the chosen one. */
+  /** A dialogue gives the chosen card the focus at first. */
   readonly isFirst?: boolean;
 }
 
-/** Pictures to choose one of; to the keyboard and to screen readers they are radio buttons. */
+/** Cards with pictures to choose one of; keyboard and screen readers treat them as radio buttons. */
 export function ChoiceCards({ label, items, chosen, onChoose, isFirst = false }: ChoiceCardsProps) {
   const name = useId();
   return (

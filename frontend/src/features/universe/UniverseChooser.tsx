@@ -15,12 +15,12 @@ import classes from './universe.module.css';
 import { closeUniverseChooser } from '@/store/dialogs/universeChooser';
 
 const OWN = /^universes\/([^/]+)\.yaml$/;
-/** The robot that the universe itself names. */
+/** The value that stands for the robot that the universe names. */
 const OF_UNIVERSE = '';
 
 type Scope = 'project' | 'once';
 
-/** Universe, robot and seed: for the project, or only as long as this page is open. */
+/** Chooses universe, robot and seed: for the project, or until the page closes. */
 export function UniverseChooser() {
   const { t } = useTranslation('universe');
   const { t: title } = useTranslation('worlds');
@@ -36,7 +36,8 @@ export function UniverseChooser() {
   const root = useRef<HTMLDivElement>(null);
   const isReady = !universes.isPending && !robots.isPending;
   useEffect(() => {
-    // After the dialogue has given the focus to its first button: arrows choose from here.
+    // Waits until the dialogue has focused its first button, then moves the focus to the cards for the arrow
+    // keys.
     const timer = setTimeout(() => root.current?.querySelector<HTMLElement>('input:checked')?.focus());
     return () => clearTimeout(timer);
   }, [isReady]);
@@ -72,7 +73,7 @@ export function UniverseChooser() {
     closeUniverseChooser();
   };
 
-  /** Opens a robot of the project in its editor, or a copy of one that we ship. */
+  /** Opens a robot of the project in its editor, or a copy of one of ours. */
   const changeRobot = () => {
     closeUniverseChooser();
     if (ownMachines.includes(robot)) openFile(`robots/${robot}/robot.yaml`);

@@ -6,7 +6,7 @@ import { closeUniverseChooser, useUniverseChooser } from '@/store/dialogs/univer
 
 const Chooser = lazyPart(async () => (await import('./UniverseChooser')).UniverseChooser);
 
-/** Where the robot will be, and which robot. */
+/** The dialogue that chooses the universe and the robot. */
 export function UniverseDialog() {
   const { t } = useTranslation('universe');
   const isOpen = useUniverseChooser((state) => state.isOpen);

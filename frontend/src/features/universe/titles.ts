@@ -1,12 +1,15 @@
 import type { TFunction } from 'i18next';
 import type { UniverseInfo } from '@/api/types';
 
-/** Runs against an outside ROS graph, without a simulated world. */
+/** The choice to run against an outside ROS graph, without a simulated world. */
 export const OUTSIDE = 'none';
 
 type Kind = 'universe' | 'robot';
 
-/** A universe or a robot that we ship, in the language of the page; `t` is that of `worlds`. */
+/**
+ * The title of one of our universes or robots in the page's language; `t` translates in the namespace
+ * `worlds`.
+ */
 export function titled(t: TFunction, kind: Kind, info: UniverseInfo): UniverseInfo {
   return {
     ...info,

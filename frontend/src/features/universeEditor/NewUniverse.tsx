@@ -9,7 +9,7 @@ import { useProjectStore } from '@/store/project';
 import { openFile } from '@/store/project/navigation';
 import { closeNewUniverse, useNewUniverse } from '@/store/dialogs/newUniverse';
 
-/** Makes a universe of the project out of one that we ship. */
+/** Adds a universe to the project: a copy of one of ours. */
 export function NewUniverse() {
   const { t } = useTranslation('universeEditor');
   const base = useNewUniverse((state) => state.base);
@@ -36,7 +36,7 @@ function Form({ first }: { readonly first: string }) {
   const files = useProjectStore((state) => state.files);
   const universes = useQuery({ queryKey: ['universes'], queryFn: api.universes, staleTime: Infinity });
   const names = Object.keys(files).map((path) => /^universes\/([^/]+)\.yaml$/.exec(path)?.[1] ?? '');
-  // A universe of that name could not be chosen: it means no world at all.
+  // This name is reserved: it stands for no world.
   const taken = new Set([...names.map((name) => name.toLowerCase()), OUTSIDE]);
   const shipped = (universes.data ?? []).filter(({ id }) => id !== OUTSIDE);
   if (universes.isPending) return <Loader size="sm" aria-label={t('new.loading')} />;

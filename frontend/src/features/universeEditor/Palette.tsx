@@ -35,7 +35,9 @@ const KIND_ICONS: Readonly<Record<Kind, typeof IconCube>> = {
   person: IconUser,
 };
 
-/** Things to place: clicked, they come to stand in the middle of the view; dragged, where they are let go. */
+/**
+ * The things that can be placed: a click places one in the middle of the view, a drag where it is dropped.
+ */
 export function Palette({ editor }: { readonly editor: UniverseEditor }) {
   const { t } = useTranslation('universeEditor');
   return (
@@ -73,7 +75,7 @@ function RobotMenu({ editor }: { readonly editor: UniverseEditor }) {
   );
 }
 
-/** Robots of the project and those that we ship. */
+/** The robots of the project, and ours. */
 export function useRobots(): readonly { readonly id: string; readonly name: string }[] {
   const files = useProjectStore((state) => state.files);
   const shipped = useQuery({ queryKey: ['robots'], queryFn: api.robots, staleTime: Infinity });

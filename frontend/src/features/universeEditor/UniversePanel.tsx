@@ -42,7 +42,7 @@ function iconOf(thing: Thing): typeof IconBox {
   return thing.section === 'robots' ? IconRobot : SHAPE_ICONS[thing.shape];
 }
 
-/** The list of things, and the numbers of what is selected; of the world itself where nothing is. */
+/** The list of things, and the fields of the selected one; of the world itself if none is selected. */
 export function UniversePanel({ editor, universe }: UniversePanelProps) {
   const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);

@@ -9,7 +9,7 @@ import { pictureName, type EditorTextures } from './textures';
 const HERE = [0, 0, 0, 0, 0, 0, 1];
 const UNKNOWN = [0.6, 0.62, 0.66, 0.5];
 
-/** The things of a universe, drawn. */
+/** The three.js objects of a universe's things. */
 export class UniverseScene extends ThingScene<Thing> {
   constructor(
     isSimple: boolean,
@@ -69,7 +69,7 @@ export class UniverseScene extends ThingScene<Thing> {
     if (next) person.rotation.z = Math.atan2(next[1] - y, next[0] - x);
     person.add(frameOf(person));
     node.add(person, ...wayOf(thing));
-    // The frame stands round the person, not round the whole way.
+    // The frame surrounds the person, not the whole path.
     const frame = person.children.at(-1);
     if (frame) node.attach(frame);
   }

@@ -17,7 +17,7 @@ interface UniverseStageProps {
   readonly isDark: boolean;
 }
 
-/** The universe as it is written, with what moves it. */
+/** The 3D view of a universe, with the tools that move its things. */
 export function UniverseStage({ editor, universe, isDark }: UniverseStageProps) {
   const isSimple = isSoftwareWebGl();
   const redraw = useThrottledInvalidate();

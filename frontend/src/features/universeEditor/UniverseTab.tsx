@@ -9,7 +9,7 @@ import { UniversePanel } from './UniversePanel';
 import { UniverseToolbar } from './UniverseToolbar';
 import { UniverseView } from './UniverseView';
 
-/** A universe of the project: seen and changed in 3D, with its text beside. */
+/** The editor of a universe in the project: 3D view and text. */
 export function UniverseTab({ path }: { readonly path: string }) {
   const { t } = useTranslation('universeEditor');
   const editor = useMemo(() => editorOf(path), [path]);

@@ -41,7 +41,7 @@ export function UniverseView({ editor, universe }: UniverseViewProps) {
   );
 }
 
-/** Tells screen readers what is selected, and where. */
+/** Announces the selected things and their positions to screen readers. */
 function Announcement({ editor, universe }: UniverseViewProps) {
   const { t } = useTranslation('universeEditor');
   const selection = useStore(editor.store, (state) => state.selection);

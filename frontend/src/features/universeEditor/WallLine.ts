@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 import type { Point } from '@/model/document/values';
 
-/** The wall that the next click would build. */
+/** The preview of the wall that the next click builds. */
 export class WallLine {
   readonly group = new THREE.Group();
   private readonly wall: THREE.Mesh;

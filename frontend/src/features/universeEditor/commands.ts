@@ -16,7 +16,7 @@ import { thingOf, type Section, type Shape, type Universe } from '@/model/univer
 import { select } from '@/features/editor3d/editing';
 import { edit, readingOf, type UniverseEditor } from './editor';
 
-/** Things that the palette offers: what each is made of, but for its id and place. */
+/** The things of the palette with all their properties except id and place. */
 export const KINDS = ['wall', 'box', 'cylinder', 'sphere', 'crate', 'ball', 'floor', 'person'] as const;
 export type Kind = (typeof KINDS)[number];
 
@@ -32,7 +32,7 @@ const MODELS: Readonly<
   floor: { shape: 'plane', size: [2, 2], color: '#b8c4cf', solid: false },
 };
 
-/** Something else to place: a mesh or model of the project, or a robot. */
+/** Further things that can be placed: a mesh or a model of the project, or a robot. */
 export type Placeable =
   | { readonly kind: Kind }
   | { readonly kind: 'file'; readonly shape: 'mesh' | 'urdf' | 'sdf'; readonly file: string }
@@ -73,7 +73,7 @@ function itemOf(universe: Universe, what: Placeable, [x, y]: Point): { section: 
   };
 }
 
-/** Puts something on the floor: where it is dropped, or in the middle of what is seen. */
+/** Places a thing on the floor: at the place of the drop, or in the middle of the view. */
 export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point): void {
   const { grid } = editor.store.getState();
   const [x, y] = at ?? free(editor);
@@ -83,7 +83,7 @@ export function placeThing(editor: UniverseEditor, what: Placeable, at?: Point):
   });
 }
 
-/** The middle of the view, or beside it where something stands there already. */
+/** The middle of the view, or a place beside it if the middle is occupied. */
 function free(editor: UniverseEditor): Point {
   const [x, y] = editor.view?.center() ?? [0, 0];
   const things = readingOf(editor).universe?.things ?? [];
@@ -98,7 +98,7 @@ function free(editor: UniverseEditor): Point {
 
 const WALL = { thickness: 0.15, height: 1 };
 
-/** A wall from one point of the floor to another. */
+/** Builds a wall from one point of the floor to another. */
 export function placeWall(editor: UniverseEditor, from: Point, to: Point): void {
   const { middle, length, yaw } = wallBetween(from, to);
   if (length < 0.01) return;
@@ -125,7 +125,7 @@ export function duplicateSelected(editor: UniverseEditor): void {
   edit(editor, 'duplicate', (universe) => duplicate(universe, selected(editor), [step, step]));
 }
 
-/** Deletes the chosen point of a way, else what is selected. */
+/** Deletes the chosen waypoint, else the selected things. */
 export function deleteSelected(editor: UniverseEditor): void {
   const { waypoint, selection } = editor.store.getState();
   const [key] = selection;
@@ -135,7 +135,7 @@ export function deleteSelected(editor: UniverseEditor): void {
   } else edit(editor, 'delete', (universe) => remove(universe, selection));
 }
 
-/** Moves what is selected by steps of the grid; the steps of one key in a row are one of undo. */
+/** Moves the selection by grid steps; presses of the same key join to one step of undo. */
 export function nudge(editor: UniverseEditor, along: number, aside: number, up: number, factor = 1): void {
   const { grid, selection, waypoint } = editor.store.getState();
   const step = (grid || 0.01) * factor;
@@ -172,7 +172,7 @@ export function turnSelected(editor: UniverseEditor, angle: number): void {
   );
 }
 
-/** Sets a size by its numbers; a thing on the floor stays on the floor. */
+/** Sets the size of a thing; a thing on the floor stays on the floor. */
 export function resize(
   editor: UniverseEditor,
   key: string,
@@ -197,7 +197,7 @@ export function resize(
   );
 }
 
-/** A new point of a way, half way to the next one. */
+/** Adds a waypoint half way to the next one. */
 export function extendWay(editor: UniverseEditor, key: string, after: number): void {
   edit(editor, 'way', (universe) => {
     const actor = thingOf(universe, key);

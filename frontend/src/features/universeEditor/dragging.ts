@@ -10,10 +10,10 @@ import { edit, readingOf, type UniverseEditor } from './editor';
 import type { UniverseScene } from './UniverseScene';
 import type { WallLine } from './WallLine';
 
-/** Wider things are floors and rooms: they are dragged only once they are selected. */
+/** Wider things are floors and rooms: they can be dragged only if they are selected. */
 const LARGEST_M = 3;
 
-/** The effects of the pointer on the things of a universe. */
+/** The results of the pointer's gestures on the things of a universe. */
 export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): DragHandler {
   const isLarge = (key: string) => {
     const size = scene.boundsOf([key]).getSize(new THREE.Vector3());
@@ -43,7 +43,7 @@ export function dragHandlerOf(editor: UniverseEditor, scene: UniverseScene): Dra
   };
 }
 
-/** Walls, from corner to corner. */
+/** Draws walls from corner to corner. */
 export function wallDrawing(editor: UniverseEditor, wall: WallLine): Drawing {
   let from: Point | null = null;
   return {

@@ -7,7 +7,7 @@ import { useProjectStore } from '@/store/project';
 
 export const GRIDS = [0, 0.05, 0.1, 0.5] as const;
 
-/** A universe that is being edited. */
+/** The editor of a universe. */
 export type UniverseEditor = Editor;
 
 const KIND = {
@@ -16,10 +16,10 @@ const KIND = {
   grid: 0.1,
 };
 
-/** The editor of a universe of the open project; it outlives its tab. */
+/** The editor of a universe of the open project; it stays when the universe's tab is closed. */
 export const editorOf = (path: string): UniverseEditor => editorFor(path, KIND);
 
-/** The universe as it is now, as far as it can be read. */
+/** The present universe, as far as its text can be read. */
 export const readingOf = ({ path }: UniverseEditor): Reading =>
   readUniverse(useProjectStore.getState().currentText(path) ?? '');
 

@@ -13,7 +13,7 @@ const shape = (
   rotation = [0, 0, 0, 1],
 ): Shape => ({ shape: kind, size, pose: [...at, ...rotation], color });
 
-/** A person 1.75 m tall who stands and looks along x, as the simulator draws one (executor/world/geometry/person.py). */
+/** A standing person, 1.75 m tall, facing along x; the same as in `executor/world/geometry/person.py`. */
 export function personShapes(color: number[]): Shape[] {
   const trousers = [...color.slice(0, 3).map((channel) => channel * 0.8), 1];
   const sides = [1, -1].flatMap((side) => [

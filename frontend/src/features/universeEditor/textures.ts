@@ -24,9 +24,12 @@ interface Picture {
   readonly waiting: ((texture: THREE.Texture) => void)[];
 }
 
-/** The pictures of a universe that is edited: ours, and files of the project. One that cannot be had is left out. */
+/**
+ * The textures of a universe that is edited: ours, and files of the project. A texture that cannot be loaded
+ * is left out.
+ */
 export class EditorTextures implements Pictures {
-  /** Called when one has arrived. */
+  /** Called when a texture has arrived. */
   onArrival: () => void = () => undefined;
   private readonly known = new Map<string, Picture>();
   private isGone = false;
@@ -54,7 +57,7 @@ export class EditorTextures implements Pictures {
     return [1, image ? image.height / image.width : 1];
   }
 
-  /** Whether a picture is there: until then the size of its repetition may not be known. */
+  /** Whether a texture has arrived: until then its repetition size may not be known. */
   has(name: string): boolean {
     const file = fileOf(name);
     return file !== '' && this.pictureOf(file).texture !== null;

@@ -11,7 +11,7 @@ interface CameraInsetProps {
   readonly isVisible: boolean;
 }
 
-/** The robot's camera, small, in a corner of the world that it looks at. */
+/** The robot's camera picture, small, in a corner of the 3D view. */
 export function CameraInset({ isVisible }: CameraInsetProps) {
   const { t } = useTranslation('viewer');
   const canvas = useRef<HTMLCanvasElement>(null);

@@ -24,7 +24,7 @@ const BUTTONS = [
   { code: 'KeyD', icon: IconArrowForwardUp, key: 'right' },
 ] as const;
 
-/** All held keys together: ahead and left at once drives a bow. */
+/** Adds the directions of all held keys: forward and left drive a curve. */
 export function directionOf(held: Iterable<string>): Direction {
   let linear = 0;
   let angular = 0;
@@ -35,7 +35,7 @@ export function directionOf(held: Iterable<string>): Direction {
   return { linear: Math.sign(linear), angular: Math.sign(angular) };
 }
 
-/** Drives the robot by hand, with keys or with the buttons here; it stops as soon as none is held. */
+/** Drives the robot with keys or buttons; it stops as soon as none is held. */
 export function TeleopPad() {
   const isOn = useTeleop((state) => state.isOn);
   const canBe = useSessionStore(
@@ -120,7 +120,7 @@ const isTyping = (target: EventTarget | null) =>
     ['INPUT', 'TEXTAREA', 'SELECT'].includes(target.tagName) ||
     target.getAttribute('role') === 'slider');
 
-/** While the pad is open its keys drive, wherever the focus is, but not while one types. */
+/** While the pad is open its keys drive, wherever the focus is, except in text fields. */
 function useHeldKeys(): void {
   useEffect(() => {
     const held = new Set<string>();

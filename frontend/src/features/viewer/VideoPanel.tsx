@@ -17,12 +17,12 @@ import classes from './viewer.module.css';
 import { hasWebGl } from './webgl';
 
 const VIDEO_HZ = 30;
-/** How wide pictures are asked for, in pixels: few sizes, since each is a picture that the server keeps. */
+/** The widths of pictures that may be requested, in px: few, since the server renders each one separately. */
 const WIDTHS = [640, 960, 1280] as const;
 const SEND_EVERY_MS = 60;
 const KEY_PX = 24;
 
-/** The world drawn by the server: the same to see where the browser cannot draw it. */
+/** The world as pictures that the server draws, for browsers that cannot draw it. */
 export function VideoPanel() {
   const { t } = useTranslation('viewer');
   const panel = useRef<HTMLDivElement>(null);
@@ -42,7 +42,7 @@ export function VideoPanel() {
     }, SEND_EVERY_MS);
   };
 
-  // Another width, and a panel that is shown again, keep the view as it was turned.
+  // A new width, or showing the panel again, keeps the camera's direction.
   useEffect(() => {
     stream.current?.update({ max_hz: VIDEO_HZ, width, camera_pose: poseOf(orbit.current) });
   }, [stream, width, isVisible]);
@@ -64,7 +64,7 @@ export function VideoPanel() {
     // eslint-disable-next-line react-hooks/exhaustive-deps
   }, []);
 
-  /** Elements above the picture have their own gestures. */
+  /** Elements on top of the picture handle their own gestures. */
   const isOnPicture = ({ target }: SyntheticEvent) => target === panel.current || target === canvas.current;
   const onPress = (event: PointerEvent) => {
     if (isOnPicture(event)) panel.current?.setPointerCapture(event.pointerId);
@@ -118,7 +118,7 @@ export function VideoPanel() {
   );
 }
 
-/** The least of the widths that fills an element. */
+/** The smallest width that fills an element. */
 function usePictureWidth(element: RefObject<HTMLElement | null>): number {
   const [width, setWidth] = useState<number>(WIDTHS[0]);
   useEffect(() => {

@@ -76,7 +76,7 @@ export function Viewer3d() {
   );
 }
 
-/** The scene that was sent last, until the world is taken down. */
+/** The last scene that was received, until the world is stopped. */
 function useScene(): Scene | null {
   const [scene, setScene] = useState<Scene | null>(() => frames.scene());
   const hasWorld = useSessionStore(({ executor }) => executor !== 'idle' && executor !== 'connected');

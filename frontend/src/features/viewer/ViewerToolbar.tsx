@@ -81,7 +81,7 @@ export function ViewerToolbar({ options, onChange }: ViewerToolbarProps) {
   );
 }
 
-/** The tools in the table of commands, for as long as there is a world to look at. */
+/** Registers the tools of the 3D view as commands while there is a world. */
 function useViewerCommands(
   options: ViewerToolbarProps['options'],
   onChange: ViewerToolbarProps['onChange'],

@@ -3,7 +3,7 @@ import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 import type { BodyPose } from './scene/DraggedBody';
 
-/** The last body that was dragged, and where it had been. */
+/** The last body that was dragged, and its pose before the drag. */
 export const useMoves = create<{ last: { body: string; from: BodyPose } | null }>(() => ({ last: null }));
 
 /** Bodies are dragged only while time is paused, and only by the client that controls the session. */

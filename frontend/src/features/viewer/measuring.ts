@@ -12,12 +12,12 @@ export const useMeasuring = create<MeasuringData>(() => ({ isOn: false, points: 
 
 export const setMeasuring = (isOn: boolean) => useMeasuring.setState({ isOn, points: [] });
 
-/** A third point begins a new measurement. */
+/** Adds a point to the measurement; a third point starts a new one. */
 export function addMeasured(point: Point): void {
   useMeasuring.setState(({ points }) => ({ points: points.length === 2 ? [point] : [...points, point] }));
 }
 
-/** Distance in space, and over the ground, m. */
+/** The distance in space and along the ground, m. */
 export function distances([a, b]: readonly [Point, Point]): { straight: number; flat: number; rise: number } {
   const flat = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const rise = b[2] - a[2];

@@ -1,6 +1,6 @@
 import type { CameraPose } from '@/generated/messages';
 
-/** A view that looks at a point from a direction: angles in rad, distance in m. */
+/** A camera that looks at a point from a direction: angles in rad, distance in m. */
 export interface Orbit {
   target: [number, number, number];
   azimuth: number;
@@ -12,7 +12,7 @@ export const START: Orbit = { target: [0, 0, 0.3], azimuth: -2.2, elevation: 0.7
 
 const clamp = (value: number, low: number, high: number) => Math.min(high, Math.max(low, value));
 
-/** Turned by pixels of dragging. */
+/** The camera after a rotation by pixels of dragging. */
 export function turned(orbit: Orbit, dx: number, dy: number): Orbit {
   return {
     ...orbit,
@@ -21,7 +21,7 @@ export function turned(orbit: Orbit, dx: number, dy: number): Orbit {
   };
 }
 
-/** Moved over the ground by pixels of dragging. */
+/** The camera after a move over the ground by pixels of dragging. */
 export function panned(orbit: Orbit, dx: number, dy: number): Orbit {
   const scale = orbit.distance * 0.0015;
   const [x, y, z] = orbit.target;

@@ -6,15 +6,15 @@ export interface Shown {
   width: number;
   height: number;
   hz: number;
-  /** How old pictures are when they are drawn, in simulated ms; null until one second of them was seen. */
+  /** The age of pictures when they are drawn, in simulated ms; null until they were measured for a second. */
   latencyMs: number | null;
 }
 
-/** How much later than `t` it is in the world, as far as any message tells, s. */
+/** The age of time `t` in the simulation, according to the newest message, s. */
 const ageOf = (t: number): number =>
   Math.max(0, Math.max(frames.newest(), useSessionStore.getState().simTime) - t);
 
-/** Draws the pictures of a stream on a canvas. While one is decoded, only the newest waits. */
+/** Draws the pictures of a stream on a canvas. While one is being decoded, only the newest waits. */
 export function drawPictures(
   stream: 'camera' | 'view',
   canvas: HTMLCanvasElement,
@@ -45,7 +45,7 @@ export function drawPictures(
       bitmap.close();
       measure(frame);
     } catch {
-      // A damaged picture is left out; the next one comes soon.
+      // A damaged picture is skipped; the next one comes soon.
     }
     void drawNext();
   };

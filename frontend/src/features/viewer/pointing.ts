@@ -6,7 +6,7 @@ const GROUND = new THREE.Plane(new THREE.Vector3(0, 0, 1), 0);
 
 interface Pointed {
   point: THREE.Vector3;
-  /** Id of the object that is pointed at; null on the ground. */
+  /** Id of the object under the pointer; null on the ground. */
   objectId: number | null;
 }
 
@@ -17,7 +17,7 @@ function aim(event: PointerEvent, canvas: HTMLElement, camera: THREE.Camera): vo
   ray.setFromCamera(new THREE.Vector2(x, y), camera);
 }
 
-/** The target of the pointer: a body of the world, or the ground. */
+/** The object under the pointer: a body of the world, or the ground. */
 export function pointedAt(
   event: PointerEvent,
   canvas: HTMLElement,
@@ -31,7 +31,7 @@ export function pointedAt(
   return point ? { point, objectId: null } : null;
 }
 
-/** Where the pointer is at a height over the ground. */
+/** The pointer's position at a height above the ground. */
 export function pointedAtHeight(
   event: PointerEvent,
   canvas: HTMLElement,

@@ -2,7 +2,7 @@ import { useEffect, useRef } from 'react';
 import type { StreamName } from '@/generated/messages';
 import { streams, type StreamHandle, type StreamOptions } from '@/store/session/streams';
 
-/** Wants a stream while `isWanted`; the returned reference changes its options. */
+/** Subscribes to a stream while `isWanted`; the returned reference changes its options. */
 export function useStream(
   stream: StreamName,
   isWanted: boolean,

@@ -15,7 +15,7 @@ type Controls = { readonly current: ComponentRef<typeof OrbitControls> | null };
 const CLICK_PX = 4;
 const TURN_RAD = Math.PI / 12;
 
-/** The tools of the pointer beyond turning the view: it drags bodies while time is paused, and measures. */
+/** The pointer's tools except turning the view: it drags bodies while time is paused, and measures. */
 export function useTools(world: World, controls: Controls): void {
   const camera = useThree((state) => state.camera);
   const canvas = useThree((state) => state.gl.domElement);

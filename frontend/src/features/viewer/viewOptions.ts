@@ -4,12 +4,12 @@ export interface ViewOptions {
   grid: boolean;
   /** Coordinate frames of world, links and sensors. */
   frames: boolean;
-  /** What the robots' cameras see, as pyramids. */
+  /** The field of view of the robots' cameras, as pyramids. */
   frustum: boolean;
   follow: boolean;
-  /** Whether the robot's camera is shown in a corner; null leaves it to whether the program uses pictures. */
+  /** Whether the robot's camera is shown in a corner; null: if the program uses pictures. */
   camera: boolean | null;
-  /** A new object moves the camera, also to where it already was asked to go. */
+  /** A new object moves the camera, even to the place of the previous request. */
   viewpoint: { kind: 'default' | 'top' };
 }
 
@@ -31,7 +31,7 @@ export function loadViewOptions(): ViewOptions {
   try {
     kept = JSON.parse(localStorage.getItem(KEY) ?? '{}') as Partial<Kept>;
   } catch {
-    // Unreadable: the defaults.
+    // The stored options are unreadable: the defaults apply.
   }
   return { ...DEFAULTS, ...kept, viewpoint: { kind: 'default' } };
 }

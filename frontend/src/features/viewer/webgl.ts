@@ -17,7 +17,10 @@ export function hasWebGl(): boolean {
   return known.isAvailable;
 }
 
-/** Drawn by the processor: fewer frames and no shadows, so that the simulation keeps its cores. */
+/**
+ * Whether the processor draws WebGL: then with fewer frames and no shadows, so that the simulation keeps its
+ * cores.
+ */
 export function isSoftwareWebGl(): boolean {
   known ??= probe();
   return known.isSoftware;

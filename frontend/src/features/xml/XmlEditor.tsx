@@ -30,7 +30,7 @@ const fromTree = Annotation.define<boolean>();
 const language = new Compartment();
 const metadata = new Compartment();
 
-/** The text of a tree; what is selected in it is selected on the canvas, and the other way. */
+/** The XML of a tree; its selection and that of the canvas follow each other. */
 export function XmlEditor({ treeId, link, snapshot, showsMetadata }: XmlEditorProps) {
   const { t } = useTranslation('xml');
   const host = useRef<HTMLDivElement>(null);
@@ -81,14 +81,14 @@ function extensions(label: string, link: XmlLink, treeId: string) {
   ];
 }
 
-/** Selects on the canvas what the cursor is in. */
+/** Selects the node at the cursor on the canvas. */
 function selectAt(view: EditorView, treeId: string): void {
   const node = nodeAt(rangesOf(view), view.state.selection.main.head);
   const { select, diagrams } = useProjectStore.getState();
   if (node !== null && diagrams[treeId]?.nodes[node]) select(treeId, [node]);
 }
 
-/** Shows the text that the tree has become. */
+/** Updates the text after a change of the tree. */
 function useTreeText(view: ViewRef, { text, ranges }: XmlSnapshot): void {
   useEffect(() => {
     const editor = view.current;
@@ -101,7 +101,7 @@ function useTreeText(view: ViewRef, { text, ranges }: XmlSnapshot): void {
     });
   }, [view, text]);
   useEffect(() => {
-    // Ranges come with the text that they are about.
+    // Ranges belong to one text: they are set together with it.
     view.current?.dispatch({ effects: setRanges.of(ranges) });
   }, [view, ranges]);
 }
@@ -120,7 +120,7 @@ function useLook(view: ViewRef, showsMetadata: boolean): void {
 
 const NONE: readonly string[] = [];
 
-/** Marks what is selected on the canvas, and brings it into view. */
+/** Marks the nodes that are selected on the canvas, and scrolls to them. */
 function useSelection(view: ViewRef, treeId: string, { ranges }: XmlSnapshot): void {
   const selection = useProjectStore((state) => (state.activeTree === treeId ? state.selection : NONE));
   useEffect(() => {

@@ -1,4 +1,4 @@
-/** The one piece that differs between two texts, so that cursors and folds elsewhere stay. */
+/** The one range that differs between two texts, so that cursors and folds elsewhere stay. */
 export function pieceThatDiffers(
   before: string,
   after: string,

@@ -9,7 +9,7 @@ import {
 } from '@codemirror/view';
 import type { NodeRange } from '@/api/trees';
 
-/** The data of an editor about the nodes in its text. */
+/** The nodes of an editor's text. */
 interface Nodes {
   readonly ranges: readonly NodeRange[];
   readonly selected: ReadonlySet<string>;
@@ -18,7 +18,7 @@ interface Nodes {
 export const setRanges = StateEffect.define<readonly NodeRange[]>();
 export const setSelected = StateEffect.define<ReadonlySet<string>>();
 
-/** The ranges of the nodes, moving with the text as it is edited, and which nodes are selected. */
+/** The ranges of the nodes, which move as the text is edited, and the selected nodes. */
 const nodesField = StateField.define<Nodes>({
   create: () => ({ ranges: [], selected: new Set() }),
   update: (nodes, change) => {
@@ -93,6 +93,6 @@ function decorating(matcher: MatchDecorator, isAtomic: boolean): Extension {
   );
 }
 
-/** Ids and positions: hidden, or shown in a whisper. */
+/** Ids and positions: hidden, or in a faint colour. */
 export const hiddenMetadata = decorating(metadata(Decoration.replace({})), true);
 export const dimMetadata = decorating(metadata(Decoration.mark({ class: 'cm-metadata' })), false);

@@ -31,7 +31,7 @@ function elementOf(spec: NodeSpec, trees: readonly string[]) {
   };
 }
 
-/** XML that knows the project's nodes, their ports and its trees. */
+/** XML with completion of the project's nodes, ports and trees. */
 export function treeXml(vocabulary: Vocabulary): Extension {
   const trees = [...vocabulary.trees.keys()];
   const specs = [...vocabulary.specs.values()];

@@ -4,18 +4,18 @@ import { fit, outside, partRead } from '../values';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
 
-/** Port values: `translator/check/port.py` in TypeScript. */
+/** Checks port values, like `translator/check/port.py`. */
 
 const BROKEN = { unclosed: 'unclosed-brace', 'empty-key': 'empty-key', 'bad-key': 'bad-key' } as const;
 
-/** Braces that do not make a key. */
+/** Reports braces that do not form a blackboard key. */
 export function checkBraces(id: NodeId, port: string, text: string): Problem[] {
   const value = readPortText(text);
   if (value.kind !== 'broken') return [];
   return [atPort(BROKEN[value.reason], id, port, { text, key: pointerOf(text) ?? '' })];
 }
 
-/** A literal that is not of its port's type. */
+/** Reports a literal that does not match its port's type. */
 export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string): Problem[] {
   const suits = fit(type, text);
   const far = suits === 'range' ? outside(type, text) : null;
@@ -25,18 +25,18 @@ export function checkLiteral(id: NodeId, { name, type }: PortSpec, text: string)
   return suits === 'loose' ? [atPort('read-in-part', id, name, { text, type, part }, 'warning')] : [];
 }
 
-/** The names of attributes in XML, without the colon of a namespace. */
+/** Attribute names of XML, without the colon of a namespace. */
 const XML_NAME = /^[\p{L}_][\p{L}\p{N}\p{M}._·-]*$/u;
 
-/** Whether a port may be called so; what begins with _ belongs to other programs. */
+/** Whether a port can have this name; names that begin with _ belong to other programs. */
 export const isPortName = (name: string): boolean =>
   XML_NAME.test(name) && !name.startsWith('_') && name !== 'name' && name !== 'ID';
 
-/** A port that is written may hold a literal where it is only read then, or names a key. */
+/** Input ports can hold a literal, inout ports only of nodes that just read it, or that take it as a key. */
 const takesLiteral = (node: DiagramNode, { direction, name }: PortSpec): boolean =>
   direction === 'input' || (direction === 'inout' && (node.type.startsWith('Loop') || name === 'output_key'));
 
-/** A built-in node that watches an entry cannot be without its name. */
+/** A built-in node that watches an entry requires that entry's name. */
 const namesEntry = ({ name }: PortSpec, { source }: NodeSpec): boolean =>
   name === 'entry' && source === 'builtin';
 
@@ -64,7 +64,7 @@ function checkUndeclared(
   return isPortName(name) ? checkBraces(id, name, text) : [atPort('bad-port-name', id, name)];
 }
 
-/** Names and values of the ports of a node that is no SubTree. */
+/** Checks names and values of the ports of a node other than SubTree. */
 export function checkPorts(id: NodeId, node: DiagramNode, spec: NodeSpec): Problem[] {
   const declared = new Set(spec.ports.map((port) => port.name));
   return [
@@ -83,7 +83,7 @@ interface Use {
 
 const UNTYPED = new Set(['any', 'script', 'status']);
 
-/** Makes a check that sees a tree's nodes in order, and tells entries that ports use with two types. */
+/** Makes a check for the nodes of a tree in order; it reports entries that ports use with two types. */
 export function entryCheck(): (id: NodeId, node: DiagramNode, spec: NodeSpec) => Problem[] {
   const entries = new Map<string, Use>();
   const checkEntry = (id: NodeId, node: DiagramNode, port: PortSpec): Problem[] => {

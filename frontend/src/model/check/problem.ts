@@ -5,17 +5,17 @@ import kinds from '../kinds.json';
 export type Severity = 'error' | 'warning' | 'note';
 export type ProblemKind = keyof typeof kinds;
 
-/** The translator's codes (translator/diagnostics.json) of what is found here too. */
+/** The translator's codes (translator/diagnostics.json) of the problems that are also found here. */
 export const CODES: Readonly<Record<ProblemKind, readonly string[]>> = kinds;
 
-/** What is wrong, as data: the words are made by i18n (`problems:<kind>`) from `values`. */
+/** A problem as data: i18n makes its text from `problems:<kind>` and `values`. */
 export interface Problem {
   readonly kind: ProblemKind;
   readonly severity: Severity;
   readonly node: NodeId | null;
   readonly port?: string;
   readonly values: Readonly<Record<string, string | number>>;
-  /** Of a script that cannot be read: why. */
+  /** The syntax error of an invalid script. */
   readonly script?: ScriptProblem;
 }
 

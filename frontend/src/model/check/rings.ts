@@ -1,6 +1,6 @@
 import type { Vocabulary } from '../vocabulary';
 
-/** Rings of trees that call each other: `closing_calls` of `translator/check/subtree.py` in TypeScript. */
+/** Finds trees that call each other, like `closing_calls` of `translator/check/subtree.py`. */
 
 type Closing = ReadonlyMap<string, ReadonlySet<string>>;
 
@@ -28,7 +28,7 @@ function find({ trees, mainTree }: Vocabulary): Closing {
 
 const known = new WeakMap<Vocabulary, Closing>();
 
-/** Of each tree those that it calls and that are on the way to it, as one walks from the main tree. */
+/** For each tree the calls that close a cycle, when the trees are visited from the main tree. */
 export function closingCalls(vocabulary: Vocabulary): Closing {
   const found = known.get(vocabulary) ?? find(vocabulary);
   known.set(vocabulary, found);

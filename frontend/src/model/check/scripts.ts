@@ -4,14 +4,14 @@ import { isProblem, readScript } from '../script';
 import type { NodeSpec } from '../vocabulary';
 import { atPort, type Problem } from './problem';
 
-/** Scripts: `translator/check/script.py` in TypeScript. */
+/** Checks scripts, like `translator/check/script.py`. */
 
 function checkScript(id: NodeId, port: string, code: string): Problem[] {
   const facts = readScript(code);
   return isProblem(facts) ? [{ ...atPort('broken-script', id, port), script: facts }] : [];
 }
 
-/** Conditions of any node, and the ports that hold code; a `Script` may have nothing to do. */
+/** Checks the conditions of any node, and the ports that hold code; a `Script` may be empty. */
 export function checkScripts(id: NodeId, node: DiagramNode, spec: NodeSpec | undefined): Problem[] {
   const conditions = Object.entries(node.conditions ?? {}).flatMap(([name, code]) =>
     code.trim() === '' ? [atPort('empty-script', id, name)] : checkScript(id, name, code),

@@ -5,7 +5,7 @@ import { closingCalls } from './rings';
 import { checkBraces, checkLiteral, isPortName } from './ports';
 import { atPort, type Problem } from './problem';
 
-/** SubTree nodes: `translator/check/subtree.py` in TypeScript. */
+/** Checks SubTree nodes, like `translator/check/subtree.py`. */
 
 const AUTOREMAP = '_autoremap';
 const SWITCHES = new Set(['0', '1', 'true', 'false', 'True', 'False', 'TRUE', 'FALSE']);
@@ -13,7 +13,7 @@ const SWITCHES = new Set(['0', '1', 'true', 'false', 'True', 'False', 'TRUE', 'F
 function checkValue(id: NodeId, port: PortSpec, text: string): Problem[] {
   if (pointerOf(text) !== null) return [];
   if (port.type === 'double' && /^-?[0-9]+$/.test(text)) {
-    // A number that a SubTree is given becomes a typed entry; an int is no double there.
+    // A number that is passed to a SubTree becomes a typed entry, where an int is not a double.
     return [atPort('whole-for-double', id, port.name, { text }, 'warning')];
   }
   return port.direction === 'input' ? checkLiteral(id, port, text) : [];
@@ -25,7 +25,7 @@ function checkPort(id: NodeId, name: string, text: string, declared: PortSpec | 
   return [...named, ...braces, ...(declared && braces.length === 0 ? checkValue(id, declared, text) : [])];
 }
 
-/** The ports that a call gives to the tree that it calls. */
+/** Checks the ports that a SubTree passes to its tree. */
 function checkGiven(id: NodeId, node: DiagramNode, ports: readonly PortSpec[]): Problem[] {
   const { [AUTOREMAP]: asPort, ...given } = node.ports ?? {};
   const autoremap = asPort ?? node.attributes?.[AUTOREMAP];
@@ -57,7 +57,7 @@ function checkCall(id: NodeId, node: DiagramNode, closesRing: boolean, vocabular
   return [...recursion, ...checkGiven(id, node, called.ports)];
 }
 
-/** Makes a check that sees the SubTree nodes of one tree, and tells names that two of them have. */
+/** Makes a check for the SubTree nodes of one tree; it reports names that two of them share. */
 export function callCheck(
   user: string,
   vocabulary: Vocabulary,

@@ -1,6 +1,6 @@
 import type { Pose, Vector } from './values';
 
-/** A place and a turn in space: three rows of a rotation, and an origin. */
+/** A position and orientation: three rows of a rotation matrix, and an origin. */
 interface Frame {
   readonly rows: readonly [Vector, Vector, Vector];
   readonly origin: Vector;
@@ -21,7 +21,7 @@ function frameOf([x, y, z, roll, pitch, yaw]: Pose): Frame {
 }
 
 function poseOf({ rows: [a, b, c], origin }: Frame): Pose {
-  // Upside up or down, roll and yaw turn about the same axis: all of it is yaw then.
+  // With a pitch of ±90°, roll and yaw turn about the same axis: all of it counts as yaw.
   const isPole = Math.abs(c[0]) > 1 - 1e-12;
   const pitch = Math.asin(Math.min(1, Math.max(-1, -c[0])));
   const roll = isPole ? 0 : Math.atan2(c[1], c[2]);
@@ -60,12 +60,12 @@ function inverted({ rows, origin }: Frame): Frame {
 
 export const HERE: Pose = [0, 0, 0, 0, 0, 0];
 
-/** A pose that is given in the frame of another one, in that one's own frame's parent. */
+/** Transforms a pose from the frame of `outer` into the frame in which `outer` is given. */
 export const within = (outer: Pose, inner: Pose): Pose => poseOf(product(frameOf(outer), frameOf(inner)));
 
-/** A pose in the frame of another one. */
+/** Transforms a pose into the frame of `outer`. */
 export const seenFrom = (outer: Pose, pose: Pose): Pose =>
   poseOf(product(inverted(frameOf(outer)), frameOf(pose)));
 
-/** A direction of a pose's own frame in the frame that it is given in. */
+/** Rotates a direction from a pose's own frame into the frame in which the pose is given. */
 export const directed = (pose: Pose, direction: Vector): Vector => rotated(frameOf(pose).rows, direction);

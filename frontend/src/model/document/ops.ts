@@ -1,15 +1,15 @@
 import { isObject, type Json, type JsonObject, type Path } from './values';
 
-/** A small change of a document. Indexes of `remove` count in the list as it was before. */
+/** A small change of a document. Indexes of `remove` refer to the list before the change. */
 export type Op =
   | { readonly kind: 'set'; readonly path: Path; readonly value: Json }
   | { readonly kind: 'unset'; readonly path: Path }
-  /** Gives the last key of the path another name; its place in the mapping stays. */
+  /** Renames the last key of the path; its place in the mapping stays. */
   | { readonly kind: 'rename'; readonly path: Path; readonly to: string }
   | { readonly kind: 'insert'; readonly path: Path; readonly index: number; readonly values: readonly Json[] }
   | { readonly kind: 'remove'; readonly path: Path; readonly indexes: readonly number[] };
 
-/** The value of a document after the changes, in their order. */
+/** Applies the changes to a document's value, in order. */
 export function applyOps(raw: JsonObject, ops: readonly Op[]): JsonObject {
   return ops.reduce<JsonObject>((value, op) => applied(value, op.path, op) as JsonObject, raw);
 }
@@ -40,7 +40,7 @@ function changed(value: Json | undefined, op: Op): Json {
   return value ?? null;
 }
 
-/** Whether two values say the same; the order of keys says nothing. */
+/** Whether two values are equal; the order of keys does not matter. */
 export function sameValue(a: Json | undefined, b: Json | undefined): boolean {
   if (Array.isArray(a) || Array.isArray(b)) {
     if (!Array.isArray(a) || !Array.isArray(b) || a.length !== b.length) return false;

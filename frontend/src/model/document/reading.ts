@@ -1,6 +1,6 @@
 import type { Pose, Vector } from './values';
 
-/* Values as far as they are what they should be; else what is given instead. */
+/* Values if they have the expected type; otherwise the fallback. */
 
 export const number = (value: unknown, fallback: number): number =>
   typeof value === 'number' && Number.isFinite(value) ? value : fallback;

@@ -1,7 +1,7 @@
 import { similarNames } from '../similar';
 import { isObject, type Json, type JsonObject, type Path } from './values';
 
-/** Something wrong with a document; `kind` names a text of `universe:problem`, `params` fill it in. */
+/** A problem of a document; `kind` is a key of `universe:problem`, and `params` fill its text. */
 export interface Issue {
   readonly path: Path;
   readonly kind: string;
@@ -12,7 +12,7 @@ type Schema = Readonly<Record<string, unknown>>;
 
 const issue = (path: Path, kind: string, params: Issue['params'] = {}): Issue => ({ path, kind, params });
 
-/** The part of JSON Schema that our generated schemas use. */
+/** Checks the subset of JSON Schema that our generated schemas use. */
 export function checkSchema(value: Json, root: Schema, schema: Schema = root, path: Path = []): Issue[] {
   const reference = schema['$ref'];
   if (typeof reference === 'string') return checkSchema(value, root, definition(root, reference), path);
@@ -46,7 +46,7 @@ export function checkSchema(value: Json, root: Schema, schema: Schema = root, pa
   }
 }
 
-/** One of several kinds, told apart by a key of its own. */
+/** Checks a value of one of several kinds, which a key of the value selects. */
 function checkChosen(value: Json, root: Schema, schema: Schema, path: Path): Issue[] {
   if (!isObject(value)) return [issue(path, 'object')];
   const { propertyName = 'kind', mapping = {} } = schema['discriminator'] as {

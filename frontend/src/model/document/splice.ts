@@ -1,11 +1,11 @@
-/** Replaces a stretch of a text; knows what stood there, so that it can be undone. */
+/** Replaces a range of a text; it also holds the replaced text, so that it can be undone. */
 export interface Splice {
   readonly at: number;
   readonly removed: string;
   readonly inserted: string;
 }
 
-/** The one splice that makes a text of another. */
+/** The one splice that changes one text into another. */
 export function difference(before: string, after: string): Splice {
   const most = Math.min(before.length, after.length);
   let head = 0;
@@ -25,13 +25,13 @@ export const inverse = ({ at, removed, inserted }: Splice): Splice => ({
   inserted: removed,
 });
 
-/** A text after a splice; null where something else stands there than the splice was made for. */
+/** Applies a splice; null if the text differs from the one that it was made for. */
 export function spliced(text: string, { at, removed, inserted }: Splice): string | null {
   if (text.slice(at, at + removed.length) !== removed) return null;
   return text.slice(0, at) + inserted + text.slice(at + removed.length);
 }
 
-/** Several splices that do not overlap, all counted in the text as it is. */
+/** Applies several splices that do not overlap; all offsets refer to the original text. */
 export function splicedAll(text: string, splices: readonly Splice[]): string {
   return [...splices].sort((a, b) => b.at - a.at).reduce((now, splice) => spliced(now, splice) ?? now, text);
 }

@@ -1,19 +1,19 @@
 import { difference, inverse, spliced, type Splice } from './splice';
 
-/** One step of undo: how the texts of a document changed, and what was selected before and after. */
+/** One step of undo: the changes of a document's texts, and the selection before and after. */
 export interface TextStep {
   readonly label: string;
-  /** Steps with the same key in a row are one. */
+  /** Consecutive steps with the same key are one. */
   readonly mergeKey: string | null;
-  /** One a text. */
+  /** One splice for each text. */
   readonly splices: readonly Splice[];
   readonly before: readonly string[];
   readonly after: readonly string[];
 }
 
-/** The steps of a document that is written in one file or in several. */
+/** The undo stack of a document of one or several files. */
 export interface TextUndo {
-  /** The texts that the next step goes out from. */
+  /** The texts on which the next step is based. */
   readonly texts: readonly string[];
   readonly past: readonly TextStep[];
   readonly future: readonly TextStep[];
@@ -31,7 +31,7 @@ export const startUndo = (texts: readonly string[]): TextUndo => ({
 
 export type NewStep = Omit<TextStep, 'splices'>;
 
-/** Texts after a splice each; null where one was not made for what stands there. */
+/** Applies one splice to each text; null if a splice does not fit its text. */
 function splicedEach(texts: readonly string[], splices: readonly Splice[]): readonly string[] | null {
   const after = texts.map((text, index) => {
     const splice = splices[index];
@@ -44,7 +44,7 @@ const back = (step: TextStep): Splice[] => step.splices.map(inverse);
 const differences = (before: readonly string[], after: readonly string[]): Splice[] =>
   after.map((text, index) => difference(before[index] ?? '', text));
 
-/** Notes that the texts are now others; the same texts are no step. */
+/** Records new texts as a step; equal texts make no step. */
 export function record(undoStack: TextUndo, texts: readonly string[], step: NewStep): TextUndo {
   if (texts.every((text, index) => text === undoStack.texts[index])) return undoStack;
   const last = undoStack.past.at(-1);
@@ -63,7 +63,7 @@ export function record(undoStack: TextUndo, texts: readonly string[], step: NewS
   return { texts, past: [...undoStack.past, next].slice(-LIMIT), future: [], sealed: false };
 }
 
-/** Ends a gesture: the next step stands for itself. */
+/** Ends a gesture: the next step is a new one. */
 export const seal = (undoStack: TextUndo): TextUndo =>
   undoStack.sealed ? undoStack : { ...undoStack, sealed: true };
 

@@ -1,4 +1,4 @@
-/** The values of documents. SI units; poses are [x, y, z, roll, pitch, yaw]. */
+/** Values of documents. SI units; poses are [x, y, z, roll, pitch, yaw]. */
 
 export type Json = string | number | boolean | null | readonly Json[] | { readonly [key: string]: Json };
 export type JsonObject = { readonly [key: string]: Json };
@@ -11,7 +11,7 @@ export type Pose = readonly [number, number, number, number, number, number];
 export const isObject = (value: unknown): value is JsonObject =>
   typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** The part of a document at a path; undefined where there is none. */
+/** The value at a path of a document; undefined if there is none. */
 export function valueAt(value: Json | undefined, path: Path): Json | undefined {
   let at: unknown = value;
   for (const step of path) {

@@ -1,10 +1,10 @@
 import { isObject, type Json, type JsonObject } from './values';
 
-/** Words that YAML 1.1 takes for something other than text. */
+/** Words that YAML 1.1 does not read as text. */
 const WORDS = /^(y|n|yes|no|on|off|true|false|null|nan|inf)$/i;
 const PLAIN = /^[A-Za-z_/][\w./-]*$/;
 
-/** A value on one line, as our own universes are written. */
+/** A value on one line, in the style of our own universes. */
 export function inline(value: Json): string {
   if (Array.isArray(value)) return `[${(value as Json[]).map(inline).join(', ')}]`;
   if (isObject(value)) {
@@ -18,7 +18,10 @@ export function inline(value: Json): string {
 
 export const keyText = (key: string): string => inline(key);
 
-/** A key and its value in a block mapping: things one a line, the rest on the key's own line. */
+/**
+ * A key and its value in a block mapping: mappings and lists on lines of their own, other values after the
+ * key.
+ */
 export function blockPair(key: string, value: Json, indent: string): string {
   const isListOfThings = Array.isArray(value) && value.length > 0 && (value as Json[]).every(isObject);
   if (!isListOfThings) return `${indent}${keyText(key)}: ${inline(value)}`;
@@ -26,7 +29,7 @@ export function blockPair(key: string, value: Json, indent: string): string {
   return [`${indent}${keyText(key)}:`, ...items].join('\n');
 }
 
-/** An item of a block sequence, on one line or a line a key. */
+/** An item of a block sequence, on one line or with one line for each key. */
 export function blockItem(value: Json, indent: string, isLong: boolean): string {
   if (!isLong || !isObject(value)) return `${indent}- ${inline(value)}`;
   return Object.entries(value as JsonObject)

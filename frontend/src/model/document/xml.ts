@@ -1,8 +1,8 @@
-/** XML as text: what stands where, so that it can be changed without touching the rest. */
+/** XML with the offsets of its parts, so that each can be changed without touching the rest. */
 
 export interface XmlAttribute {
   readonly value: string;
-  /** Where the value stands, between its quotes. */
+  /** The offset of the value between its quotes. */
   readonly start: number;
   readonly end: number;
 }
@@ -13,13 +13,13 @@ export interface XmlElement {
   readonly children: readonly XmlElement[];
   readonly start: number;
   readonly end: number;
-  /** Where another attribute would go. */
+  /** The offset where another attribute would be inserted. */
   readonly headEnd: number;
-  /** Where the closing tag begins; null where the element closes itself. */
+  /** The offset of the closing tag; null for an empty-element tag. */
   readonly close: number | null;
 }
 
-/** A text that is no XML, and where it stops being it. */
+/** A syntax error, with its offset in the text. */
 export class XmlError extends Error {
   constructor(
     readonly kind: string,
@@ -34,7 +34,7 @@ const NAME = /[\p{L}_:][\p{L}\p{N}_:.-]*/uy;
 const BLANK = /\s*/y;
 const ENTITIES: Readonly<Record<string, string>> = { amp: '&', lt: '<', gt: '>', quot: '"', apos: "'" };
 
-/** Elements may lie in each other so deep; nobody writes more by hand. */
+/** The deepest nesting that is accepted; hand-written files do not reach it. */
 const DEEPEST = 200;
 
 class Reader {
@@ -53,14 +53,14 @@ class Reader {
     return found;
   }
 
-  /** Goes behind the next place of a word. */
+  /** Moves behind the next occurrence of a word. */
   pass(word: string, kind: string): void {
     const end = this.text.indexOf(word, this.at);
     if (end < 0) throw new XmlError(kind, this.at);
     this.at = end + word.length;
   }
 
-  /** Passes comments, instructions and text; what remains at the place is an element, its end, or nothing. */
+  /** Skips comments, instructions and text, up to an element, an end tag, or the end. */
   misc(isInside: boolean): void {
     while (this.at < this.text.length) {
       if (this.has('<!--')) this.pass('-->', 'xmlComment');
@@ -152,9 +152,9 @@ function decoded(raw: string, at: number): string {
 }
 
 /**
- * Reads a document's one element.
+ * Parses a document's root element.
  *
- * @throws XmlError where the text is not well-formed, or has a DOCTYPE.
+ * @throws XmlError if the text is not well-formed, or has a DOCTYPE.
  */
 export function parseXml(text: string): XmlElement {
   const reader = new Reader(text);

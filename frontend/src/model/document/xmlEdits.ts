@@ -7,7 +7,7 @@ const cut = (text: string, start: number, end: number, inserted = ''): Splice =>
   inserted,
 });
 
-/** Gives an attribute a value; quotes, order and all other attributes stay. */
+/** Sets the value of an attribute; quotes, order and all other attributes stay. */
 export function setAttribute(text: string, element: XmlElement, name: string, value: string): Splice {
   const own = element.attributes.get(name);
   if (!own) return cut(text, element.headEnd, element.headEnd, ` ${name}="${escaped(value)}"`);
@@ -20,7 +20,7 @@ export function setAttribute(text: string, element: XmlElement, name: string, va
   );
 }
 
-/** Puts an element in at the end of another one: on a line of its own where the others stand so. */
+/** Appends an element to another one: on its own line if the other children have their own lines. */
 export function append(text: string, parent: XmlElement, written: string): Splice {
   if (parent.close === null) {
     return cut(text, parent.headEnd, parent.end, `>${written}</${parent.tag}>`);
@@ -36,7 +36,7 @@ export function append(text: string, parent: XmlElement, written: string): Splic
   return cut(text, lineStart, lineStart, lines.join(''));
 }
 
-/** Puts an element in at the beginning of another one. */
+/** Inserts an element as the first child of another one. */
 export function prepend(text: string, parent: XmlElement, written: string): Splice {
   const [first] = parent.children;
   if (!first) return append(text, parent, written);
@@ -46,7 +46,7 @@ export function prepend(text: string, parent: XmlElement, written: string): Spli
   return cut(text, first.start, first.start, isOwnLine ? `${written}\n${indent}` : written);
 }
 
-/** Takes an element out, with its line where nothing else stands on it. */
+/** Removes an element, with its line if nothing else is on it. */
 export function removed(text: string, { start, end }: XmlElement): Splice {
   const lineStart = text.lastIndexOf('\n', start - 1) + 1;
   const next = text.indexOf('\n', end);

@@ -5,10 +5,10 @@ import type { Json, Path } from './values';
 /** The simulator reads YAML 1.1. */
 export const YAML_OPTIONS = { version: '1.1', uniqueKeys: true, logLevel: 'silent' } as const;
 
-/** The texts before and after the last edit, which are asked for again and again. */
+/** The number of cached texts: those before and after the last edit are read again and again. */
 const KEPT = 3;
 
-/** Keeps what was made of the last few texts. */
+/** Caches the results for the last few texts. */
 export function remembering<T>(make: (text: string) => T): (text: string) => T {
   let known: { text: string; made: T }[] = [];
   return (text) => {
@@ -20,7 +20,7 @@ export function remembering<T>(make: (text: string) => T): (text: string) => T {
   };
 }
 
-/** A text as YAML; nobody changes what this returns. */
+/** The parsed YAML of a text; callers must not change it. */
 export const parsed = remembering((text) => {
   const lines = new LineCounter();
   return { document: parseDocument(text, { ...YAML_OPTIONS, lineCounter: lines }), lines };
@@ -31,7 +31,7 @@ function placeAt(lines: LineCounter, offset: number): { line: number; column: nu
   return { line: Math.max(line, 1), column: Math.max(col, 1) };
 }
 
-/** Where the part of a document at a path begins, or else the nearest part round it. */
+/** The offset of the value at a path, or of the nearest value that contains it. */
 function offsetOf(document: Document, path: Path): number {
   let node = document.contents as Node | null;
   let offset = node?.range?.[0] ?? 0;
@@ -49,22 +49,22 @@ function offsetOf(document: Document, path: Path): number {
   return offset;
 }
 
-/** An issue at its place in a text; line and column count from 1. */
+/** An issue with its place in a text; line and column count from 1. */
 export interface DocumentProblem extends Issue {
-  /** Which of the document's texts: 0 is the first. */
+  /** The index of the text in the document. */
   readonly text: number;
   readonly line: number;
   readonly column: number;
-  /** Where it is about a thing: the thing's key. */
+  /** The key of the thing that the issue is about, if it is about one. */
   readonly thing: string | null;
 }
 
-/** A document need not be longer; the simulator refuses what is. */
+/** The longest document that is read, in characters; the simulator has the same limit. */
 const LONGEST = 2_000_000;
 
 const START = { text: 0, line: 1, column: 1, thing: null, path: [] } as const;
 
-/** The value of a YAML text, or the reason why it has none. */
+/** The value of a YAML text, or the syntax error. */
 export function valueOfYaml(text: string): { raw: Json } | { problems: DocumentProblem[] } {
   if (text.length > LONGEST) return { problems: [{ ...START, kind: 'tooLong', params: { most: LONGEST } }] };
   const { document, lines } = parsed(text);
@@ -86,7 +86,7 @@ export function valueOfYaml(text: string): { raw: Json } | { problems: DocumentP
   }
 }
 
-/** Issues with their places; `thingAt` names the thing that a path is about. */
+/** Adds places to issues; `thingAt` returns the thing that a path belongs to. */
 export function placed(
   text: string,
   issues: readonly Issue[],

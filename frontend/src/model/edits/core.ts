@@ -13,7 +13,7 @@ export interface Edited {
   readonly inverse: readonly Patch[];
 }
 
-/** Applies recipes in order; the input stays as it was. */
+/** Applies recipes in order; the input stays unchanged. */
 export function edit(diagram: Diagram, ...recipes: readonly Recipe[]): Edited {
   const [next, patches, inverse] = produceWithPatches(diagram, (draft) => {
     for (const recipe of recipes) recipe(draft);
@@ -21,14 +21,14 @@ export function edit(diagram: Diagram, ...recipes: readonly Recipe[]): Edited {
   return { diagram: next, patches, inverse };
 }
 
-/** A node that must be there: recipes are made from what the user sees, so absence is a bug. */
+/** A node that must exist: recipes refer to visible nodes, so a missing node is a bug. */
 export function nodeOf(draft: Draft<Diagram>, id: NodeId): Draft<DiagramNode> {
   const node = draft.nodes[id];
   if (!node) throw new Error(`There is no node ${id} in ${draft.id}.`);
   return node;
 }
 
-/** The diagram as it is by now, to be looked through: to look through a draft makes a draft of every node. */
+/** The present state of a draft for reading: reading a draft directly creates a draft of every node. */
 export function asPlain(draft: Draft<Diagram>): Diagram {
   return isDraft(draft) ? current(draft) : draft;
 }
@@ -37,7 +37,7 @@ export function findParent(draft: Draft<Diagram>, id: NodeId): NodeId | null {
   return parentOf(asPlain(draft), id);
 }
 
-/** Where a node hangs now. */
+/** The present place of a node. */
 export function placementOf(draft: Draft<Diagram>, id: NodeId): Placement {
   if (draft.root === id) return { at: 'root' };
   const parent = findParent(draft, id);
@@ -46,7 +46,7 @@ export function placementOf(draft: Draft<Diagram>, id: NodeId): Placement {
   return { at: 'draft' };
 }
 
-/** Takes a node out of its place; it must be put back somewhere, or deleted, by the same recipe. */
+/** Removes a node from its place; the same recipe must attach or delete it. */
 export function detach(draft: Draft<Diagram>, id: NodeId): void {
   if (draft.root === id) draft.root = null;
   draft.drafts = draft.drafts.filter((other) => other !== id);
@@ -57,7 +57,7 @@ export function detach(draft: Draft<Diagram>, id: NodeId): void {
   if (node.children.length === 0) delete node.children;
 }
 
-/** Hangs a detached node. A new root makes the old one a draft: nothing is lost. */
+/** Attaches a detached node. A new root makes the old one a draft, so that nothing is lost. */
 export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): void {
   switch (place.at) {
     case 'root':
@@ -80,7 +80,7 @@ export function attach(draft: Draft<Diagram>, id: NodeId, place: Placement): voi
   }
 }
 
-/** Sets an optional field, or removes it where the value says nothing. */
+/** Sets an optional field, or removes it if the value is empty. */
 export function assign<K extends keyof DiagramNode>(
   node: Draft<DiagramNode>,
   key: K,

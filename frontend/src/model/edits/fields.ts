@@ -1,7 +1,7 @@
 import type { NodeId, Orientation, Point } from '../diagram';
 import { assign, nodeOf, type Recipe } from './core';
 
-/** Sets the instance name; a name equal to the type is left out. */
+/** Sets the instance name; a name equal to the type is removed. */
 export function setName(id: NodeId, name: string): Recipe {
   return (draft) => {
     const node = nodeOf(draft, id);
@@ -25,7 +25,7 @@ function setEntry(field: 'ports' | 'conditions', id: NodeId, key: string, value:
   };
 }
 
-/** Sets the text of a port; null takes it back to its default. */
+/** Sets the text of a port; null restores the default. */
 export const setPort = (id: NodeId, name: string, value: string | null): Recipe =>
   setEntry('ports', id, name, value);
 
@@ -33,7 +33,7 @@ export const setPort = (id: NodeId, name: string, value: string | null): Recipe 
 export const setCondition = (id: NodeId, name: string, value: string | null): Recipe =>
   setEntry('conditions', id, name, value);
 
-/** Gives a port of an open action to every node of that type: the entry of the blackboard called as it. */
+/** Adds a port of an open action to every node of that type, with the blackboard entry of the same name. */
 export function addPort(type: string, name: string): Recipe {
   return (draft) => {
     for (const node of Object.values(draft.nodes)) {
@@ -42,7 +42,7 @@ export function addPort(type: string, name: string): Recipe {
   };
 }
 
-/** Takes a port of an open action from every node of that type. */
+/** Removes a port of an open action from every node of that type. */
 export function removePort(type: string, name: string): Recipe {
   return (draft) => {
     for (const [id, node] of Object.entries(draft.nodes)) {
@@ -97,14 +97,14 @@ export function setCollapsed(id: NodeId, collapsed: boolean): Recipe {
   };
 }
 
-/** Keeps a block where the user put it. */
+/** Sets the manual position of a block. */
 export function setPosition(id: NodeId, position: Point): Recipe {
   return (draft) => {
     nodeOf(draft, id).position = [Math.round(position[0]), Math.round(position[1])];
   };
 }
 
-/** Forgets all manual positions, so that the layout is the automatic one. */
+/** Removes all manual positions, so that the layout is automatic. */
 export function tidy(): Recipe {
   return (draft) => {
     for (const node of Object.values(draft.nodes)) delete node.position;

@@ -11,12 +11,12 @@ export function addNode(id: NodeId, node: DiagramNode, place: Placement): Recipe
   };
 }
 
-/** Moves a node with all below it. An index counts the children as they are before the move. */
+/** Moves a node with its subtree. The index counts the children before the move. */
 export function moveNode(id: NodeId, place: Placement): Recipe {
   return moveNodes([id], place);
 }
 
-/** Moves nodes, none of which is below another, with all below them: they come side by side in this order. */
+/** Moves nodes with their subtrees side by side in this order; none may be below another. */
 export function moveNodes(ids: readonly NodeId[], place: Placement): Recipe {
   return (draft) => {
     let target = place;
@@ -31,7 +31,7 @@ export function moveNodes(ids: readonly NodeId[], place: Placement): Recipe {
   };
 }
 
-/** Moves siblings by so many places, each past those that stay; none moves when one cannot. */
+/** Moves siblings by this many places, each past unselected ones; none moves if one cannot. */
 export function reorder(ids: readonly NodeId[], by: number): Recipe {
   return (draft) => {
     const [first] = ids;
@@ -49,7 +49,7 @@ export function reorder(ids: readonly NodeId[], by: number): Recipe {
   };
 }
 
-/** Removes nodes with all below them. */
+/** Removes nodes with their subtrees. */
 export function removeSubtrees(ids: readonly NodeId[]): Recipe {
   return (draft) => {
     const before = asPlain(draft);
@@ -61,7 +61,10 @@ export function removeSubtrees(ids: readonly NodeId[]): Recipe {
   };
 }
 
-/** Removes a node and gives its children its place. At the top, the first child takes it, the others become drafts. */
+/**
+ * Removes a node and puts its children in its place. At the top, the first child becomes the root and the
+ * others become drafts.
+ */
 export function unwrap(id: NodeId): Recipe {
   return (draft) => {
     const children = [...(nodeOf(draft, id).children ?? [])];
@@ -76,7 +79,7 @@ export function unwrap(id: NodeId): Recipe {
   };
 }
 
-/** Puts a new node above the given siblings, in their order, at the place of the first. */
+/** Inserts a new node above the given siblings, at the place of the first; their order stays. */
 export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
   return (draft) => {
     const inside = topmost(asPlain(draft), ids);
@@ -96,7 +99,7 @@ export function wrap(ids: readonly NodeId[], id: NodeId, kind: Kind): Recipe {
   };
 }
 
-/** Changes the type in place. Ports that the new type does not have are dropped when it is closed. */
+/** Changes the type of a node in place. Ports that a closed new type does not have are dropped. */
 export function morph(id: NodeId, kind: Kind, keepPort: (name: string) => boolean): Recipe {
   return (draft) => {
     const node = nodeOf(draft, id);
@@ -109,13 +112,13 @@ export function morph(id: NodeId, kind: Kind, keepPort: (name: string) => boolea
   };
 }
 
-/** A piece of a tree outside of any diagram: of the clipboard, a duplicate, another tree. */
+/** A piece of a tree outside of any diagram: from the clipboard, a duplicate, or another tree. */
 export interface Fragment {
   readonly tops: readonly NodeId[];
   readonly nodes: Readonly<Record<NodeId, DiagramNode>>;
 }
 
-/** Copies nodes with all below them. */
+/** Copies nodes with their subtrees. */
 export function fragmentOf(diagram: Diagram, ids: readonly NodeId[]): Fragment {
   const tops = topmost(diagram, ids);
   const nodes: Record<NodeId, DiagramNode> = {};
@@ -150,7 +153,7 @@ export function withFreshIds(
   };
 }
 
-/** Adds a fragment whose ids are new to the diagram. */
+/** Adds a fragment; its ids must be new to the diagram. */
 export function insertFragment(fragment: Fragment, place: Placement): Recipe {
   return (draft) => {
     for (const [id, node] of Object.entries(fragment.nodes)) {

@@ -11,7 +11,7 @@ import { readPortText } from '../ports';
 import { attach, detach, nodeOf, placementOf, type Recipe } from './core';
 import { fragmentOf, withFreshIds, type Fragment } from './structure';
 
-/** Blackboard keys that a piece of tree names, so that a subtree of it can be given them. */
+/** Blackboard keys in a fragment, which a subtree made of it needs as ports. */
 function keysIn(fragment: Fragment): string[] {
   const keys = new Set<string>();
   for (const node of Object.values(fragment.nodes)) {
@@ -25,8 +25,8 @@ function keysIn(fragment: Fragment): string[] {
 }
 
 /**
- * Takes siblings out into a tree of their own, with a SubTree in their place that passes each key
- * they use. Several siblings get a block above them that goes through them as their parent did.
+ * Moves siblings to a new tree, and puts a SubTree in their place that passes each key they use. Several
+ * siblings get a root node that executes them as their parent did.
  */
 export function extractSubtree(
   diagram: Diagram,
@@ -43,7 +43,7 @@ export function extractSubtree(
   if (tops.length > 1) {
     root = fresh();
     const parent = Object.values(diagram.nodes).find((node) => node.children?.includes(first));
-    // Of other parents, such as IfThenElse, each child has a part of its own.
+    // In other parents, such as IfThenElse, each child has its own role.
     const type = parent && /Sequence|Fallback|Parallel/.test(parent.type) ? parent.type : 'Sequence';
     nodes[root] = { type, children: [...tops] };
   }
@@ -60,7 +60,7 @@ export function extractSubtree(
   return { tree, recipe };
 }
 
-/** Replaces keys of the subtree by what its SubTree node passes for them. */
+/** Replaces the subtree's keys with the values that its SubTree node passes for them. */
 function remapped(node: DiagramNode, passed: Readonly<Record<string, string>>): DiagramNode {
   if (!node.ports) return node;
   const ports = Object.entries(node.ports).map(([name, text]) => {
@@ -71,7 +71,7 @@ function remapped(node: DiagramNode, passed: Readonly<Record<string, string>>): 
   return { ...node, ports: Object.fromEntries(ports) as Record<string, string> };
 }
 
-/** Puts a copy of the tree in the place of the SubTree node that stands for it. */
+/** Replaces a SubTree node by a copy of its tree. */
 export function inlineSubtree(
   id: NodeId,
   tree: Diagram,
@@ -106,7 +106,7 @@ export function inlineSubtree(
   };
 }
 
-/** Whether nodes stand side by side under one parent without gaps: what can be extracted together. */
+/** Whether nodes are consecutive children of one parent, so that they can be extracted together. */
 export function areNeighbours(diagram: Diagram, ids: readonly NodeId[]): boolean {
   const tops = topmost(diagram, ids);
   if (tops.length < 2) return tops.length === 1;

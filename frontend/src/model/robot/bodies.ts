@@ -6,13 +6,13 @@ import { bodiesOf, extentOf } from './solids';
 import type { Robot } from './types';
 import { geometryText, list } from './writing';
 
-/** A mesh file beside the URDF, and what one of its units is in m. */
+/** A mesh file beside the URDF, and the length of its unit in m. */
 export interface MeshFile {
   readonly file: string;
   readonly scale: number;
 }
 
-/** Adds a shape to a link, seen and touched. */
+/** Adds a visual and collision shape to a link. */
 export function addBody(
   robot: Robot,
   name: string,
@@ -34,7 +34,7 @@ const SIZES = { box: [0.1, 0.1, 0.1], cylinder: [0.05, 0.1], sphere: [0.05] } as
 
 const meshText = ({ file, scale }: MeshFile): string => geometryText('mesh', [scale, scale, scale], file);
 
-/** Takes a shape of a link out; the last one that can be seen of the base stays. */
+/** Removes a shape of a link, except the last visual shape of the base. */
 export function removeBody(robot: Robot, name: string, index: number): RobotEdit {
   const link = robot.urdf.links.get(name);
   const body = link && bodiesOf(link)[index];

@@ -8,7 +8,7 @@ import { partOf, type Part, type Robot } from './types';
 import { poseOfLink, URDF_SIZES, type Joint, type Link, type UrdfShape } from './urdf';
 import { inertiaIn, setColor, setGeometry, setInertial, setOrigin } from './writing';
 
-/** A change of a robot: operations on `robot.yaml`, the URDF after it, and what is selected then. */
+/** A change of a robot: operations on `robot.yaml`, the new URDF, and the new selection. */
 export interface RobotEdit {
   readonly ops: readonly Op[];
   readonly urdf?: string;
@@ -27,7 +27,7 @@ export const rounded = (value: number): number => Math.round(value * MICRO) / MI
 
 const spliced = (robot: Robot, splices: readonly Splice[]): string => splicedAll(robot.urdfText, splices);
 
-/** Sets a value of `robot.yaml`; undefined takes it out, so that the default counts. */
+/** Sets a value of `robot.yaml`; undefined removes it, so that the default applies. */
 export function setValue(robot: Robot, path: Path, value: Json | undefined): RobotEdit {
   if (sameValue(valueAt(robot.raw, path), value)) return NOTHING;
   const next = typeof value === 'number' ? rounded(value) : value;
@@ -42,12 +42,12 @@ export function setSensor(robot: Robot, key: string, field: string, value: Json 
   return field === 'name' && edit.ops.length > 0 ? { ...edit, select: [`sensor ${String(value)}`] } : edit;
 }
 
-/** The joint by which a part can be put elsewhere; the base and a battery have none. */
+/** The joint that places a part; the base and a battery have none. */
 export function jointOf(robot: Robot, part: Part): Joint | undefined {
   return part.link === null ? undefined : robot.urdf.above.get(part.link);
 }
 
-/** The wheel of the other side that a wheel makes a pair with. */
+/** The wheel on the other side that forms a pair with a wheel. */
 export function mirrorOf(robot: Robot, part: Part): Part | undefined {
   const joint = jointOf(robot, part)?.name ?? '';
   for (const [own, other] of [
@@ -67,7 +67,7 @@ function moved(robot: Robot, part: Part, pose: Pose): Splice[] {
   const joint = jointOf(robot, part);
   if (!joint) return [];
   const origin = seenFrom(poseOfLink(robot.urdf, joint.parent), pose);
-  // An angle that only went through sines and back is the one that it was.
+  // Keeps the old angle if it differs only by rounding.
   const kept = origin.map((part, at) => {
     const before = joint.origin[at] ?? 0;
     return Math.abs(part - before) < 1e-9 ? before : rounded(part);
@@ -75,7 +75,7 @@ function moved(robot: Robot, part: Part, pose: Pose): Splice[] {
   return setOrigin(robot.urdfText, joint.element, kept as unknown as Pose);
 }
 
-/** Puts parts elsewhere, in the frame of the root link. The wheel across follows a wheel. */
+/** Moves parts to poses in the frame of the root link. The opposite wheel follows a wheel. */
 export function place(robot: Robot, places: ReadonlyMap<string, Pose>): RobotEdit {
   const wanted = new Map<string, Pose>();
   let { track } = robot;
@@ -99,7 +99,7 @@ export function place(robot: Robot, places: ReadonlyMap<string, Pose>): RobotEdi
   return splices.length === 0 && ops.length === 0 ? NOTHING : { ops, urdf: spliced(robot, splices) };
 }
 
-/** Whether something that a part hangs on, or another part of its link, is moved already. */
+/** Whether a part moves anyway, with its parent or with another part of its link. */
 function isCarried(robot: Robot, part: Part, wanted: ReadonlyMap<string, Pose>): boolean {
   const own = [...wanted.keys()].map((key) => partOf(robot, key));
   if (own.find((other) => other?.link === part.link) !== part) return true;
@@ -128,7 +128,7 @@ export function move(
   return place(robot, places);
 }
 
-/** Turns parts by rad about an upright axis through each. */
+/** Turns parts by an angle in rad, each about a vertical axis through itself. */
 export function turn(robot: Robot, keys: readonly string[], angle: number): RobotEdit {
   const places = new Map(
     keys.flatMap((key): [string, Pose][] => {
@@ -147,7 +147,7 @@ const wheelsOf = (robot: Robot): Link[] =>
     (name) => robot.urdf.links.get(robot.urdf.joints.get(name)?.child ?? '') ?? [],
   );
 
-/** How wide the driven wheels are, in m: the longest round thing along the axle. */
+/** The width of the driven wheels in m: the longest round shape along the axle. */
 export function wheelWidth(robot: Robot): number {
   const [link] = wheelsOf(robot);
   const lengths =
@@ -155,7 +155,7 @@ export function wheelWidth(robot: Robot): number {
   return Math.max(0, ...lengths);
 }
 
-/** Makes all driven wheels larger or wider: what is seen, what is touched, and what the drive counts with. */
+/** Sets the radius or width of all driven wheels: their shapes, and the values of the drive. */
 export function setWheels(
   robot: Robot,
   wish: { readonly radius?: number; readonly width?: number },
@@ -183,7 +183,7 @@ export function setWheels(
   return { ops: setValue(robot, ['drive', 'wheel_radius'], radius).ops, urdf: spliced(robot, splices) };
 }
 
-/** Puts the wheels of the two sides so far apart, in m. */
+/** Sets the distance between the wheels of both sides, in m. */
 export function setTrack(robot: Robot, track: number): RobotEdit {
   if (!(track > 0)) return NOTHING;
   const places = new Map<string, Pose>();
@@ -202,7 +202,7 @@ export function setTrack(robot: Robot, track: number): RobotEdit {
   return { ops, ...(urdf === undefined ? {} : { urdf }) };
 }
 
-/** Gives a link a mass in kg; how it is spread stays. */
+/** Sets the mass of a link in kg; the distribution of the mass stays. */
 export function setMass(robot: Robot, name: string, mass: number): RobotEdit {
   const link = robot.urdf.links.get(name);
   if (!link || !(mass > 0) || link.mass === mass) return NOTHING;
@@ -222,11 +222,11 @@ interface BodyWish {
   readonly size?: readonly number[];
   readonly pose?: Pose;
   readonly color?: readonly number[];
-  /** The mesh, as the URDF names it. */
+  /** The name of the mesh in the URDF. */
   readonly file?: string;
 }
 
-/** What a shape of another kind is as large as. */
+/** The size for another kind of shape that is as large as this one. */
 function sizeAs(shape: UrdfShape, { visual, collision }: Body): number[] {
   const { shape: before, size } = solidOf({ visual, collision });
   if (shape === 'mesh') return [1, 1, 1];
@@ -244,7 +244,10 @@ function sizeAs(shape: UrdfShape, { visual, collision }: Body): number[] {
   return shape === 'sphere' ? [rounded(Math.max(x, y, z) / 2)] : [rounded(Math.max(x, y) / 2), z];
 }
 
-/** Changes a shape of a link; what is both seen and touched changes together, and the mass follows. */
+/**
+ * Changes a shape of a link; shapes that are both visual and collision change together, and the inertia
+ * follows.
+ */
 export function setBody(robot: Robot, name: string, index: number, wish: BodyWish): RobotEdit {
   const link = robot.urdf.links.get(name);
   const body = link && bodiesOf(link)[index];

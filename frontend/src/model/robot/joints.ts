@@ -8,18 +8,18 @@ import type { Robot } from './types';
 import type { Joint } from './urdf';
 import { list } from './writing';
 
-/** How a part may move against what carries it. */
+/** The types of joints. */
 export const JOINT_TYPES = ['fixed', 'revolute', 'continuous', 'prismatic'] as const;
 export type JointType = (typeof JOINT_TYPES)[number];
 
-/** Kinds of joints that a motor can hold somewhere. */
+/** Types of joints that a motor can hold in a position. */
 export const MOVING: readonly string[] = ['revolute', 'continuous', 'prismatic'];
 const LIMITED: readonly string[] = ['revolute', 'prismatic'];
 
-/** The friction of a link that `robot.yaml` does not name. */
+/** The friction of a link that has none in `robot.yaml`. */
 export const FRICTION = 0.8;
 
-/** Between which a joint begins to move: rad, of a prismatic one m. */
+/** The initial limits of a joint, in rad, or in m for a prismatic one. */
 const FIRST_LIMITS: Readonly<Record<string, readonly [number, number]>> = {
   revolute: [-Math.PI / 2, Math.PI / 2],
   prismatic: [0, 0.1],
@@ -31,11 +31,11 @@ interface JointWish {
   readonly limits?: readonly [number, number];
 }
 
-/** Whether a joint's kind can be changed: not that of a wheel that drives. */
+/** Whether a joint's type can be changed: not that of a driven wheel. */
 export const isFree = ({ left, right }: Robot, { name }: Joint): boolean =>
   !left.includes(name) && !right.includes(name);
 
-/** Changes how a joint moves; one that is fixed loses its motor. */
+/** Changes the type or limits of a joint; a fixed joint loses its motor. */
 export function setJoint(robot: Robot, name: string, wish: JointWish): RobotEdit {
   const joint = robot.urdf.joints.get(name);
   if (!joint || !isFree(robot, joint)) return NOTHING;
@@ -61,7 +61,7 @@ export function setJoint(robot: Robot, name: string, wish: JointWish): RobotEdit
 
 const UP: Vector = [0, 0, 1];
 
-/** Writes what an element of a joint says; one that is not there yet comes to what is `added`. */
+/** Changes an element of a joint; a missing one is added. */
 function written(
   splices: Splice[],
   added: string[],
@@ -81,7 +81,7 @@ function written(
     );
 }
 
-/** The motor of a joint, and where `robot.yaml` names it. */
+/** The motor of a joint, and its path in `robot.yaml`. */
 export function motorOf({ raw }: Robot, joint: string): { index: number; raw: JsonObject } | null {
   const motors = Array.isArray(raw['joints']) ? (raw['joints'] as Json[]) : [];
   const index = motors.findIndex((each) => isObject(each) && each['joint'] === joint);
@@ -89,7 +89,7 @@ export function motorOf({ raw }: Robot, joint: string): { index: number; raw: Js
   return isObject(found) ? { index, raw: found } : null;
 }
 
-/** Gives a joint that moves a motor, with a topic of its own, or takes it away. */
+/** Adds a motor with its own topic to a joint, or removes it. */
 export function setMotor(robot: Robot, name: string, isThere: boolean): RobotEdit {
   const joint = robot.urdf.joints.get(name);
   const motor = motorOf(robot, name);
@@ -115,7 +115,7 @@ export function setMotorValue(robot: Robot, name: string, field: string, value: 
 
 type Contact = 'friction' | 'skid';
 
-/** The friction of a link: `friction`, and its share sideways, `skid`. */
+/** The friction of a link: `friction`, and `skid`, its share sideways. */
 export function contactOf({ raw }: Robot, field: Contact, link: string): number {
   const map = raw[field];
   const value = isObject(map) ? map[link] : undefined;

@@ -59,7 +59,7 @@ const LOOKS: Readonly<Record<Exclude<Addable, 'battery' | 'bumper'>, Look>> = {
   cylinder: { shape: 'cylinder', size: [0.05, 0.1], color: [0.82, 0.84, 0.87, 1], mass: 0.3, isSolid: true },
 };
 
-/** Names of links and joints, and of sensors with their topics. */
+/** Stems for the names of new links, joints, sensors and topics. */
 const STEMS: Readonly<Record<Addable, string>> = {
   lidar: 'laser',
   camera: 'camera',
@@ -124,7 +124,7 @@ function sensorOf(kind: Addable, topic: (wish: string) => string): JsonObject | 
   }
 }
 
-/** A word that is not taken: the wish itself, or with a number before what it ends in. */
+/** A free name: the wished one, or with a number before its suffix. */
 function free(wish: string, taken: ReadonlySet<string>, end = ''): string {
   for (let count = 1; ; count += 1) {
     const name = `${wish}${count === 1 ? '' : `_${count}`}${end}`;
@@ -144,7 +144,7 @@ const topicsIn = (robot: Robot): Set<string> =>
     ),
   );
 
-/** A topic that no sensor has yet: `/camera/image_raw`, `/camera_2/image_raw`… */
+/** A topic that no sensor uses yet: `/camera/image_raw`, `/camera_2/image_raw`… */
 const freeTopic =
   (taken: ReadonlySet<string>) =>
   (wish: string): string => {
@@ -152,7 +152,7 @@ const freeTopic =
     return free(first.replace(/_\d+$/, ''), taken, rest);
   };
 
-/** A link and the joint that holds it at the base; its text goes to the end of the URDF. */
+/** A link and its joint to the base, to be appended to the URDF. */
 function linkText(robot: Robot, link: string, joint: string, pose: Pose, look: Look | null): string {
   const inner = look
     ? [...solidTexts(link, look)]
@@ -177,14 +177,14 @@ function* solidTexts(
   const origin = at.some((part) => part !== 0) ? `<origin xyz="${list(at)}"/>` : '';
   const geometry = `${origin}<geometry>${geometryText(shape, size, file)}</geometry>`;
   const material = `<material name="${escaped(link)}_color"><color rgba="${list(color)}"/></material>`;
-  // How large a mesh is says its file alone: what it weighs is spread as in the usual piece of body.
+  // Only the file knows the size of a mesh: its inertia is that of the default box.
   const solid = shape === 'mesh' ? { ...LOOKS.box, pose } : { shape, size, pose };
   yield `  ${inertialText(mass, inertiaOf(solid, mass), at)}`;
   yield `  <visual>${geometry}${material}</visual>`;
   if (isSolid) yield `  <collision>${geometry}</collision>`;
 }
 
-/** Adds a piece of body that looks like a mesh; `at` is in the frame of the root link. */
+/** Adds a part that is drawn with a mesh; `at` is in the frame of the root link. */
 export function addMeshPart(
   robot: Robot,
   { file, scale }: MeshFile,
@@ -202,7 +202,7 @@ export function addMeshPart(
   return { ops: [], urdf, select: [`link ${link}`] };
 }
 
-/** Where something new goes first: sensors on top of the base or in front of it, casters behind. */
+/** The initial pose of a new part: sensors on top of or in front of the base, casters behind it. */
 function firstPlace(robot: Robot, kind: Addable): Pose {
   const base = robot.urdf.links.get(robot.urdf.root);
   const { low, high } = base ? extentOf(base) : { low: [0, 0, 0] as Vector, high: [0, 0, 0] as Vector };
@@ -222,7 +222,7 @@ const insertAt = (robot: Robot, field: string, values: readonly Json[]): Op => {
     : { kind: 'set', path: [field], value: values };
 };
 
-/** Adds a sensor, a caster, or a piece of body; `at` is in the frame of the root link. */
+/** Adds a sensor, a caster or a body part; `at` is in the frame of the root link. */
 export function addPart(robot: Robot, kind: Addable, at?: readonly [number, number]): RobotEdit {
   const sensor = sensorOf(kind, freeTopic(topicsIn(robot)));
   const name = sensor ? free(String(sensor['name']), new Set(robot.sensors.map((each) => each.name))) : '';
@@ -251,12 +251,12 @@ export function addPart(robot: Robot, kind: Addable, at?: readonly [number, numb
   return { ops, urdf, select: [`link ${link}`] };
 }
 
-/** Name, kind and link first, as one reads it. */
+/** Puts name, kind and link first. */
 function ordered({ name = '', kind = '', link, ...rest }: JsonObject): JsonObject {
   return { name, kind, ...(link === undefined ? {} : { link }), ...rest };
 }
 
-/** Copies sensors with the links they sit at, so many metres beside themselves. */
+/** Copies sensors with their links, shifted by an offset in m. */
 export function duplicateParts(
   robot: Robot,
   keys: readonly string[],

@@ -16,13 +16,13 @@ import {
 } from './types';
 import { poseOfLink, readUrdf, type Urdf, type UrdfIssue } from './urdf';
 
-/** Two texts as far as they can be read; without a robot, one of them says nothing that can be shown. */
+/** The result of reading both texts; the robot is missing if one of them cannot be shown. */
 export interface RobotReading {
   readonly robot: Robot | null;
   readonly problems: readonly DocumentProblem[];
 }
 
-/** The file that a `robot.yaml` names as its URDF, relative to it; empty where it names none. */
+/** The URDF that a `robot.yaml` names, relative to it; empty if it names none. */
 export const urdfNameOf = remembering((yaml: string): string => {
   const said = valueOfYaml(yaml);
   return 'raw' in said && isObject(said.raw) ? text(said.raw['urdf'], '') : '';
@@ -45,7 +45,7 @@ const readXml = remembering((source: string): UrdfReading => {
   }
 });
 
-/** What publishes or hears a topic by a name of its own, as a `robot.yaml` says, and the topic. */
+/** The sensors and joints of a `robot.yaml` that have a topic, with their topics. */
 export const topicsOf = remembering((yaml: string): readonly { name: string; topic: string }[] => {
   const said = valueOfYaml(yaml);
   if (!('raw' in said) || !isObject(said.raw)) return [];
@@ -64,7 +64,7 @@ const readBoth = remembering((both: string): RobotReading => {
   return read(yaml, urdf ?? null);
 });
 
-/** Reads a robot; texts that were read a moment ago give the same object. Null: there is no such URDF. */
+/** Reads a robot; equal texts give the same object (cached). `urdf` is null if the file does not exist. */
 export const readRobot = (yaml: string, urdf: string | null): RobotReading =>
   readBoth(urdf === null ? yaml : `${yaml}${KEY}${urdf}`);
 

@@ -6,13 +6,13 @@ import { NOTHING, type RobotEdit } from './edits';
 import { partOf, type Part, type Robot } from './types';
 import { below } from './urdf';
 
-/** Whether a part can be taken off: not the base, not a wheel that drives, nothing that carries others. */
+/** Whether a part can be removed: not the base, a driven wheel, or a part that carries others. */
 export function canRemove(robot: Robot, part: Part): boolean {
   if (part.kind === 'base' || part.kind === 'wheel') return false;
   return part.sensor !== null || (part.link !== null && below(robot.urdf, part.link).length === 1);
 }
 
-/** Takes parts off, and what `robot.yaml` says of them. */
+/** Removes parts with their entries in `robot.yaml`. */
 export function removeParts(robot: Robot, keys: readonly string[]): RobotEdit {
   const parts = keys.flatMap((key) => partOf(robot, key) ?? []).filter((part) => canRemove(robot, part));
   const gone = new Set(parts.map(({ key }) => key));
@@ -31,13 +31,13 @@ export function removeParts(robot: Robot, keys: readonly string[]): RobotEdit {
   return { ops, ...(splices.length > 0 ? { urdf: splicedAll(robot.urdfText, splices) } : {}), select: [] };
 }
 
-/** Whether a link stays although a part of it goes: it carries others, or others sit at it. */
+/** Whether a link must stay when one of its parts is removed: other links or parts are attached to it. */
 function isNeeded(robot: Robot, link: string, gone: ReadonlySet<string>): boolean {
   if (link === robot.urdf.root || below(robot.urdf, link).length > 1) return true;
   return robot.parts.some((part) => part.link === link && !gone.has(part.key));
 }
 
-/** Takes links that are gone out of the lists of `robot.yaml`. */
+/** Removes deleted links from the lists of `robot.yaml`. */
 function forgotten(robot: Robot, links: ReadonlySet<string>): Op[] {
   const listed = (field: string, nameOf: (item: Json) => Json | undefined): Op[] => {
     const items = robot.raw[field];

@@ -5,7 +5,7 @@ import { similarNames } from '../similar';
 import type { SensorKind } from './types';
 import type { Urdf } from './urdf';
 
-/** Everything wrong with a `robot.yaml` by itself. */
+/** All problems of a `robot.yaml` alone. */
 export function checkConfig(raw: Json): Issue[] {
   const found = checkSchema(raw, schema);
   const sensors = isObject(raw) && Array.isArray(raw['sensors']) ? (raw['sensors'] as Json[]) : [];
@@ -18,7 +18,7 @@ export function checkConfig(raw: Json): Issue[] {
   return found;
 }
 
-/** Names of links and joints that the URDF does not have (executor/robots/config.py). */
+/** References to links and joints that the URDF does not contain (executor/robots/config.py). */
 export function checkNames(raw: JsonObject, urdf: Urdf): Issue[] {
   const found: Issue[] = [];
   const check = (what: 'link' | 'joint', path: Path, name: Json | undefined) => {
@@ -57,18 +57,18 @@ export function checkNames(raw: JsonObject, urdf: Urdf): Issue[] {
   return found;
 }
 
-/** A value of a sensor or of the drive, as the schema describes it. */
+/** A field of a sensor or the drive, from the schema. */
 export interface Field {
   readonly name: string;
   readonly kind: 'number' | 'count' | 'topic';
   readonly fallback: number | string;
   readonly low: number;
   readonly high: number;
-  /** It may be left out, and then there is none. */
+  /** It may be omitted and has no default. */
   readonly isOptional: boolean;
 }
 
-/** The parts that the schema describes: a sensor, the drive, or the motor of a joint. */
+/** The objects of the schema: a sensor, the drive, or the motor of a joint. */
 export type FieldsOf = SensorKind | 'drive' | 'motor';
 
 const DEFINITIONS: Readonly<Record<FieldsOf, keyof typeof schema.$defs>> = {
@@ -92,10 +92,10 @@ interface Property {
   readonly anyOf?: readonly Property[];
 }
 
-/** What there is no need to go below, where a value must only be more than a bound. */
+/** The smallest value of a field whose bound is exclusive. */
 const LEAST = 0.001;
 
-/** The numbers and topics that can be said of a sensor, of the drive, or of a joint's motor. */
+/** The numbers and topics of a sensor, the drive, or a joint's motor. */
 export function fieldsOf(kind: FieldsOf): Field[] {
   const { properties } = schema.$defs[DEFINITIONS[kind]] as {
     properties: Readonly<Record<string, Property>>;

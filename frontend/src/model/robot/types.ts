@@ -1,4 +1,4 @@
-/** Robots: how one drives and senses (`robot.yaml`), and its body (a URDF). SI units, frame of the root link. */
+/** Robots: drive and sensors (`robot.yaml`), and the body (a URDF). SI units, frame of the root link. */
 
 import type { JsonObject, Pose } from '../document/values';
 import type { Urdf } from './urdf';
@@ -14,20 +14,20 @@ export interface Sensor {
   readonly index: number;
   readonly kind: SensorKind;
   readonly name: string;
-  /** A battery sits at no link. */
+  /** null for a battery, which has no link. */
   readonly link: string | null;
   readonly raw: JsonObject;
 }
 
 export type PartKind = 'base' | 'wheel' | 'caster' | 'link' | SensorKind;
 
-/** Something of a robot that can be selected. */
+/** A part of a robot that can be selected. */
 export interface Part {
   readonly key: string;
   readonly kind: PartKind;
   readonly name: string;
   readonly link: string | null;
-  /** Links whose shapes this part shows: its own, unless another part shows it. */
+  /** The link whose shapes this part draws; null if another part draws them. */
   readonly shows: string | null;
   readonly sensor: Sensor | null;
   readonly pose: Pose;
@@ -40,7 +40,7 @@ export interface Robot {
   readonly description: string;
   readonly drive: JsonObject;
   readonly commandType: CommandType;
-  /** Whether it says where it truly is. */
+  /** Whether the robot publishes its true pose. */
   readonly groundTruth: boolean;
   /** Joints of the driven wheels. */
   readonly left: readonly string[];

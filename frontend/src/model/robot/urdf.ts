@@ -6,7 +6,7 @@ import { attribute, child, children, type XmlElement } from '../document/xml';
 
 export type UrdfShape = 'box' | 'cylinder' | 'capsule' | 'sphere' | 'mesh';
 
-/** What the numbers of a size are, by shape: names of texts. */
+/** The labels of a size's numbers, by shape: text keys. */
 export const URDF_SIZES: Readonly<Record<UrdfShape, readonly string[]>> = {
   box: ['x', 'y', 'z'],
   cylinder: ['radius', 'length'],
@@ -15,7 +15,7 @@ export const URDF_SIZES: Readonly<Record<UrdfShape, readonly string[]>> = {
   mesh: ['scaleX', 'scaleY', 'scaleZ'],
 };
 
-/** A shape of a link, in the link's frame: what is seen, or what can be touched. */
+/** A visual or collision shape of a link, in the link's frame. */
 export interface Solid {
   readonly element: XmlElement;
   readonly shape: UrdfShape;
@@ -43,7 +43,7 @@ export interface Joint {
   /** In the frame of the parent. */
   readonly origin: Pose;
   readonly axis: Vector;
-  /** Between which it moves, rad or m; null where nothing is said of it. */
+  /** The limits of the joint, rad or m; null if it has none. */
   readonly limits: readonly [number, number] | null;
 }
 
@@ -54,18 +54,18 @@ export interface Urdf {
   readonly root: string;
   readonly links: ReadonlyMap<string, Link>;
   readonly joints: ReadonlyMap<string, Joint>;
-  /** The joint that holds each link but the root. */
+  /** The joint above each link except the root. */
   readonly above: ReadonlyMap<string, Joint>;
 }
 
-/** Something wrong with a URDF, and where in its text. */
+/** A problem of a URDF, with its place in the text. */
 export interface UrdfIssue extends Issue {
   readonly offset: number;
 }
 
 export const GREY: readonly number[] = [0.6, 0.6, 0.6, 1];
 
-/** Collects what is wrong while a URDF is read. */
+/** Collects problems while a URDF is read. */
 class Findings {
   readonly issues: UrdfIssue[] = [];
 
@@ -88,7 +88,7 @@ class Findings {
   }
 }
 
-/** Reads a URDF as the simulator does (executor/robots/urdf.py); null where it is not one tree of links. */
+/** Reads a URDF as the simulator does (executor/robots/urdf.py); null if it is not one tree of links. */
 export function readUrdf(root: XmlElement): { urdf: Urdf | null; issues: readonly UrdfIssue[] } {
   const findings = new Findings();
   if (root.tag !== 'robot') {
@@ -222,7 +222,7 @@ function limitsOf(limit: XmlElement | undefined, findings: Findings): Joint['lim
   return [lower, upper];
 }
 
-/** Where a link is in the frame of the root, with all joints at zero. */
+/** The pose of a link in the frame of the root, with all joints at zero. */
 export function poseOfLink({ above }: Urdf, link: string): Pose {
   let pose = HERE;
   let name = link;
@@ -235,7 +235,7 @@ export function poseOfLink({ above }: Urdf, link: string): Pose {
   return pose;
 }
 
-/** A link and all that hangs on it. */
+/** A link and all links below it. */
 export function below(urdf: Urdf, link: string): string[] {
   const found = [link];
   for (let at = 0; at < found.length; at += 1) {

@@ -5,7 +5,7 @@ import { append, prepend, replaced, setAttribute } from '../document/xmlEdits';
 import type { Inertia } from './solids';
 import type { Link, Solid, UrdfShape } from './urdf';
 
-/** A number as one writes it: to a micrometre, and never minus zero. */
+/** A number with at most six decimals, and never minus zero. */
 export const written = (value: number): string => String(Math.round(value * 1e6) / 1e6 + 0);
 const fine = (value: number): string => String(Number((Math.abs(value) < 1e-12 ? 0 : value).toPrecision(4)));
 export const list = (values: readonly number[]): string => values.map(written).join(' ');
@@ -15,7 +15,7 @@ const differs = (said: string | undefined, values: readonly number[]): boolean =
   return values.some((value, index) => !(Math.abs(value - (now[index] ?? NaN)) < 5e-7));
 };
 
-/** Puts an element (a joint, a visual…) elsewhere; what does not change stays as it is written. */
+/** Sets the origin of an element (a joint, a visual…); unchanged attributes keep their notation. */
 export function setOrigin(text: string, element: XmlElement, pose: Pose): Splice[] {
   const place = pose.slice(0, 3);
   const turn = pose.slice(3);
@@ -39,7 +39,7 @@ export function geometryText(shape: UrdfShape, size: readonly number[], file = '
   return `<${shape} radius="${written(a)}" length="${written(b)}"/>`;
 }
 
-/** Gives a shape another form or size. */
+/** Changes the shape or size of a geometry. */
 export function setGeometry(
   text: string,
   solid: Solid,
@@ -75,7 +75,7 @@ export function setGeometry(
   return [...named, ...sized];
 }
 
-/** Paints a shape; a material that others share is left to them. */
+/** Sets the colour of a shape; a material that others share is not changed. */
 export function setColor(text: string, solid: Solid, color: readonly number[], name: string): Splice[] {
   const material = child(solid.element, 'material');
   const own = child(material, 'color');
@@ -92,14 +92,14 @@ const momentsText = (inertia: Inertia): string =>
 export const inertialText = (mass: number, inertia: Inertia, place: readonly number[] = [0, 0, 0]): string =>
   `<inertial><origin xyz="${list(place)}"/><mass value="${written(mass)}"/><inertia ${momentsText(inertia)}/></inertial>`;
 
-/** What of a link's resistance to turning is written. */
+/** The inertia that the URDF states for a link. */
 export function inertiaIn(link: Link): Inertia | null {
   const element = child(child(link.element, 'inertial'), 'inertia');
   const values = MOMENTS.map((name) => Number(attribute(element, name) ?? '0'));
   return element && values.every(Number.isFinite) ? (values as unknown as Inertia) : null;
 }
 
-/** Gives a link a mass in kg, its resistance to turning, and with `place` where its mass is. */
+/** Sets the mass of a link in kg, its inertia, and with `place` its centre of mass. */
 export function setInertial(
   text: string,
   link: Link,

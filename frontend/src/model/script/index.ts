@@ -5,8 +5,8 @@ import type { ScriptProblem, Span } from './problem';
 export type { ScriptProblem } from './problem';
 
 /**
- * The script language of BehaviorTree.CPP, read while one types: the same grammar as
- * `tree_gardener/script`, kept so by `tests/shared/scripts.json`, which both are tested on.
+ * Parses the script language of BehaviorTree.CPP. The grammar is that of `tree_gardener/script`: both are
+ * tested on `tests/shared/scripts.json`.
  */
 
 export interface ScriptName {
@@ -33,7 +33,7 @@ const BINARY = new Map([
 const [ASSIGNMENT, TERNARY, COMPARISON] = [1, 2, 5];
 const MAX_NESTING = 100;
 
-/** What an operand is, as far as names ask: a name, or anything else. */
+/** An operand: a name, or null for anything else. */
 type Operand = ScriptName | null;
 
 class Refused extends Error {
@@ -90,7 +90,7 @@ class Parser {
     return left;
   }
 
-  /** Parses the next operator; undefined when that binds less tightly than `level`. */
+  /** Parses the next operator; undefined if it binds less tightly than `level`. */
   private extend(left: Operand, level: number): Operand | undefined {
     const operator = this.token.kind === 'operator' ? this.token.text : '';
     const binding = BINARY.get(operator);

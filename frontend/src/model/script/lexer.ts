@@ -42,7 +42,7 @@ function unknown(text: string, at: number): ScriptProblem {
   return { kind, values: { text: character }, span: [at, at + character.length] };
 }
 
-/** Splits a script into tokens, the last of kind `end`; or says what is none. */
+/** Splits a script into tokens, the last of kind `end`, or returns the first invalid character. */
 export function tokenize(text: string): readonly Token[] | ScriptProblem {
   const tokens: Token[] = [];
   let at = 0;

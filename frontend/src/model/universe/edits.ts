@@ -12,7 +12,7 @@ import {
 } from '../document/values';
 import { thingOf, type ActorThing, type Section, type Thing, type Universe } from './types';
 
-/** A change of a universe, and what is selected after it. */
+/** A change of a universe, and the selection after it. */
 export interface Edit {
   readonly ops: readonly Op[];
   readonly select?: readonly string[];
@@ -20,7 +20,7 @@ export interface Edit {
 
 const placeOf = ({ section, index }: Thing): Path => [section, index];
 
-/** The robot that a document has without naming one must be written before it can be changed. */
+/** The default robot of a document without robots must be written before it can be changed. */
 function written(universe: Universe, things: readonly Thing[]): Op[] {
   const isImplied = things.some(({ section }) => section === 'robots') && !('robots' in universe.raw);
   return isImplied ? [{ kind: 'set', path: ['robots'], value: [IMPLIED_ROBOT] }] : [];
@@ -31,7 +31,7 @@ const IMPLIED_ROBOT: JsonObject = { id: 'robot', model: 'turtle2', pose: [0, 0, 
 const found = (universe: Universe, keys: readonly string[]): Thing[] =>
   keys.map((key) => thingOf(universe, key)).filter((thing) => thing !== undefined);
 
-/** Puts things elsewhere: by key, a pose, or a way for people. */
+/** Moves things to new poses, and people to new paths; by key. */
 export function place(universe: Universe, places: ReadonlyMap<string, Pose | readonly Point[]>): Edit {
   const things = found(universe, [...places.keys()]);
   const ops = things.flatMap((thing): Op[] => {
@@ -44,13 +44,13 @@ export function place(universe: Universe, places: ReadonlyMap<string, Pose | rea
   return { ops: [...written(universe, things), ...ops] };
 }
 
-/** Numbers as one writes them: tenths of a millimetre are the last that count. */
+/** Rounds numbers to 0.1 mm. */
 function tidy(value: Json): Json {
   if (Array.isArray(value)) return (value as Json[]).map(tidy);
   return typeof value === 'number' ? rounded(value) : value;
 }
 
-/** Moves things by metres along x, y and z; people stay on the ground. */
+/** Moves things along x, y and z, in m; people stay on the ground. */
 export function move(
   universe: Universe,
   keys: readonly string[],
@@ -66,7 +66,7 @@ export function move(
   return place(universe, places);
 }
 
-/** Turns things together about an upright axis through a point, by rad. */
+/** Turns things together about a vertical axis through a point, by rad. */
 export function turn(universe: Universe, keys: readonly string[], angle: number, pivot: Point): Edit {
   const places = new Map(
     found(universe, keys).map((thing): [string, Pose | readonly Point[]] => {
@@ -79,13 +79,13 @@ export function turn(universe: Universe, keys: readonly string[], angle: number,
   return place(universe, places);
 }
 
-/** Between -pi and pi, as one reads it. */
+/** An angle between -pi and pi. */
 const wrapped = (angle: number): number => {
   const turn = ((((angle + Math.PI) % (2 * Math.PI)) + 2 * Math.PI) % (2 * Math.PI)) - Math.PI;
   return Math.abs(turn + Math.PI) < 1e-9 ? Math.PI : turn;
 };
 
-/** Sets a field of a thing; undefined takes it out, so that the default counts. */
+/** Sets a field of a thing; undefined removes it, so that the default applies. */
 export function setField(universe: Universe, key: string, field: string, value: Json | undefined): Edit {
   const [thing] = found(universe, [key]);
   if (!thing) return { ops: [] };
@@ -101,7 +101,7 @@ export function setFieldOfAll(universe: Universe, keys: readonly string[], field
   return { ops: keys.flatMap((key) => setField(universe, key, field, value).ops) };
 }
 
-/** Sets something of the world itself: its name, ground, lights, view. */
+/** Sets a property of the world itself: its name, ground, lights, view. */
 export function setWorld(universe: Universe, path: Path, value: Json): Edit {
   if (sameValue(valueAt(universe.raw, path), value)) return { ops: [] };
   const [top] = path;
@@ -115,7 +115,7 @@ export function setWorld(universe: Universe, path: Path, value: Json): Edit {
         },
       ]
     : [];
-  // A mapping that is not there yet is written with what is set in it.
+  // A missing mapping is added together with its first value.
   const isNew =
     path.length === 2 &&
     typeof top === 'string' &&
@@ -128,7 +128,7 @@ export function setWorld(universe: Universe, path: Path, value: Json): Edit {
   return { ops: [...before, op] };
 }
 
-/** An id that nothing bears yet: the wish itself, or with a number. */
+/** A free id: the wished one, or with a number. */
 export function freeId(universe: Universe, wish: string): string {
   const taken = new Set(['ground', ...universe.things.map(({ id }) => id)]);
   if (!taken.has(wish)) return wish;
@@ -138,7 +138,7 @@ export function freeId(universe: Universe, wish: string): string {
 
 const ID = /^[A-Za-z_][A-Za-z0-9_-]*$/;
 
-/** Why a name is invalid for a thing; null where it is valid. */
+/** The reason why an id is invalid for a thing; null if it is valid. */
 export function idProblem(universe: Universe, key: string, id: string): 'name' | 'sameId' | 'tooLong' | null {
   if (!ID.test(id)) return 'name';
   if (id.length > 80) return 'tooLong';
@@ -158,13 +158,13 @@ export function add(universe: Universe, section: Section, things: readonly JsonO
   return { ops: [...implied, op], select };
 }
 
-/** What a section's item says, as a value of its own. */
+/** The value of a section's item, as a copy. */
 export const valueOf = (universe: Universe, thing: Thing): JsonObject => {
   const value = valueAt(universe.raw, placeOf(thing));
   return isObject(value) ? value : IMPLIED_ROBOT;
 };
 
-/** Copies things, so many metres beside themselves. */
+/** Copies things, shifted by an offset in m. */
 export function duplicate(universe: Universe, keys: readonly string[], [dx, dy]: Point): Edit {
   const ids: string[] = [];
   const added = new Map<Section, JsonObject[]>();
@@ -187,7 +187,7 @@ function shifted(thing: Thing, dx: number, dy: number): JsonObject {
   return { pose: [rounded(x + dx), rounded(y + dy), ...rest] };
 }
 
-/** Deletes things, and what `random` says of them. */
+/** Deletes things, and their entries in `random`. */
 export function remove(universe: Universe, keys: readonly string[]): Edit {
   const things = found(universe, keys);
   const ids = new Set(things.map(({ id }) => id));
@@ -212,7 +212,7 @@ function withoutRandom(universe: Universe, isGone: (id: string) => boolean): Op[
   return gone.map((key) => ({ kind: 'unset', path: ['random', key] }));
 }
 
-/** Gives a thing another id, also where `random` names it. */
+/** Changes the id of a thing, also in `random`. */
 export function rename(universe: Universe, key: string, id: string): Edit {
   const [thing] = found(universe, [key]);
   if (!thing || thing.id === id || idProblem(universe, key, id) !== null) return { ops: [] };
@@ -228,14 +228,14 @@ export function rename(universe: Universe, key: string, id: string): Edit {
   return { ops: [...ops, op], select: [id] };
 }
 
-/** Puts one point of a person's way elsewhere. */
+/** Moves one waypoint of a person's path. */
 export function setWaypoint(universe: Universe, key: string, at: number, point: Point): Edit {
   const actor = actorOf(universe, key);
   if (!actor || at >= actor.path.length) return { ops: [] };
   return place(universe, new Map([[key, actor.path.map((own, index) => (index === at ? point : own))]]));
 }
 
-/** Adds a point to a person's way, after the one that is named. */
+/** Adds a waypoint to a person's path, after the given one. */
 export function addWaypoint(universe: Universe, key: string, after: number, point: Point): Edit {
   const actor = actorOf(universe, key);
   if (!actor) return { ops: [] };
@@ -243,7 +243,7 @@ export function addWaypoint(universe: Universe, key: string, after: number, poin
   return { ops: [{ kind: 'insert', path: [...placeOf(actor), 'path'], index: after + 1, values: [value] }] };
 }
 
-/** Takes a point out of a person's way; the last one stays. */
+/** Removes a waypoint from a person's path, except the last one. */
 export function removeWaypoint(universe: Universe, key: string, at: number): Edit {
   const actor = actorOf(universe, key);
   if (!actor || actor.path.length < 2 || at >= actor.path.length) return { ops: [] };

@@ -15,13 +15,13 @@ import {
   type Universe,
 } from './types';
 
-/** A text as far as it can be read; without a universe it is no YAML, or no mapping. */
+/** The result of reading a text; the universe is missing if the text is not YAML or not a mapping. */
 export interface Reading {
   readonly universe: Universe | null;
   readonly problems: readonly DocumentProblem[];
 }
 
-/** Reads a universe; texts that were read a moment ago give the same object. */
+/** Reads a universe; equal texts give the same object (cached). */
 export const readUniverse: (text: string) => Reading = remembering(read);
 
 function read(source: string): Reading {
@@ -83,7 +83,7 @@ function randomOf(value: unknown): Universe['random'] {
   );
 }
 
-/** Everything that has a place; a document that names no robot has one. */
+/** All things that have a place; a document without robots has a default one. */
 function thingsOf(raw: JsonObject): Thing[] {
   const things: Thing[] = [];
   const keys = new Set<string>();

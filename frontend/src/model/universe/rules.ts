@@ -6,7 +6,7 @@ import schema from '@/generated/universe.schema.json';
 const AXES = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'];
 const RANDOM_KEY = /^(?<id>[\w-]+)\.(?:pose\.(?<axis>\w+)|(?<field>mass|friction|speed))$/;
 
-/** What `random` may vary, by section. */
+/** The fields that `random` may vary, by section. */
 const VARIABLE: Readonly<Record<string, readonly string[]>> = {
   models: ['pose', 'mass', 'friction'],
   actors: ['speed'],
@@ -14,8 +14,8 @@ const VARIABLE: Readonly<Record<string, readonly string[]>> = {
 };
 
 /**
- * Everything wrong with a document: first what its schema says, which the simulator's own model is
- * written as, then what no schema can say (executor/universes/model.py).
+ * All problems of a document: those of the schema, which is generated from the simulator's model, then those
+ * that a schema cannot express (executor/universes/model.py).
  */
 export function checkUniverse(raw: Json): Issue[] {
   const found = checkSchema(raw, schema);

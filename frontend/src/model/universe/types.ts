@@ -4,7 +4,7 @@ import type { JsonObject, Point, Pose, Vector } from '../document/values';
 
 export type Shape = 'box' | 'cylinder' | 'sphere' | 'plane' | 'mesh' | 'urdf' | 'sdf';
 
-/** What the numbers of `size` are, by shape: names of texts. */
+/** The labels of `size`'s numbers, by shape: text keys. */
 export const SIZE_MEANING: Readonly<Record<Shape, readonly string[]>> = {
   box: ['x', 'y', 'z'],
   cylinder: ['radius', 'length'],
@@ -15,14 +15,14 @@ export const SIZE_MEANING: Readonly<Record<Shape, readonly string[]>> = {
   sdf: [],
 };
 
-/** How the name of the file of a shape ends, where it has one. */
+/** The file extensions of the shapes that have a file. */
 export const FILES: Readonly<Partial<Record<Shape, RegExp>>> = {
   mesh: /\.(stl|obj|dae|ply|glb)$/i,
   urdf: /\.(urdf|xacro)$/i,
   sdf: /\.sdf$/i,
 };
 
-/** Textures that we ship. */
+/** The built-in textures. */
 export const TEXTURES = ['asphalt', 'brick', 'carpet', 'checker', 'grass', 'tiles', 'wood'] as const;
 export const PICTURE = /\.(png|jpe?g)$/i;
 
@@ -30,7 +30,7 @@ export type Section = 'models' | 'actors' | 'robots';
 export const SECTIONS: readonly Section[] = ['models', 'actors', 'robots'];
 
 interface Placed {
-  /** Its id, or that with a mark where two things bear the same. */
+  /** Its id, or the id with a mark if two things have the same. */
   readonly key: string;
   readonly id: string;
   readonly section: Section;
@@ -44,15 +44,15 @@ export interface ModelThing extends Placed {
   readonly file: string;
   readonly pose: Pose;
   readonly color: string;
-  /** A texture that we ship, a picture of the project, or nothing. */
+  /** A built-in texture, a picture of the project, or empty. */
   readonly texture: string;
-  /** Width and height of one repetition of the texture in m, where it is said. */
+  /** The size of one repetition of the texture in m, if it is given. */
   readonly tile: Point | null;
   readonly mass: number;
   readonly friction: number;
   readonly restitution: number;
   readonly solid: boolean;
-  /** Robots' cameras see it up to the ceiling. */
+  /** Robots' cameras see it as high as the ceiling. */
   readonly to_ceiling: boolean;
 }
 
@@ -69,7 +69,7 @@ export interface RobotThing extends Placed {
   readonly section: 'robots';
   readonly model: string;
   readonly pose: Pose;
-  /** Topics that have another name here, by the sensor or joint that they belong to. */
+  /** Topics with another name here, by their sensor or joint. */
   readonly topics: Readonly<Record<string, string>>;
 }
 
@@ -80,9 +80,9 @@ export interface Light {
   readonly intensity: number;
 }
 
-/** What of a document can be shown; the defaults stand where it says nothing, or something impossible. */
+/** The part of a document that can be shown, with defaults for missing or impossible values. */
 export interface Universe {
-  /** The document's own value. */
+  /** The parsed document. */
   readonly raw: JsonObject;
   readonly name: string;
   readonly description: string;
@@ -92,7 +92,7 @@ export interface Universe {
     readonly tile: Point | null;
     readonly friction: number;
   };
-  /** What is overhead indoors, or nothing. */
+  /** The ceiling indoors; null without one. */
   readonly ceiling: {
     readonly color: string;
     readonly texture: string;

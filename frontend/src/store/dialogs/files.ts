@@ -3,7 +3,10 @@ import { create } from 'zustand';
 import type { DocumentKind } from '@/store/project/moving';
 
 export type NewFileKind = 'action' | 'tree' | 'file';
-/** Universes and robots are made by dialogues of their own, and renamed by this one. */
+/**
+ * The kinds of documents that the dialogue names. Universes and robots have their own dialogues for creation,
+ * but are renamed here.
+ */
 export type NamedKind = (NewFileKind & DocumentKind) | 'universe' | 'robot';
 
 export type FileDialog = { mode: 'new'; kind: NewFileKind } | { mode: 'rename'; path: string } | null;

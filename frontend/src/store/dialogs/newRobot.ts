@@ -1,9 +1,9 @@
 import { create } from 'zustand';
 
-/** Whether the dialogue for a new robot is open, and which robot it offers first. */
+/** Whether the dialogue for a new robot is open, and its initial choice. */
 export const useNewRobot = create<{ base: string | null }>(() => ({ base: null }));
 
-/** What is made of our template instead of a robot that we ship. */
+/** The choice that stands for our template instead of one of our robots. */
 export const TEMPLATE = 'template';
 
 export const openNewRobot = (base = TEMPLATE) => useNewRobot.setState({ base });

@@ -1,5 +1,5 @@
 import document from '@catalog';
 import { readCatalog } from '@/model/vocabulary';
 
-/** The built-in nodes, from the one table that engine and translator read too. */
+/** The built-in nodes, from the table that engine and translator also use. */
 export const catalog = readCatalog(document);

@@ -12,7 +12,7 @@ export type QuickAddGoal =
 export interface QuickAdd {
   readonly tree: string;
   readonly goal: QuickAddGoal;
-  /** In pixels of the window: where the box opens. */
+  /** The position of the box, in px of the window. */
   readonly x: number;
   readonly y: number;
   readonly text: string;
@@ -20,21 +20,21 @@ export interface QuickAdd {
 
 interface EditorState {
   readonly quickAdd: QuickAdd | null;
-  /** The block whose name or comment is being typed on the canvas. */
+  /** The block whose name or comment is being edited on the canvas. */
   readonly editing: { readonly node: NodeId; readonly field: 'name' | 'comment' } | null;
-  /** A new block on its way from the palette. */
+  /** A new block that is being dragged from the palette. */
   readonly dragged: Kind | null;
   readonly slot: Slot | null;
-  /** The block whose problems and fixes are shown. */
+  /** The block whose problems and fixes are open. */
   readonly fixing: NodeId | null;
-  /** Of each tree, the SubTrees that are looked into in place (`model/expand`). */
+  /** The SubTrees of each tree that are expanded in place (`model/expand`). */
   readonly expanded: Readonly<Record<string, ReadonlySet<NodeId>>>;
   readonly find: boolean;
-  /** null: shown for trees that are too large to be seen at once. */
+  /** null: shown for trees that are too large for the view. */
   readonly minimap: boolean | null;
 }
 
-/** The transient state of the editor: nothing of it is saved or undone. */
+/** The transient state of the editor; not saved and without undo. */
 export const useEditorStore = create<EditorState>()(() => ({
   quickAdd: null,
   editing: null,
@@ -48,7 +48,7 @@ export const useEditorStore = create<EditorState>()(() => ({
 
 export const setEditor = useEditorStore.setState;
 
-/** Looks into a SubTree on the canvas of `tree`, or no longer. */
+/** Expands or collapses a SubTree on the canvas of `tree`. */
 export function toggleExpanded(tree: string, id: NodeId): void {
   setEditor(({ expanded }) => {
     const next = new Set(expanded[tree]);

@@ -10,7 +10,7 @@ export interface OpenedFiles {
   readonly diagrams: Readonly<Record<string, Diagram>>;
 }
 
-/** A diagram, or null where the text is none: then the user gets the text to repair. */
+/** A diagram; null if the text is invalid: then the user gets the text to repair it. */
 export function tryParse(id: string, text: string): Diagram | null {
   try {
     return { ...parseDiagram(text), id };
@@ -19,7 +19,7 @@ export function tryParse(id: string, text: string): Diagram | null {
   }
 }
 
-/** Sorts a project's files into trees and the rest. */
+/** Separates a project's files into trees and others. */
 export function openFiles(list: readonly ProjectFile[]): OpenedFiles {
   const files: Record<string, FileEntry> = {};
   const diagrams: Record<string, Diagram> = {};
@@ -55,7 +55,7 @@ export function currentText(data: ProjectData, path: string): string | null {
   return diagram ? textOf(diagram) : null;
 }
 
-/** Makes the list of files agree with the trees after an edit, an undo, or a deletion. */
+/** Updates the list of files after an edit, an undo or a deletion of trees. */
 export function syncTrees(data: ProjectData): Pick<ProjectData, 'files' | 'removed'> {
   const isInStep =
     Object.keys(data.diagrams).every((id) => data.files[treePath(id)]?.kind === 'tree') &&
@@ -98,7 +98,7 @@ export function pendingChanges(data: ProjectData): FileChange[] {
   return changes;
 }
 
-/** Moves the bases of what was sent to what the server now has; newer local text stays pending. */
+/** Updates the base revisions after a save; text that was edited since then stays pending. */
 export function applySaved(
   data: ProjectData,
   sent: readonly FileChange[],

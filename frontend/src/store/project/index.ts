@@ -21,12 +21,12 @@ import {
   type Diagrams,
 } from './transitions';
 
-/** Makes an editor that shows the action follow its new name. */
+/** Renames the open tab of a renamed action. */
 const tellRenamed = ({ from, to }: Renaming): void => {
   tellNavigator('file', actionPath(from), actionPath(to));
 };
 
-/** Everything about the open project that is saved, and what is selected in it. */
+/** All saved data of the open project, and the selection. */
 export const useProjectStore = create<ProjectState>()((setState, get) => {
   const set = refusingViewers(setState);
   /** Records a change of trees as one step on the undo stack of `owner`. */
@@ -44,7 +44,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       try {
         moved = go(state.diagrams, undoStack);
       } catch {
-        // The step names something that another tree's edit has removed: it cannot be replayed.
+        // The step refers to a node that another tree's edit has removed: it cannot be replayed.
         return { histories: { ...state.histories, [owner]: emptyUndo } };
       }
       if (!moved) return state;
@@ -168,7 +168,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
       const renamed = produce(state.diagrams, renameEverywhere('tree', from, to));
       const { [from]: moved = diagram, ...others } = renamed;
       const diagrams = { ...others, [to]: { ...moved, id: to } };
-      // Before the old name is removed: tabs of missing trees are closed.
+      // Before the old name is removed, since tabs of missing trees are closed.
       if (state.role !== 'viewer') tellNavigator('tree', from, to);
       const { [from]: _undoStack, ...histories } = state.histories;
       set({

@@ -6,11 +6,11 @@ import { atPlaces, closureOf, planInsertion, type Sources } from '@/model/reuse'
 import { addHere, change } from './edits/blocks';
 import { useProjectStore } from './index';
 
-/** A behaviour that can be reused: of the built-in library, or a tree of another project. */
+/** A behaviour that can be reused: from the built-in library, or a tree of another project. */
 export interface Reusable {
   /** The name of its tree. */
   readonly id: string;
-  /** `library`, or the id of the project that it comes from. */
+  /** `library`, or the id of its project. */
   readonly source: string;
   readonly version: string;
   readonly files: Sources;
@@ -23,7 +23,7 @@ export interface Taken {
   readonly places: Readonly<Record<string, string>>;
 }
 
-/** Where a project remembers which behaviours it took over, in which versions. */
+/** The file in which a project records its reused behaviours and their versions. */
 const RECORD = 'assets/library.json';
 const FORMAT = 'bt-studio/taken';
 
@@ -34,7 +34,7 @@ function isTaken(value: unknown): value is Taken {
   return typeof source === 'string' && typeof version === 'string' && typeof places === 'object';
 }
 
-/** The record as it is in the project; what cannot be read counts as never taken. */
+/** The project's record; an unreadable one counts as empty. */
 export function takenIn(text: string | null): Readonly<Record<string, Taken>> {
   if (text === null) return {};
   try {
@@ -63,12 +63,12 @@ function write(path: string, text: string): void {
   else addFile(path, text);
 }
 
-/** The ports of a tree when it is used as a subtree. */
+/** The ports of a tree as a subtree. */
 function portsOf(text: string | undefined): readonly PortSpec[] {
   return text === undefined ? [] : treeFacts(parseDiagram(text)).ports;
 }
 
-/** Brings a behaviour into the project and hangs it into the active tree; answers its name here. */
+/** Adds a behaviour to the project and to the active tree; returns its name in the project. */
 export function insertBehaviour(behaviour: Reusable): string {
   const { currentText, diagrams, vocabulary } = useProjectStore.getState();
   const plan = planInsertion(
@@ -88,14 +88,14 @@ export function insertBehaviour(behaviour: Reusable): string {
   return plan.tree;
 }
 
-/** A file of a behaviour as it is in the project, and as the newest version has it. */
+/** A file of a behaviour in the project and in the newest version. */
 export interface Difference {
   readonly path: string;
   readonly mine: string;
   readonly theirs: string;
 }
 
-/** The changes of an update; empty when the project has the newest version already. */
+/** The changes of an update; empty if the project has the newest version. */
 export function differencesOf(behaviour: Reusable): readonly Difference[] {
   const taken = takenNow()[keyOf(behaviour)];
   if (!taken) return [];
@@ -105,13 +105,13 @@ export function differencesOf(behaviour: Reusable): readonly Difference[] {
     .filter(({ mine, theirs }) => mine !== theirs);
 }
 
-/** Takes over the newest version: a save like any other, so that the revisions have the one before. */
+/** Updates a behaviour to the newest version as a normal save, so that the history has the old one. */
 export function updateBehaviour(behaviour: Reusable): void {
   for (const { path, theirs } of differencesOf(behaviour)) write(path, theirs);
   remember(behaviour, takenNow()[keyOf(behaviour)]?.places ?? {});
 }
 
-/** The trees of a project as behaviours to reuse; its main tree is what it is about, and comes too. */
+/** The trees of a project as reusable behaviours, its main tree included. */
 export function reusablesOf(project: string, revision: number, files: Sources): readonly Reusable[] {
   return Object.keys(files)
     .map((path) => /^trees\/([^/]+)\.json$/.exec(path)?.[1])

@@ -1,23 +1,23 @@
 import { create } from 'zustand';
 import type { NodeStatus, TreeNode } from '@/generated/messages';
 
-/** `<tree>/<node>`: node ids are unique in their diagram alone. */
+/** `<tree>/<node>`: node ids are unique only within their diagram. */
 export type LiveKey = string;
 
 export const liveKey = (tree: string, node: string): LiveKey => `${tree}/${node}`;
 
 interface Flash {
   readonly status: NodeStatus;
-  /** Counts up, so that the same flash twice is animated twice. */
+  /** Increases, so that repeating the same flash starts its animation again. */
   readonly count: number;
   readonly since: number;
 }
 
-/** A node that flashes at every tick is animated at this pace: shorter than the glow lasts, so it stays lit. */
+/** The shortest time between two flash animations of a node: shorter than the glow, so that it stays lit. */
 const REFLASH_MS = 350;
 
 export interface LiveState {
-  /** Whether a tree is running (or was, and its last statuses are shown). */
+  /** Whether a tree is running, or its last statuses are still shown. */
   readonly active: boolean;
   readonly statuses: ReadonlyMap<LiveKey, NodeStatus>;
   readonly flashes: ReadonlyMap<LiveKey, Flash>;
@@ -29,10 +29,10 @@ export interface LiveState {
   clear(): void;
 }
 
-/** A tree used twice has two instances of each node: the busiest speaks for the block. */
+/** A tree that is used twice has two instances of each node: the block shows the busiest one. */
 const WEIGHT: Record<NodeStatus, number> = { RUNNING: 4, FAILURE: 3, SUCCESS: 2, SKIPPED: 1, IDLE: 0 };
 
-/** Statuses of the running tree. Never part of undo or of what is saved. */
+/** Statuses of the running tree; not saved and without undo. */
 export const useLiveStore = create<LiveState>()((set, get) => {
   let keys = new Map<number, LiveKey>();
   let instances = new Map<LiveKey, number[]>();

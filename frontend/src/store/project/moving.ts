@@ -13,33 +13,33 @@ export function kindOf(path: string): DocumentKind {
   return ROBOT.test(path) ? 'robot' : 'file';
 }
 
-/** How a document is called: of a robot it is its folder. */
+/** The name of a document; of a robot it is its folder. */
 export const documentName = (path: string): string =>
   (UNIVERSE.exec(path) ?? ROBOT.exec(path))?.[1] ??
   path.replace(/^actions\/(.+)\.py$/, '$1').replace(/^trees\/(.+)\.json$/, '$1');
 
-/** The files that make a document: of a robot, all in its folder. */
+/** The files of a document; of a robot all files in its folder. */
 export function filesOf(path: string): string[] {
   const { files } = useProjectStore.getState();
   const folder = kindOf(path) === 'robot' ? path.slice(0, path.lastIndexOf('/') + 1) : null;
   return folder === null ? [path] : Object.keys(files).filter((each) => each.startsWith(folder));
 }
 
-/** Where a document lies under another name. */
+/** The path of a document after renaming. */
 export function pathNamed(path: string, name: string): string {
   const kind = kindOf(path);
   if (kind === 'universe') return `universes/${name}.yaml`;
   return kind === 'robot' ? `robots/${name}/robot.yaml` : name;
 }
 
-/** The universe of a project that names none of its own. */
+/** The universe of a project whose settings name none. */
 const FIRST_UNIVERSE = 'empty';
 
 /**
- * Updates the project's settings after a universe or a robot was removed or renamed.
- * Without another name, the project runs in the empty universe, with the robot that the universe has.
+ * Updates the project's settings after a universe or a robot was removed or renamed. Without a new name, the
+ * project runs in the empty universe, with the robot of that universe.
  *
- * @returns how to take it back, or null where the project does not run with it.
+ * @returns a function that reverts it, or null if the project does not use the document.
  */
 export function followDocument(path: string, name?: string): (() => void) | null {
   const kind = kindOf(path);

@@ -1,12 +1,12 @@
 import { actionPath } from './state';
 
-/** Opens documents on behalf of features, which do not import the frame. */
+/** Opens documents for features, which cannot import the frame. */
 export interface Navigator {
   openTree(id: string): void;
   openFile(path: string, line?: number): void;
-  /** Gives the tab of a tree or file its new name. */
+  /** Renames the tab of a tree or file. */
   renamed(kind: 'tree' | 'file', from: string, to: string): void;
-  /** Puts the cursor of the editor that shows a file on a line, wherever that editor is. */
+  /** Moves the cursor of the editor that shows a file to a line. */
   aimAt(path: string, line: number): void;
 }
 

@@ -3,7 +3,7 @@ import type { Diagram, NodeId } from '@/model/diagram';
 import { CODES, findProblems, type Problem, type Severity } from '@/model/problems';
 import type { Vocabulary } from '@/model/vocabulary';
 
-/** A finding of the editor's own checks, told at once, or of the server's, told after a save. */
+/** A finding of the editor's own checks, shown at once, or of the server's, shown after a save. */
 export type ShownProblem =
   | ({ readonly source: 'editor' } & Problem)
   | {
@@ -32,7 +32,7 @@ function ownProblems(diagram: Diagram, vocabulary: Vocabulary): readonly Problem
   return problems;
 }
 
-/** All findings about one tree, the editor's first; a finding of both is shown once. */
+/** All findings of one tree, the editor's first; a finding of both is shown once. */
 export function problemsOf(
   diagram: Diagram,
   vocabulary: Vocabulary,
@@ -59,7 +59,10 @@ export function problemsOf(
   return [...own, ...server];
 }
 
-/** A finding of the server's, in the editor's own words where it has found the same: those are translated. */
+/**
+ * A finding of the server with the editor's text if the editor has the same one, since that text is
+ * translated.
+ */
 export function inOwnWords(
   item: Diagnostic,
   diagram: Diagram | undefined,

@@ -4,17 +4,17 @@ import { currentText, openFiles } from './files';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
 
-/** The files that came from the server, by path. */
+/** Files from the server, by path. */
 export interface Merged {
   readonly data: Partial<ProjectData>;
   readonly taken: readonly string[];
-  /** Changed there and here: the next save asks the user. */
+  /** Files that were changed both there and here: the next save asks the user. */
   readonly kept: readonly string[];
 }
 
 /**
- * Takes over what was saved elsewhere (another tab, another user). A file that is edited here stays as it
- * is, on its old base, so that saving it becomes a conflict and neither version is lost.
+ * Applies what was saved elsewhere (another tab, another user). A file that is edited here keeps its text and
+ * its old base, so that saving it becomes a conflict and neither version is lost.
  */
 export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
   const remote = openFiles(detail.files);
@@ -49,7 +49,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     const diagram = tree === null ? undefined : remote.diagrams[tree];
     if (tree !== null && diagram) {
       diagrams[tree] = diagram;
-      // Steps back would undo on top of somebody else's work.
+      // Undo would revert another user's work.
       histories[tree] = emptyUndo;
     }
     taken.push(theirs.path);

@@ -14,17 +14,17 @@ import type { Vocabulary } from '@/model/vocabulary';
 
 export interface FileEntry {
   readonly path: string;
-  /** A tree lives in `diagrams`, and has a text here only while that does not parse. */
+  /** A tree is stored in `diagrams`; it has a text here only while that cannot be parsed. */
   readonly kind: 'tree' | 'text' | 'binary';
   readonly text: string | null;
-  /** The revision that the next change is based on; 0: the server has never seen it. */
+  /** The base revision of the next change; 0: the server does not have the file yet. */
   readonly revision: number;
   readonly savedText: string | null;
 }
 
 export interface ProjectData {
   readonly projectId: string | null;
-  /** A viewer's edits are refused, and counted. */
+  /** Edits of a viewer are refused, and counted. */
   readonly role: ProjectRole;
   readonly refusedEdits: number;
   readonly name: string;
@@ -33,7 +33,7 @@ export interface ProjectData {
   readonly mainTree: string;
   readonly revision: number;
   readonly files: Readonly<Record<string, FileEntry>>;
-  /** Deleted here, still there on the server: path and revision. */
+  /** Files that are deleted here but not yet on the server: their revisions by path. */
   readonly removed: Readonly<Record<string, number>>;
   readonly diagrams: Readonly<Record<string, Diagram>>;
   readonly actions: readonly ActionModel[];
@@ -41,18 +41,18 @@ export interface ProjectData {
   readonly vocabulary: Vocabulary;
   readonly histories: Readonly<Record<string, UndoStack>>;
   readonly activeTree: string | null;
-  /** Selected blocks of the active tree, in the order of selecting. */
+  /** The selected blocks of the active tree, in order of selection. */
   readonly selection: readonly NodeId[];
-  /** Asks the canvas of a tree to bring a node into view; the counter makes each request new. */
+  /** Asks the canvas of a tree to scroll to a node; the counter makes each request new. */
   readonly revealed: { readonly tree: string; readonly node: NodeId; readonly count: number } | null;
-  /** Increases with every edit that is to be saved. */
+  /** Increases with each edit that must be saved. */
   readonly changeCounter: number;
 }
 
 export interface EditOptions {
-  /** Edits with the same key in a row are one step of undo. */
+  /** Consecutive edits with the same key are one step of undo. */
   readonly mergeKey?: string;
-  /** What is selected afterwards. */
+  /** The selection after the edit. */
   readonly select?: readonly NodeId[];
   /** Other trees that change in the same step; null deletes one. */
   readonly also?: Readonly<Record<string, Diagram | null>>;
@@ -64,9 +64,12 @@ export interface ProjectActions {
   setActiveTree(id: string | null): void;
   select(treeId: string, ids: readonly NodeId[]): void;
   reveal(treeId: string, node: NodeId): void;
-  /** Changes a tree by recipes: one step on its undo stack, called `label` (an i18n key of `canvas:edit`). */
+  /**
+   * Changes a tree by recipes, as one step on its undo stack with the label `label` (an i18n key of
+   * `canvas:edit`).
+   */
   apply(treeId: string, label: string, recipes: readonly Recipe[], options?: EditOptions): void;
-  /** Ends a gesture, so that the next edit is a step of its own. */
+  /** Ends a gesture: the next edit is a step of its own. */
   seal(treeId?: string): void;
   undo(): void;
   redo(): void;
@@ -83,9 +86,9 @@ export interface ProjectActions {
   /** The changes to send to the server, each file with its base revision. */
   pendingChanges(): FileChange[];
   applySaved(sent: readonly FileChange[], result: ChangesResult): void;
-  /** After a conflict: the file is now based on this revision; the text here stays. */
+  /** After a conflict: sets the base revision of the file; its text here stays. */
   rebase(path: string, revision: number, savedText: string): void;
-  /** The text of a file as it would be saved, or null of a binary or unknown one. */
+  /** The text of a file as it would be saved; null if it is binary or unknown. */
   currentText(path: string): string | null;
 }
 

@@ -47,7 +47,7 @@ function sameTrees(a: Vocabulary['trees'], b: Vocabulary['trees']): boolean {
 
 const lastActions = new WeakMap<Vocabulary, ProjectData['actions']>();
 
-/** The vocabulary of what the project now holds; the same object while nothing in it changed. */
+/** The vocabulary of the present data; the same object while its inputs are unchanged. */
 function vocabularyOf(data: ProjectData): Vocabulary {
   const trees = new Map(Object.entries(data.diagrams).map(([id, diagram]) => [id, treeFacts(diagram)]));
   const last = data.vocabulary;
@@ -60,7 +60,7 @@ function vocabularyOf(data: ProjectData): Vocabulary {
 
 const NOT_CHECKED = 'BT0009';
 
-/** The state after an answer; if the project could not be checked, the earlier findings stay. */
+/** The findings after a check; if the check failed, the earlier findings stay. */
 export function findingsAfter(before: Findings, answer: Findings & Pick<CheckResult, 'checked'>): Findings {
   const { checked, diagnostics, actions } = answer;
   if (checked !== false) return { diagnostics, actions };
@@ -68,12 +68,12 @@ export function findingsAfter(before: Findings, answer: Findings & Pick<CheckRes
   return { diagnostics: [...earlier, ...diagnostics], actions: before.actions };
 }
 
-/** Keeps the old object where the server sends equal data, so that nothing is drawn again. */
+/** Returns the old object if the new data are equal, so that nothing is drawn again. */
 export function confirmed<T>(before: T, now: T): T {
   return JSON.stringify(before) === JSON.stringify(now) ? before : now;
 }
 
-/** What the server read of a save, with the actions that were made here since it was sent: it cannot know them. */
+/** The actions that the server read from a save, and those that were created here since then. */
 export function actionsAfter(
   before: ProjectData['actions'],
   saved: ProjectData['actions'],
@@ -85,7 +85,7 @@ export function actionsAfter(
   return confirmed(before, [...saved, ...before.filter(isNew)]);
 }
 
-/** Brings files and vocabulary in step with trees and actions. */
+/** Updates files and vocabulary after a change of trees or actions. */
 export function knowing<T extends ProjectData>(data: T): T {
   const { files, removed } = syncTrees(data);
   return { ...data, files, removed, vocabulary: vocabularyOf(data) };
@@ -125,7 +125,7 @@ export function changeDiagrams(
     after,
   });
   const entry = data.files[treePath(owner)];
-  // An edit of the tree supersedes a text of it that did not parse.
+  // An edit of the tree replaces a text of it that could not be parsed.
   const isText = entry?.kind === 'tree' && entry.text !== null;
   const files = isText ? { ...data.files, [treePath(owner)]: { ...entry, text: null } } : data.files;
   return {

@@ -14,8 +14,8 @@ export interface Restored {
 }
 
 /**
- * Puts files (all, when none are named) back to what they were, as a new revision. Edits that wait are
- * saved before, so that they are revisions, too.
+ * Restores files (all, if none are named) from a revision, as a new revision. Pending edits are saved first,
+ * so that the history has them.
  */
 export async function restoreRevision(number: number, paths: readonly string[]): Promise<Restored> {
   const { projectId } = useProjectStore.getState();
@@ -28,7 +28,7 @@ export async function restoreRevision(number: number, paths: readonly string[]):
   return { previous, isChanged: useProjectStore.getState().revision !== previous };
 }
 
-/** Takes over the restored files; what this did to a tree is a step of its undo. */
+/** Loads the restored files; the change of a tree is a step of its undo. */
 function takeRestored(detail: ProjectDetail): void {
   const state = useProjectStore.getState();
   if (state.projectId !== detail.id) return;

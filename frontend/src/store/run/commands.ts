@@ -4,7 +4,7 @@ import { isUnconnected } from '@/store/session/control';
 import { useSessionStore } from '@/store/session/store';
 import { useRunStore } from './store';
 
-/** Reports a refused command where the user looks for it: the banner. */
+/** Shows the error of a refused command in the banner. */
 async function reported(doing: Promise<unknown>): Promise<void> {
   try {
     await doing;
@@ -33,12 +33,12 @@ export const resetWorld = () => reported(send('reset_world', {}));
 export const takeOver = () => reported(send('take_over', {}));
 export const end = () => reported(endSession());
 
-/** One tick; a running application is paused first. */
+/** Runs one tick; a running application is paused first. */
 export async function step(): Promise<void> {
   await reported(isRunning() ? send('pause', {}).then(() => send('step', {})) : send('step', {}));
 }
 
-/** Several ticks, one after the other; ends at the first that is refused. */
+/** Runs several ticks one after the other, until one is refused. */
 export async function stepMany(count: number): Promise<void> {
   await step();
   const others = async () => {
@@ -47,18 +47,20 @@ export async function stepMany(count: number): Promise<void> {
   if (isPaused()) await reported(others());
 }
 
-/** The rate belongs to the project, and takes effect at once in what runs. */
+/** Sets the tick rate in the project, and in the running application. */
 export function setTickRate(tickHz: number): void {
   const isSame = useRunStore.getState().ranAt === useProjectStore.getState().changeCounter;
   useProjectStore.getState().setSettings({ tick_hz: tickHz });
   useSessionStore.setState({ tickHz });
   if (!hasApplication()) return;
-  // What runs has it too, so that nothing has to be started again for it.
+  // The running application has the new rate too, so it does not count as changed.
   if (isSame) useRunStore.setState({ ranAt: useProjectStore.getState().changeCounter });
   void reported(send('set_tick_rate', { tick_hz: tickHz }));
 }
 
-/** How many seconds pass in one; 0 is as fast as the machine can. A world that is not up yet begins with it. */
+/**
+ * Sets the ratio of simulated to real time; 0 is as fast as the machine can. A later world starts with it.
+ */
 export function setSpeed(speed: number): void {
   useSessionStore.setState({ speed });
   if (isWorldUp()) void reported(send('set_speed', { speed }));

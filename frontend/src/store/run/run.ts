@@ -10,10 +10,10 @@ import { useSessionStore } from '@/store/session/store';
 import { useRunStore, type LaunchFailure, type LaunchStage } from './store';
 import { chosenUniverse, useUniverseChoice } from './universeChoice';
 
-/** Saves, checks, starts what is missing, and runs; resolves to whether the robot runs. */
+/** Saves, checks, starts what is missing, and runs; resolves to whether the application runs. */
 export const runProject = () => launch((app) => send('run', runCommand(app)));
 
-/** Saves, checks, and starts the program as it is now; the world continues unchanged. */
+/** Saves, checks, and restarts the application with the new program; the world continues. */
 export const restartProject = () => launch((app) => send('run_application', applicationOf(app)));
 
 async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean> {
@@ -39,7 +39,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
     await begin(app);
     return true;
   } catch (error) {
-    // Without a connection the session continues, and reports the result once it can be reached again.
+    // Without a connection the session continues, and reports the result after reconnecting.
     if (!isUnconnected(error) && !wasCancelled) useRunStore.setState({ failure: failureOf(error) });
     return false;
   } finally {
@@ -48,7 +48,7 @@ async function launch(begin: (app: AppBundle) => Promise<void>): Promise<boolean
   }
 }
 
-/** After *Cancel* no error is shown. */
+/** The user pressed *Cancel*: no error is shown. */
 let wasCancelled = false;
 
 export function cancelRun(): void {

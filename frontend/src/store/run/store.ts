@@ -9,17 +9,20 @@ export interface LaunchFailure {
   code: string;
   message: string;
   hint: string;
-  /** Errors of the project, when they are what stopped the run. */
+  /** The project's errors that prevented the run. */
   diagnostics: Diagnostic[];
 }
 
-/** Why someone may not run a project: they came by a read-only link, or view another user's session. */
+/**
+ * The reason why a user cannot run a project: guests use a read-only link, viewers watch another page's
+ * session.
+ */
 export type RunBlocker = 'guest' | 'viewer';
 
 interface RunData {
   stage: LaunchStage | null;
   failure: LaunchFailure | null;
-  /** The project's edits that the running application has. */
+  /** The edit counter of the program that is running. */
   ranAt: number;
   runBlocker: RunBlocker | null;
 }

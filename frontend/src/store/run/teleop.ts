@@ -3,7 +3,7 @@ import { send } from '@/store/session/connection';
 import { useSessionStore } from '@/store/session/store';
 
 export interface Direction {
-  /** Ahead 1, back -1. */
+  /** Forward 1, backward -1. */
   linear: number;
   /** Left 1, right -1. */
   angular: number;
@@ -11,13 +11,13 @@ export interface Direction {
 
 interface TeleopData {
   isOn: boolean;
-  /** Speeds that a held key asks for, m/s and rad/s. */
+  /** The speeds of a held key, m/s and rad/s. */
   linear: number;
   angular: number;
   direction: Direction;
 }
 
-/** The world forgets a command after a while, so one that holds is repeated. */
+/** The world drops a command after a while, so a held key sends it again. */
 const REPEAT_MS = 100;
 const STILL: Direction = { linear: 0, angular: 0 };
 
@@ -30,13 +30,16 @@ export const useTeleop = create<TeleopData>(() => ({
 
 let repeating: ReturnType<typeof setInterval> | undefined;
 
-/** Driving by hand needs running time: a pause freezes the world until resume or stop. */
+/**
+ * Whether the robot can be driven by hand, which needs running time: a pause freezes the world until resume
+ * or stop.
+ */
 export function canDrive(): boolean {
   const { executor, introspection } = useSessionStore.getState();
   return !['idle', 'connected', 'paused'].includes(executor) && introspection?.role !== 'viewer';
 }
 
-/** Drives into a direction until another one, or none, is given. */
+/** Drives in a direction until another one, or none, is set. */
 export function drive(direction: Direction): void {
   const before = useTeleop.getState().direction;
   if (before.linear === direction.linear && before.angular === direction.angular) return;

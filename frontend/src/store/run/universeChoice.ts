@@ -1,18 +1,18 @@
 import { create } from 'zustand';
 
-/** Where the next runs take place, when that differs from the project's own setting. */
+/** The universe, robot and seed of the next runs, if they differ from the project's settings. */
 interface UniverseChoice {
   /** Null: the project's universe. */
   universe: string | null;
   robot: string | null;
-  /** The seed of random poses and of sensor noise. */
+  /** The seed of random poses and sensor noise. */
   seed: number;
 }
 
-/** Lives as long as the page: a world tried once is not written into the project. */
+/** Kept until the page closes: a choice for a trial is not saved in the project. */
 export const useUniverseChoice = create<UniverseChoice>(() => ({ universe: null, robot: null, seed: 0 }));
 
-/** The universe, as the server sent it for this choice, and the robot of the next run. */
+/** The universe and robot of the next run, in the form in which the server sent them for this choice. */
 export function chosenUniverse<T>(own: { universe: T; robot: string | null }): {
   universe: T;
   robot: string | null;

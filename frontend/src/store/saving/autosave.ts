@@ -6,7 +6,7 @@ import { clearDraft, writeDraft } from './drafts';
 import { useSavingStore, type SaveState } from './store';
 
 const SAVE_AFTER_MS = 600;
-/** Long enough that the picture of an edit comes first, and typing fast is kept once. */
+/** Long enough to draw an edit first, and to keep fast typing only once. */
 const KEEP_AFTER_MS = 80;
 const RETRY_AFTER_MS = 4000;
 
@@ -17,7 +17,7 @@ let stopWatching: (() => void) | null = null;
 
 const setState = (state: SaveState) => useSavingStore.setState({ state });
 
-/** Saves the open project a moment after each edit, until stopped. */
+/** Saves the open project shortly after each edit, until it is stopped. */
 export function startAutosave(): void {
   stopAutosave();
   let counter = useProjectStore.getState().changeCounter;
@@ -42,10 +42,10 @@ export function stopAutosave(): void {
   setState({ kind: 'saved' });
 }
 
-/** Saves all edits now; resolves when the server has them, rejects when it does not. */
+/** Saves all edits now; resolves once the server has them, rejects otherwise. */
 export async function saveNow(): Promise<void> {
   clearTimeout(timer);
-  // One request at a time: the next one needs the revisions that the last one made.
+  // One request at a time: the next one needs the revisions of the last one.
   while (inFlight) await inFlight.catch(() => undefined);
   inFlight = save().finally(() => {
     inFlight = null;
@@ -53,7 +53,7 @@ export async function saveNow(): Promise<void> {
   return inFlight;
 }
 
-/** Lets something else write a revision as a save does: no save is under way meanwhile. */
+/** Runs another write of a revision while no save is in progress. */
 export async function asSave(write: () => Promise<void>): Promise<void> {
   clearTimeout(timer);
   while (inFlight) await inFlight.catch(() => undefined);
@@ -74,7 +74,7 @@ function onEdited(): void {
 
 function saveSoon(delay: number | Event = SAVE_AFTER_MS): void {
   clearTimeout(timer);
-  // While two versions wait for the user's choice, saving again would only ask the same question.
+  // While a conflict waits for the user's choice, another save would only ask the same question.
   if (useSavingStore.getState().state.kind === 'conflict') return;
   timer = setTimeout(
     () => void saveNow().catch(() => undefined),
@@ -88,7 +88,7 @@ function saveWhenHidden(): void {
   if (useSavingStore.getState().state.kind === 'dirty') saveSoon(0);
 }
 
-/** Keeps at once what an edit has left to be kept in a moment. */
+/** Keeps pending edits in the browser at once. */
 function keepDraftNow(): void {
   if (keeping !== undefined) keepDraft();
 }

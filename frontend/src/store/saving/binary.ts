@@ -4,19 +4,19 @@ import { useProjectStore } from '@/store/project';
 import { mergeRemote } from '@/store/project/remote';
 import { asSave, saveNow } from './autosave';
 
-/** A file that is no text, with what is in it. */
+/** A binary file with its content. */
 export interface Binary {
   readonly path: string;
   readonly data: ArrayBuffer;
 }
 
-/** Where a file of the open project is fetched. */
+/** The URL of a file of the open project. */
 export const fileUrl = (path: string): string => {
   const { projectId } = useProjectStore.getState();
   return urlOf(`/projects/${projectId ?? ''}/files/${path.split('/').map(encodeURIComponent).join('/')}`);
 };
 
-/** Reads files of the project that the browser does not hold, as the server has them. */
+/** Fetches files that the browser does not hold. */
 export async function fetchBinaries(paths: readonly string[]): Promise<Binary[]> {
   return Promise.all(
     paths.map(async (path) => {
@@ -27,7 +27,7 @@ export async function fetchBinaries(paths: readonly string[]): Promise<Binary[]>
   );
 }
 
-/** Puts new files into the project, and what was edited before them. */
+/** Adds new binary files to the project, after saving pending edits. */
 export async function putBinaries(files: readonly Binary[]): Promise<void> {
   const { projectId } = useProjectStore.getState();
   if (!projectId || files.length === 0) return;

@@ -27,7 +27,7 @@ const RETRY_AFTER_MS = [1000, 3000, 10_000, 30_000] as const;
 const SIGNED_OUT = 4401;
 const NO_SUCH_PROJECT = 4404;
 
-/** Follows the project's revisions, and what the server says, until the returned function is called. */
+/** Follows the project's revisions and the server's notices until the returned function is called. */
 export function followRevisions(projectId: string, onTaken: OnTaken, onServer: OnServer): () => void {
   let socket: WebSocket | null = null;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -43,7 +43,7 @@ export function followRevisions(projectId: string, onTaken: OnTaken, onServer: O
         onServer(notice.text);
         return;
       }
-      // A lost answer is no harm: the next notice, or the next connection, says the same.
+      // A lost answer does no harm: the next notice or connection repeats it.
       void catchUp(projectId, notice, onTaken).catch(() => undefined);
     };
     socket.onclose = ({ code }) => {
@@ -60,13 +60,13 @@ export function followRevisions(projectId: string, onTaken: OnTaken, onServer: O
   };
 }
 
-/** Fetches and takes over a revision that this page has not made itself. */
+/** Fetches and applies a revision that another page made. */
 export async function catchUp(projectId: string, notice: Notice, onTaken: OnTaken): Promise<void> {
   const isKnown = () => {
     const { projectId: open, revision } = useProjectStore.getState();
     return open !== projectId || notice.revision <= revision;
   };
-  // Our own save is announced to us, too, often before its answer is here.
+  // The server also announces our own save, often before its answer arrives.
   if (!isKnown() && useSavingStore.getState().state.kind === 'saving') await saveNow().catch(() => undefined);
   if (isKnown()) return;
   const detail = await api.getProject(projectId);

@@ -1,18 +1,18 @@
 import { create } from 'zustand';
 import type { Conflict } from '@/api/types';
 
-/** Where the user's edits are: on the server, on their way, or only here. */
+/** Where the user's edits are: on the server, being sent, or only here. */
 export type SaveState =
   | { kind: 'saved' }
   | { kind: 'dirty' }
   | { kind: 'saving' }
-  /** `code` and `reason` as the server said them; nothing is lost, the edits are kept here. */
+  /** `code` and `reason` are the server's; the edits are kept here, so that nothing is lost. */
   | { kind: 'failed'; code: string; reason: string }
   | { kind: 'conflict'; conflicts: Conflict[] };
 
 export interface SavingData {
   state: SaveState;
-  /** When edits that a crash or reload had cut off came back, how many files they were in. */
+  /** The number of files whose edits were restored after a crash or reload. */
   restoredFiles: number;
 }
 

@@ -16,16 +16,21 @@ import type { SessionData } from './types';
 const RETRY_MS = [300, 600, 1200, 2500, 5000];
 /** The rate at which a subscribed topic is echoed. */
 export const ECHO_HZ = 10;
-/** With this code the server closes the socket of a session that it ended because nothing answered. */
+/**
+ * The code with which the server closes the socket of a session that it ended because the executor was
+ * silent.
+ */
 const EXECUTOR_SILENT = 4504;
 const STORAGE_PREFIX = 'bts.session.';
 
-/** States in which the manager gives streams. */
+/** States in which the manager offers streams. */
 const STREAMING: readonly State[] = ['visualization_ready', 'application_running', 'paused'];
 
 const isOffline = (error: unknown) => error instanceof ApiError && error.isOffline;
 
-/** Why there is no connection; for a network error the browser's text is replaced by a translated one. */
+/**
+ * The reason for a lost connection; the browser's text of a network error is replaced by a translated one.
+ */
 function reasonOf(error: unknown): string {
   if (isOffline(error)) return t('run:banner.unreachable');
   return error instanceof Error ? error.message : String(error);
@@ -35,17 +40,17 @@ function reasonOf(error: unknown): string {
 class SessionConnection {
   private socket: ControlSocket | null = null;
   private session: SessionInfo | null = null;
-  /** By this id the manager recognises a page that reconnects. */
+  /** The id by which the manager recognises a page that reconnects. */
   private clientId: string | null = null;
   private attempt = 0;
-  /** The end of the session before: until then the server would return that session again. */
+  /** Resolves when the previous session has ended: until then the server would return it again. */
   private ending: Promise<unknown> = Promise.resolve();
   private giveUp: ((error: Error) => void) | null = null;
   private retryTimer: ReturnType<typeof setTimeout> | undefined;
   private isRetrying = false;
   private isWorldUp = false;
   private isStreaming = false;
-  /** Why the session was lost, where the page has a text of its own for it. */
+  /** The reason for the loss of the session, if the page has its own text for it. */
   private lostBecause = '';
   private readonly silence = new SilenceWatch();
 
@@ -58,7 +63,7 @@ class SessionConnection {
     return this.socket?.send(command, data) ?? Promise.reject(new Error('There is no session.'));
   }
 
-  /** Starts the project's session, or joins the one that runs, and waits until it answers. */
+  /** Starts the project's session, or joins the running one, and waits for its answer. */
   async ensureConnected(projectId: string): Promise<void> {
     if (this.socket?.isOpen && useSessionStore.getState().projectId === projectId) return;
     this.go('start', { projectId });
@@ -81,14 +86,14 @@ class SessionConnection {
     localStorage.setItem(STORAGE_PREFIX + projectId, session.id);
   }
 
-  /** Ends the wait for a session that starts; a session that was running continues without this page. */
+  /** Stops waiting for a session; a session that was running continues without this page. */
   async abandonStart(): Promise<void> {
     const starting = this.session;
     this.disconnect();
     if (starting && starting.state !== 'ready') await this.endOnServer(starting.id);
   }
 
-  /** After a reload: joins the session that this project had, if it still runs. */
+  /** After a reload: joins the project's session if it still runs. */
   async reattach(projectId: string): Promise<void> {
     const id = localStorage.getItem(STORAGE_PREFIX + projectId);
     useSessionStore.setState({ projectId });
@@ -112,13 +117,13 @@ class SessionConnection {
     if (left) await this.endOnServer(left.id);
   }
 
-  /** Leaves the session without ending it, since the project is left. */
+  /** Leaves the session without ending it, when the project is closed. */
   leave(): void {
     this.disconnect();
     resetSession({ projectId: null, logs: [] });
   }
 
-  /** The one setter of the state; an event that the table does not know for it changes nothing. */
+  /** The only place that sets the state; an event without a transition in the table is ignored. */
   private go(event: ConnectionEvent, change: Partial<SessionData> = {}): boolean {
     const next = nextConnection(useSessionStore.getState().connection, event);
     if (next === null) return false;
@@ -142,7 +147,7 @@ class SessionConnection {
     this.go('leave');
   }
 
-  /** Forgets the session and everything that belongs to it. */
+  /** Removes the session and all data that belong to it. */
   private dropSession(): void {
     this.silence.stop();
     streams.close();
@@ -154,13 +159,13 @@ class SessionConnection {
     resetTopics();
   }
 
-  /** The address of a session's socket for this page. */
+  /** The URL of a session's socket for this page. */
   private addressFor(path: string): string {
     const query = this.clientId === null ? '' : `?client=${encodeURIComponent(this.clientId)}`;
     return socketUrl(path) + query;
   }
 
-  /** Resolves when the manager has introduced itself; rejects if the socket closes before. */
+  /** Resolves when the manager has sent its introduction; rejects if the socket closes before. */
   private openSocket(info: SessionInfo): Promise<void> {
     this.socket?.close();
     return new Promise((resolve, reject) => {
@@ -170,7 +175,7 @@ class SessionConnection {
         onHeard: () => this.silence.heard(),
         onMessage: (message) => {
           receive(message);
-          // A later one reports a changed role of this client, or what the world can do.
+          // A later introduction reports a new role of this client, or what the world can do.
           if (message.command === 'introspection' && !isIntroduced) {
             isIntroduced = true;
             this.onIntroduced(info, opened, message.data as Introspection);
@@ -214,7 +219,7 @@ class SessionConnection {
     this.isWorldUp = state !== 'idle' && state !== 'connected';
     if (!this.isWorldUp || wasUp) return;
     for (const topic of Object.keys(useTopicsStore.getState().echoes)) {
-      // A topic that does not exist now is requested again when it is opened.
+      // A topic that does not exist now is requested again when it appears.
       this.send('echo_topic', { topic, max_hz: ECHO_HZ }).catch(() => undefined);
     }
   }
@@ -228,7 +233,7 @@ class SessionConnection {
       const done = options
         ? this.send('subscribe', { stream, ...options })
         : this.send('unsubscribe', { stream });
-      // A stream that this world does not have (no camera, no LIDAR) leaves its view empty, with a note there.
+      // If the world has no such stream (no camera, no LIDAR), its view shows a note.
       done.catch(() => undefined);
     });
   }
@@ -251,7 +256,7 @@ class SessionConnection {
     this.isRetrying = true;
     try {
       const found = await api.getSession(session.id);
-      // The project may have been left while the server answered.
+      // The user may have left the project before the server answered.
       if (this.session !== session) return;
       if (found.state === 'failed' || found.state === 'ended')
         return this.onEnded(this.lostBecause || (found.error ?? ''));
@@ -264,7 +269,7 @@ class SessionConnection {
     }
   }
 
-  /** A lost network closes no socket: a request shows whether the server can be reached without it. */
+  /** A network failure closes no socket: a request shows whether the server can still be reached. */
   private async onOffline(): Promise<void> {
     const asked = this.socket;
     if (!this.session || !asked?.isOpen) return;
@@ -277,14 +282,14 @@ class SessionConnection {
     }
   }
 
-  /** The network is back: retries at once. */
+  /** The network is available again: retries at once. */
   private onOnline(): void {
     if (useSessionStore.getState().connection !== 'reconnecting') return;
     clearTimeout(this.retryTimer);
     void this.retry();
   }
 
-  /** The session is gone: its processes ended, and another Run starts a new one. */
+  /** The session has ended with its processes; Run starts a new one. */
   private onEnded(reason: string): void {
     if (this.go('ended', { connectionMessage: reason })) this.dropSession();
   }

@@ -1,4 +1,4 @@
-/** How the page is connected to its session. */
+/** The states of the page's connection to its session. */
 export const CONNECTIONS = ['off', 'starting', 'open', 'reconnecting', 'lost'] as const;
 export type Connection = (typeof CONNECTIONS)[number];
 
@@ -7,8 +7,8 @@ export const CONNECTION_EVENTS = ['start', 'introduced', 'closed', 'ended', 'lea
 export type ConnectionEvent = (typeof CONNECTION_EVENTS)[number];
 
 /**
- * Every transition. A pair that is absent changes nothing: an answer to a retry may arrive after the
- * project was left, or after the session was given up.
+ * All transitions. An event without an entry is ignored: the answer to a retry may arrive after the project
+ * or the session was left.
  */
 const TRANSITIONS: Readonly<Record<Connection, Partial<Record<ConnectionEvent, Connection>>>> = {
   // After a reload the page joins a running session without starting one.

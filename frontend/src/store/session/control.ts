@@ -1,6 +1,6 @@
 import { PROTOCOL, type Commands, type Error as ErrorData, type ServerMessage } from '@/generated/messages';
 
-/** A command that the manager refused or could not do. */
+/** A command that the manager refused or that failed. */
 export class CommandError extends Error {
   override readonly name = 'CommandError';
   constructor(
@@ -12,7 +12,7 @@ export class CommandError extends Error {
   }
 }
 
-/** It was the connection that failed, not the command; the banner speaks of it as long as it is gone. */
+/** Whether the connection failed and not the command; the banner reports a lost connection itself. */
 export const isUnconnected = (error: unknown) =>
   error instanceof CommandError && ['not_connected', 'connection_lost'].includes(error.code);
 
@@ -23,10 +23,10 @@ interface Waiting {
 
 export interface ControlEvents {
   onMessage: (message: ServerMessage) => void;
-  /** Anything came, replies too. */
+  /** Called for every message, replies included. */
   onHeard: () => void;
   onOpen: () => void;
-  /** The socket closed without `close()` having been called. */
+  /** The socket closed without a call of `close()`. */
   onLost: (code: number, reason: string) => void;
 }
 
@@ -57,12 +57,12 @@ export class ControlSocket {
     return this.socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Whether some of what was sent has not left this machine yet. */
+  /** Whether the socket still buffers data to send. */
   get isSending(): boolean {
     return (this.socket?.bufferedAmount ?? 0) > 0;
   }
 
-  /** Sends a command; resolves at its ack, rejects with a `CommandError`. */
+  /** Sends a command; resolves with its ack, rejects with a `CommandError`. */
   send<K extends keyof Commands>(command: K, data: Commands[K]): Promise<void> {
     const { socket } = this;
     if (!socket || socket.readyState !== WebSocket.OPEN) {

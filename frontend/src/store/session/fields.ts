@@ -1,17 +1,17 @@
-/** A value somewhere in a message, with its path: `pose.position.x`, `ranges[3]`. */
+/** A value in a message, with its path: `pose.position.x`, `ranges[3]`. */
 export interface Field {
   path: string;
   name: string;
   value: unknown;
   depth: number;
-  /** It holds others, which follow it. */
+  /** It contains other values, which follow it. */
   isParent: boolean;
 }
 
-/** Elements of a list that are shown one by one; of longer ones the rest is left out. */
+/** The number of elements of a list that are shown; the others are left out. */
 const SHOWN_ELEMENTS = 64;
 
-/** The fields of a message as rows, in order; what lies below a folded path is left out. */
+/** The fields of a message as rows, in order; fields below a folded path are left out. */
 export function fieldsOf(message: unknown, isFolded: (path: string) => boolean): Field[] {
   const rows: Field[] = [];
   const visit = (value: unknown, path: string, name: string, depth: number) => {

@@ -4,8 +4,8 @@ type FrameOf<K extends Frame['type']> = Extract<Frame, { type: K }>;
 type Listener = (frame: Frame) => void;
 
 /**
- * Frames go past React: a viewer listens, and draws at its own pace. The last frame of each kind is
- * kept, so that a view that opens later starts from it; a scene makes older poses meaningless.
+ * Distributes frames outside of React: viewers listen, and draw at their own pace. The last frame of each
+ * kind is kept for views that open later; a new scene drops older poses.
  */
 class FrameBus {
   private readonly listeners = new Map<string, Set<Listener>>();
@@ -18,7 +18,7 @@ class FrameBus {
     this.listeners.get(kind)?.forEach((listener) => listener(frame));
   }
 
-  /** Calls at once with the last frame, if there is one, and then with each. */
+  /** Calls the listener at once with the last frame, if there is one, and then with each new one. */
   listen<K extends Frame['type']>(kind: K, listener: (frame: FrameOf<K>) => void): () => void {
     const set = this.listeners.get(kind) ?? new Set();
     this.listeners.set(kind, set);
@@ -32,7 +32,7 @@ class FrameBus {
     return (this.latest.get('scene') as Scene | undefined) ?? null;
   }
 
-  /** The latest simulated time that any stream spoke of, s. */
+  /** The latest simulated time in any stream, s. */
   newest(): number {
     return Math.max(0, ...[...this.latest.values()].map(({ t }) => t));
   }
@@ -44,7 +44,7 @@ class FrameBus {
 
 export const frames = new FrameBus();
 
-/** Floats of a binary field; copies only where the bytes do not lie at a multiple of four. */
+/** The floats of a binary field; copies only if the bytes are not aligned to four. */
 export function floatsOf(bytes: Uint8Array): Float32Array {
   const aligned = bytes.byteOffset % 4 === 0 ? bytes : bytes.slice();
   return new Float32Array(aligned.buffer, aligned.byteOffset, aligned.byteLength >> 2);

@@ -1,27 +1,27 @@
-/** How often the session is asked whether it answers, so that what lasts 3 s is shown within 4. */
+/** The period of pings: short enough to report a silence of 3 s within 4 s. */
 export const HEARTBEAT_MS = 500;
 /** A shorter silence is not shown. */
 const SHOWN_AFTER_MS = 3000;
-/** A page that comes back after so long was asleep, and has not listened. */
+/** A page whose timer stopped for this long was asleep and could not receive. */
 const ASLEEP_MS = 10_000;
 
 /**
- * For how long the session has not answered. What came before the last beat has been read by now; of the time
- * since then no more than one beat counts: in a page that is busy for longer, the answer may be there unread.
+ * Measures for how long the session has not answered. Between two beats at most one period counts: when the
+ * page itself is busy, answers may wait unread.
  */
 export class Heartbeat {
-  /** Silence up to the last beat. */
+  /** The silence up to the last beat. */
   private silentMs = 0;
 
   constructor(private last: number) {}
 
-  /** Anything came from the session. */
+  /** Records that a message came from the session. */
   heard(now: number): void {
     this.silentMs = 0;
     this.last = now;
   }
 
-  /** Call it every `HEARTBEAT_MS` while an answer is awaited; returns the silence that is worth showing, in s. */
+  /** Must be called every `HEARTBEAT_MS` while an answer is awaited; returns the silence to show, in s. */
   beat(now: number): number {
     const gap = now - this.last > ASLEEP_MS ? HEARTBEAT_MS : Math.max(0, now - this.last);
     const shown = this.silentMs + Math.min(gap, HEARTBEAT_MS);

@@ -7,7 +7,7 @@ const flashes = new Map<number, NodeStatus>();
 let shownAt = 0;
 let timer: ReturnType<typeof setTimeout> | undefined;
 
-/** Passes on to the canvas what concerns the blocks: statuses at the user's rate, all else at once. */
+/** Passes events of blocks on to the canvas: statuses at the user's rate, others at once. */
 export function feedLive({ command, data }: ServerMessage): void {
   const live = useLiveStore.getState();
   switch (command) {
@@ -35,7 +35,7 @@ export function feedLive({ command, data }: ServerMessage): void {
   }
 }
 
-/** Shows what gathered, now or when the rate allows; called once after each batch of messages. */
+/** Shows the collected statuses, now or when the rate allows; called once after each batch of messages. */
 export function showDueStatuses(): void {
   if (pending.size === 0 && flashes.size === 0) return;
   const { hz } = useStatusRate.getState();

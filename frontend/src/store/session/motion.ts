@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import { frames } from './frames';
 import { currentPoses } from './poses';
 
-/** The first robot's speed, measured from the poses that arrive. */
+/** The first robot's speed, measured from received poses. */
 export interface Motion {
   speed: number;
   t: number;
@@ -16,12 +16,12 @@ interface Sample {
 
 const WINDOW_S = 1;
 const UPDATE_EVERY_S = 0.2;
-/** Poses come while something moves: without any for so long, the robot stands. */
+/** Poses arrive while something moves: after this long without any, the robot counts as stopped. */
 const STILL_AFTER_MS = 800;
 
 export const useMotion = create<Motion>(() => ({ speed: 0, t: 0 }));
 
-/** Path length over the window, per second of simulated time. */
+/** The length of the path in the window per simulated second. */
 export function speedOf(samples: readonly Sample[]): number {
   const first = samples[0];
   const last = samples.at(-1);

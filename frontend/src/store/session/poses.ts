@@ -5,8 +5,8 @@ import { frames, uint16Of } from './frames';
 export type Pose = ArrayLike<number>;
 
 /**
- * The current pose of every object. Pose frames hold only what changed, so a viewer that opens later
- * needs what all of them together said.
+ * The current pose of every object. A frame contains only changed poses, so a viewer that opens later needs
+ * all of them together.
  */
 export const currentPoses = new Map<number, Pose>();
 
@@ -23,7 +23,7 @@ const POSE_BYTES = 16;
 const METRES_PER_UNIT = 1e-4;
 const TURN_PER_UNIT = 1 / (32767 * Math.SQRT2);
 
-/** Calls with each pose of a frame; how they are packed stands in `executor/stream/pose_codec.py`. */
+/** Calls back with each pose of a frame; `executor/stream/pose_codec.py` defines their packing. */
 export function forEachPose(frame: Poses, visit: (id: number, pose: Float32Array) => void): void {
   const { buffer, byteOffset, byteLength } = frame.poses;
   const bytes = new DataView(buffer, byteOffset, byteLength);

@@ -1,7 +1,7 @@
 import type { BlackboardEntry, Events, Fault, Log, ServerMessage, TopicMismatch } from '@/generated/messages';
 import type { BlackboardRow, LogLine, SessionData } from './types';
 
-/** Older lines are dropped; about an hour of a talkative action. */
+/** Older lines are dropped; this is about an hour of output. */
 export const MAX_LOG_LINES = 5000;
 
 export const initialSession: SessionData = {
@@ -51,8 +51,8 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     ...(data.state === 'idle' || data.state === 'connected' ? { sim: null } : {}),
   }),
   progress: (_, data) => ({ progress: data }),
-  // A new tree is a new run: what the last one said about itself no longer holds. Its extra nodes were started
-  // before it, and one may have ended already.
+  // A new tree is a new run: faults of the last one are removed. Its launch nodes were started before it, and
+  // one may have ended already.
   tree: ({ faults, launchNodes }, data) => ({
     tree: data.nodes,
     blackboard: {},
@@ -81,7 +81,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
     blackboard: mergeBlackboard({}, data.blackboard, seq),
     faults: data.faults,
     launchNodes: data.launch_nodes,
-    // Before there is a world, what was chosen here is what the first run begins with.
+    // Before there is a world, the rates that were chosen here stay: the first run starts with them.
     ...(data.state === 'idle' || data.state === 'connected'
       ? {}
       : { tickHz: data.tick_hz, speed: data.speed }),
@@ -93,7 +93,7 @@ const handlers: { [K in keyof Events]?: Handler<K> } = {
   }),
 };
 
-/** Returns the state after a message; messages without state leave it unchanged. Pure. */
+/** Returns the state after a message; messages without state leave it unchanged. */
 export function reduce(state: SessionData, message: ServerMessage): SessionData {
   const handler = handlers[message.command as keyof Events] as Handler<keyof Events> | undefined;
   if (!handler) return state;
@@ -123,7 +123,7 @@ function mergeBlackboard(
   return next;
 }
 
-/** A fault in the console: its traceback, whose lines can be clicked. */
+/** A fault as console lines: its traceback, whose lines can be clicked. */
 function logOf(fault: Fault, time: number): Log {
   const source = fault.node_id || fault.kind === 'exception' ? 'action' : 'manager';
   const text = fault.traceback || fault.message;
@@ -131,13 +131,13 @@ function logOf(fault: Fault, time: number): Log {
   return { source, level: 'error', text, node_id, node_path, time, launch_node: '' };
 }
 
-/** A topic whose ends do not match, in the console. */
+/** A console line about a topic whose publishers and subscribers do not match. */
 function mismatchLog({ topic, message, hint }: TopicMismatch, time: number): Log {
   const text = `${topic}: ${message} ${hint}`;
   return { source: 'world', level: 'warning', text, node_id: '', node_path: '', time, launch_node: '' };
 }
 
-/** Adds lines as the console shows them: one row a line of text, numbered. */
+/** Adds console lines: one numbered row for each line of text. */
 export function appendLogs(
   state: Pick<SessionData, 'logs' | 'nextLogId'>,
   added: readonly Log[],

@@ -3,7 +3,7 @@ import type { ControlSocket } from './control';
 import { Heartbeat, HEARTBEAT_MS } from './heartbeat';
 import { note, useSessionStore } from './store';
 
-/** Pings the session at a fixed rate, and shows for how long nothing was heard from it. */
+/** Pings the session at a fixed rate, and shows the time since its last message. */
 export class SilenceWatch {
   private heartbeat: Heartbeat | null = null;
   private timer: ReturnType<typeof setInterval> | undefined;
@@ -29,7 +29,7 @@ export class SilenceWatch {
     const asked = this.heartbeat;
     if (!asked) return;
     const now = performance.now();
-    // While this page is still sending (a large program), no answer can be expected yet.
+    // While this page is still sending (a large program), no answer can be expected.
     if (!this.isPinging || socket.isSending) asked.heard(now);
     showSilence(asked.beat(now));
     if (this.isPinging) return;
@@ -37,7 +37,7 @@ export class SilenceWatch {
     const answered = () => {
       if (asked === this.heartbeat) this.isPinging = false;
     };
-    // A refusal is an answer, too.
+    // A refusal also shows that the session answers.
     socket.send('ping', {}).then(answered, answered);
   }
 }

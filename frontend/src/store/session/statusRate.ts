@@ -1,6 +1,6 @@
 import { create } from 'zustand';
 
-/** How often statuses on the canvas may change, Hz; 0 is as often as the screen. */
+/** The update rates of statuses on the canvas, Hz; 0 is the screen's rate. */
 export const STATUS_RATES = [0, 20, 10, 5, 2] as const;
 
 const KEY = 'bts.statusRate';

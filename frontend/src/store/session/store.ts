@@ -14,7 +14,7 @@ const HIDDEN_FLUSH_MS = 200;
 let queue: ServerMessage[] = [];
 let isScheduled = false;
 
-/** Queues a message; all that arrive within one animation frame change the page once. */
+/** Queues a message; all messages of one animation frame update the page once. */
 export function receive(message: ServerMessage): void {
   queue.push(message);
   if (isScheduled) return;
@@ -38,7 +38,7 @@ export function flush(): void {
   showDueStatuses();
 }
 
-/** Writes a line of this page's own into the console. */
+/** Writes a line of the page itself to the console. */
 export function note(text: string): void {
   useSessionStore.setState((state) =>
     appendLogs(state, [
@@ -58,7 +58,7 @@ export function note(text: string): void {
 export function resetSession(change: Partial<SessionData> = {}): void {
   queue = [];
   const { tickHz, speed, projectId, logs, nextLogId } = useSessionStore.getState();
-  // What was printed can still be read after the session has ended.
+  // The console can still be read after the session has ended.
   useSessionStore.setState({ ...initialSession, tickHz, speed, projectId, logs, nextLogId, ...change }, true);
   forgetPending();
   useLiveStore.getState().clear();

@@ -18,7 +18,10 @@ type SendSubscription = (stream: StreamName, options: StreamOptions | null) => v
 
 const REOPEN_AFTER_MS = 1000;
 
-/** The stream socket and what the page wants from it. Views want; the last wish for a stream counts. */
+/**
+ * The stream socket and the subscriptions of the page. Several views can want a stream; the last options
+ * apply.
+ */
 class Streams {
   private worker: Worker | null = null;
   private wants: Want[] = [];
@@ -38,7 +41,7 @@ class Streams {
     frames.clear();
   }
 
-  /** From now on wishes are sent; those there are, at once. */
+  /** Sends all present subscriptions, and from now on each change. */
   connect(send: SendSubscription): void {
     this.send = send;
     for (const stream of new Set(this.wants.map((want) => want.stream))) this.announce(stream);

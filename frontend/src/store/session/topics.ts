@@ -2,7 +2,7 @@ import { create } from 'zustand';
 import type { ServerMessage, TopicInfo, TopicMessage, Topics, TypeDescription } from '@/generated/messages';
 import { numberAt } from './fields';
 
-/** A topic that is listened to, with the last message that came. */
+/** An echoed topic with its last message. */
 export interface Echo {
   topic: string;
   /** null until the first message. */
@@ -10,7 +10,7 @@ export interface Echo {
   count: number;
 }
 
-/** A number of a topic's messages over simulated time. */
+/** A numeric field of a topic's messages over simulated time. */
 export interface Series {
   topic: string;
   path: string;
@@ -23,10 +23,10 @@ interface TopicsData {
   /** Whether a list has arrived, to distinguish an empty list from none. */
   isKnown: boolean;
   echoes: Readonly<Record<string, Echo>>;
-  /** Fields that are drawn, in the order in which they were chosen. */
+  /** Plotted fields, in order of selection. */
   plotted: readonly { topic: string; path: string }[];
   descriptions: Readonly<Record<string, TypeDescription>>;
-  /** Counts up with each message that a plot has to draw. */
+  /** Increases with each message that a plot must draw. */
   plotVersion: number;
 }
 
@@ -41,7 +41,7 @@ const EMPTY: TopicsData = {
 
 export const useTopicsStore = create<TopicsData>(() => EMPTY);
 
-/** Samples of one plotted field; at 20 Hz a little more than three minutes. */
+/** The number of samples of a plotted field; at 20 Hz a little more than three minutes. */
 export const MAX_SAMPLES = 4000;
 
 const series = new Map<string, Series>();
@@ -88,7 +88,7 @@ function heard(message: TopicMessage, t: number): void {
 
 function sample({ times, values }: Series, t: number, value: number | null): void {
   const last = times.at(-1);
-  // The world was put back to its start.
+  // The world was reset.
   if (last !== undefined && t < last) {
     times.length = 0;
     values.length = 0;
@@ -140,7 +140,7 @@ export function clearPlots(): void {
   useTopicsStore.setState({ plotted: [] });
 }
 
-/** The session is gone: what was chosen to be heard is kept for the next one, what was heard is not. */
+/** After the end of a session: keeps the chosen topics for the next one, and drops their messages. */
 export function resetTopics(): void {
   series.clear();
   useTopicsStore.setState(({ echoes }) => ({

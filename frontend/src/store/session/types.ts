@@ -13,12 +13,12 @@ import type {
 import type { Connection } from './connectionStates';
 
 export interface LogLine extends Log {
-  /** Counts up within this page; keys the rows of the console. */
+  /** Increases within this page; the key of console rows. */
   id: number;
 }
 
 export interface BlackboardRow extends BlackboardEntry {
-  /** The message that changed it last; a new number makes the row flash. */
+  /** The number of the last message that changed it; a new number makes the row flash. */
   changedAt: number;
 }
 
@@ -31,19 +31,19 @@ export interface SessionData {
   projectId: string | null;
   sessionId: string | null;
   introspection: Introspection | null;
-  /** This page drove the session until another one took over. */
+  /** This page controlled the session until another one took control. */
   wasTakenOver: boolean;
   executor: State;
   executorReason: string;
   progress: Progress | null;
-  /** A Run was pressed and has neither succeeded nor failed yet. */
+  /** Run was pressed and has neither succeeded nor failed yet. */
   isLaunching: boolean;
   tree: TreeNode[];
   blackboard: Record<string, BlackboardRow>;
   logs: LogLine[];
   nextLogId: number;
   faults: Fault[];
-  /** Extra nodes of the project's launch files. */
+  /** The processes of the project's launch files. */
   launchNodes: LaunchNode[];
   finished: Finished | null;
   sim: Sim | null;

@@ -1,4 +1,4 @@
-/** The text that its author sees, and the state of the tree that it was last in step with. */
+/** A text of the user, and the state of the tree with which it was last synchronized. */
 export interface CachedXml {
   readonly text: string;
   readonly agreed: { readonly text: string; readonly ids: readonly string[]; readonly diagram: string };
@@ -6,12 +6,12 @@ export interface CachedXml {
 
 const key = (projectId: string, treeId: string) => `bts.xml.${projectId}.${treeId}`;
 
-/** Keeps a text in the browser: what does not parse yet, and comments, which a tree cannot hold. */
+/** Keeps a text in the browser: unparsable text, and comments, which a tree cannot hold. */
 export function keepXml(projectId: string, treeId: string, kept: CachedXml): void {
   try {
     localStorage.setItem(key(projectId, treeId), JSON.stringify(kept));
   } catch {
-    // The browser's storage is full: the text lives as long as its panel.
+    // The browser's storage is full: the text is lost when its panel closes.
   }
 }
 

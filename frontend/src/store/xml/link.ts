@@ -11,17 +11,17 @@ import { forgetXml, keepXml, cachedXml } from './cache';
 export type XmlState =
   | { readonly kind: 'loading' }
   | { readonly kind: 'inStep'; readonly findings: readonly Diagnostic[] }
-  /** The text was edited; the tree follows in a moment. */
+  /** The text was edited; the tree is updated shortly after. */
   | { readonly kind: 'reading' }
-  /** The text cannot be read; the tree stays as it is. */
+  /** The text cannot be read; the tree stays unchanged. */
   | { readonly kind: 'broken'; readonly findings: readonly Diagnostic[] }
-  /** Both were changed: the user chooses. */
+  /** Text and tree were both changed: the user chooses. */
   | { readonly kind: 'parted' }
   | { readonly kind: 'failed'; readonly reason: string };
 
 export interface XmlSnapshot {
   readonly text: string;
-  /** Of the newest text that was in step. */
+  /** The ranges of the nodes in the last synchronized text. */
   readonly ranges: readonly NodeRange[];
   readonly state: XmlState;
   /** Invalid text of an earlier visit was restored. */
@@ -38,12 +38,12 @@ const READ_AFTER_MS = 350;
 const WRITE_AFTER_MS = 120;
 const RETRY_AFTER_MS = 4000;
 
-/** Keeps the XML of one tree and the tree in step, whichever is edited. */
+/** Synchronizes the XML of one tree with the tree, whichever is edited. */
 export class XmlLink {
   private snapshot: XmlSnapshot = { text: '', ranges: [], state: { kind: 'loading' }, isRestored: false };
   private readonly listeners = new Set<() => void>();
   private agreed: Agreed | null = null;
-  /** The user typed into this text: it is kept in the browser. */
+  /** The user has edited this text, so that it is kept in the browser. */
   private isOwn = false;
   private timer: ReturnType<typeof setTimeout> | undefined;
   private request = 0;
@@ -61,7 +61,7 @@ export class XmlLink {
   };
   readonly get = (): XmlSnapshot => this.snapshot;
 
-  /** Begins to follow the tree, with the text of the last visit where there is one. */
+  /** Starts to follow the tree, with the text of the last visit if there is one. */
   start(): () => void {
     let seen = this.diagram();
     this.unfollow = useProjectStore.subscribe(() => {
@@ -78,7 +78,7 @@ export class XmlLink {
     };
   }
 
-  /** The user has typed. */
+  /** Must be called after each edit of the text by the user. */
   edited(text: string): void {
     this.isOwn = true;
     this.set({ text });
@@ -94,7 +94,7 @@ export class XmlLink {
     this.soon(READ_AFTER_MS, () => void this.read());
   }
 
-  /** Both were changed: the text is to be what the tree becomes. */
+  /** Resolves a conflict: the tree is read from the text. */
   keepText(): void {
     const diagram = this.diagram();
     if (!diagram || !this.agreed) return;
@@ -103,7 +103,7 @@ export class XmlLink {
     void this.read();
   }
 
-  /** Both were changed: the text is generated again from the tree. */
+  /** Resolves a conflict: the text is written from the tree. */
   keepTree(): void {
     if (this.agreed) this.set({ text: this.agreed.text, state: { kind: 'inStep', findings: [] } });
     void this.write();
@@ -152,7 +152,7 @@ export class XmlLink {
     });
   }
 
-  /** The tree was changed, here or elsewhere. */
+  /** Updates the text after a change of the tree. */
   private onTree(): void {
     const now = this.diagram();
     if (!now || this.isApplying || now === this.agreed?.diagram) return;
@@ -179,7 +179,7 @@ export class XmlLink {
       const text = serializeDiagram(diagram);
       const found = await trees
         .write(text, base?.text, base?.ids)
-        // A base that cannot be read any more is left behind.
+        // An unreadable base is dropped: the text is written without it.
         .catch((error: unknown) => (base && isRefusal(error) ? trees.write(text) : Promise.reject(error)));
       if (mine !== this.request) return;
       if (this.diagram() !== diagram) return void this.write();

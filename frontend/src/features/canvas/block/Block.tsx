@@ -27,7 +27,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   const isTarget = useEditorStore((state) => state.slot?.kind === 'onto' && state.slot.parent === id);
   const family = spec?.family ?? null;
   const color: CSSProperties = node.color ? { ['--family' as string]: node.color } : {};
-  // What is folded has its own sign there, and its children would come to be out of sight.
+  // A folded block has a sign of its own there, and a new child would be out of sight.
   const grows = data.canGrow && data.folded === 0;
   const openProblems = () => {
     useProjectStore.getState().select(tree, [id]);
@@ -117,7 +117,7 @@ function BlockView({ id, data, selected, width = 0, height = 0 }: NodeProps<Bloc
   );
 }
 
-/** Position is the wrapper's business: a block renders for its content, its selection and its status. */
+/** The wrapper sets the position: a block renders only for its content, selection and status. */
 export const Block = memo(
   BlockView,
   (a, b) => a.data === b.data && a.selected === b.selected && a.width === b.width && a.height === b.height,

@@ -13,7 +13,7 @@ interface BlockShapeProps {
 
 const TILE = 44;
 
-/** The drawing of a block: outline of its family, coloured side, ring and halo. */
+/** Draws the block: the outline of its family, the coloured side, ring and halo. */
 export function BlockShape({ family, width, height, flash }: BlockShapeProps) {
   const clip = useId();
   const path = outline(family, width, height);

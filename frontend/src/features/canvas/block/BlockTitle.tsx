@@ -13,7 +13,7 @@ interface BlockTitleProps {
   readonly t: TFunction<'canvas'>;
 }
 
-/** Name and type, and the field in which F2 and `/` edit name and comment. */
+/** Name and type; F2 and `/` edit name and comment here. */
 export function BlockTitle({ id, node, t }: BlockTitleProps) {
   const field = useEditorStore((state) => (state.editing?.node === id ? state.editing.field : null));
   const name = displayName(node);

@@ -11,11 +11,11 @@ const MARKS = {
 
 interface StatusMarkProps {
   readonly status: NodeStatus;
-  /** What the node went through within the last tick, where it is idle again. */
+  /** The status that the node had during the last tick, if it is idle again. */
   readonly flash: { readonly status: NodeStatus; readonly count: number } | undefined;
 }
 
-/** A status as an icon in addition to its colour; a passing status is drawn hollow, and fades. */
+/** A status as an icon in addition to its colour; a status of the last tick only is hollow and fades. */
 export function StatusMark({ status, flash }: StatusMarkProps) {
   const isPassing = status === 'IDLE' && flash !== undefined;
   const shown = isPassing ? flash.status : status;

@@ -37,10 +37,12 @@ import { pasteHere } from '../gestures/clipboard';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 import { openQuickAddHere } from '../quickAdd/open';
 
-/** What can be done with a block: a row of the table of commands that the menu of a block has, too. */
+/** A command on blocks: a row of the table of commands that is also in the block's menu. */
 export interface BlockCommand extends UserCommand {
   icon: Icon;
-  /** Its words in the menu of a block or of the free canvas, a key of `canvas:menu`; null where it is not offered. */
+  /**
+   * The key in `canvas:menu` of its label for a block or for the free canvas; null if it is not in the menu.
+   */
   inMenu: (isOnBlock: boolean) => string | null;
 }
 
@@ -254,7 +256,7 @@ export const blockCommands: readonly BlockCommand[] = [
     shortcut: '$mod+Period',
     enabled: () => hasProblem(firstSelected()),
     run: () => {
-      // After the menu has given the focus back.
+      // Waits until the menu has returned the focus.
       setTimeout(() => {
         setEditor({ fixing: firstSelected() ?? null });
       });

@@ -25,7 +25,7 @@ import { fit, fitSelection, isTreeShown, zoomIn, zoomOut, zoomReset } from '../v
 const state = () => useProjectStore.getState();
 const undoStack = () => state().histories[state().activeTree ?? ''];
 const canRedo = () => undoTarget()?.canRedo ?? (undoStack()?.future.length ?? 0) > 0;
-/** A universe or a robot that is in front has steps of its own. */
+/** A universe or a robot in front has its own steps of undo. */
 const undoInFront = () => (undoTarget() ? undoTarget()?.travel('undo') : state().undo());
 const redoInFront = () => (undoTarget() ? undoTarget()?.travel('redo') : state().redo());
 const hasTree = () => activeDiagram() !== null;
@@ -103,7 +103,7 @@ const rows: readonly UserCommand[] = [
   })),
 ];
 
-/** Figma's keys for the same. */
+/** The same keys as in Figma. */
 export const FIT_KEYS = { all: 'Shift+Digit1', selection: 'Shift+Digit2' } as const;
 
 const views: readonly UserCommand[] = [
@@ -161,7 +161,7 @@ const views: readonly UserCommand[] = [
   },
 ];
 
-/** Adds the editor's commands to the table, and the clipboard's; the returned function takes them out again. */
+/** Registers the editor's commands and the clipboard's; the returned function removes them. */
 export function registerCanvasCommands(): () => void {
   const ends = [registerCommands([...rows, ...blockCommands, ...views]), followClipboard()];
   return () => ends.forEach((end) => end());

@@ -8,7 +8,7 @@ import { useProjectStore } from '@/store/project';
 /** The block that keys and menus act on. */
 export const firstSelected = (): NodeId | undefined => useProjectStore.getState().selection[0];
 
-/** Opens what a block stands for: the code of an action, the tree of a subtree, else its name. */
+/** Opens the block's document: the code of an action or the tree of a subtree; otherwise edits its name. */
 export function openBlock(diagram: Diagram, id: NodeId): void {
   const node = diagram.nodes[id];
   if (!node) return;
@@ -18,13 +18,13 @@ export function openBlock(diagram: Diagram, id: NodeId): void {
   else setEditor({ editing: { node: id, field: 'name' } });
 }
 
-/** Writes the selected block's name or comment where it stands. */
+/** Edits the selected block's name or comment in the block. */
 export function editSelected(field: 'name' | 'comment'): void {
   const node = firstSelected();
   if (node !== undefined) setEditor({ editing: { node, field } });
 }
 
-/** Folds the selected block's children away, or shows them again. */
+/** Folds or unfolds the children of the selected block. */
 export function toggleFolded(): void {
   const id = firstSelected();
   const diagram = activeDiagram();
@@ -33,7 +33,7 @@ export function toggleFolded(): void {
   change(folded ? 'unfold' : 'fold', [setCollapsed(id, !folded)]);
 }
 
-/** Shows the subtree that the selected block stands for in its place, or no longer. */
+/** Expands or collapses the subtree of the selected block in place. */
 export function toggleInside(): void {
   const id = firstSelected();
   const diagram = activeDiagram();

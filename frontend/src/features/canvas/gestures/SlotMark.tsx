@@ -3,7 +3,7 @@ import { ViewportPortal } from '@xyflow/react';
 import { useEditorStore } from '@/store/project/editor';
 import classes from '../Canvas.module.css';
 
-/** The insertion mark: where a dragged block will go. */
+/** The insertion mark: shows where a dragged block will be placed. */
 export const SlotMark = memo(function SlotMark() {
   const slot = useEditorStore((state) => state.slot);
   if (slot?.kind !== 'between') return null;

@@ -4,12 +4,12 @@ import { clipboardText, copiedText, pasteText } from '@/store/project/edits/clip
 import { deleteSelection } from '@/store/project/edits/blocks';
 import { isOnCanvas, isTreeInFront } from '../inFront';
 
-/** Pastes what was copied here or elsewhere; a text that holds no blocks is said to be none. */
+/** Pastes blocks that were copied here or elsewhere; notifies the user if the text contains no blocks. */
 function pasteOrTell(text: string): void {
   if (!pasteText(text)) notifications.show({ color: 'yellow', message: t('canvas:pastesNothing') });
 }
 
-/** The same from a menu, where no event brings the text. */
+/** Pastes from a menu, where no event carries the text. */
 export async function pasteHere(): Promise<void> {
   pasteOrTell(await clipboardText());
 }
@@ -20,7 +20,7 @@ function copyTo(clipboard: DataTransfer): boolean {
   return text !== null;
 }
 
-/** The handler of each event; false: there was nothing to copy or paste. */
+/** The handler of each event; it returns false if there was nothing to copy or paste. */
 const HANDLERS = {
   copy: copyTo,
   cut: (clipboard: DataTransfer): boolean => {
@@ -38,8 +38,9 @@ const isTextField = (element: Element | null): boolean =>
   element?.matches('input, textarea, [contenteditable=true]') === true;
 
 /**
- * Whether blocks are meant: the canvas has the focus, or nothing has and no words are marked.
- * The browser sends these events to where the caret was left, which may be the tab that was pressed before.
+ * Whether the clipboard event is for blocks: the canvas has the focus, or nothing has it and no text is
+ * selected. Browsers send such events to the last place of the caret, which may be a tab that was pressed
+ * before.
  */
 function areBlocksMeant(event: Event): boolean {
   const { activeElement, body } = document;
@@ -47,7 +48,9 @@ function areBlocksMeant(event: Event): boolean {
   return activeElement === body && event.target === body && isTreeInFront();
 }
 
-/** Copy, cut and paste by the browser's own events: they need no permission, unlike reading at will. */
+/**
+ * Handles copy, cut and paste by the browser's events: these need no permission, unlike the clipboard API.
+ */
 export function followClipboard(): () => void {
   const listening = new AbortController();
   for (const [type, act] of Object.entries(HANDLERS) as [keyof typeof HANDLERS, typeof copyTo][]) {

@@ -11,9 +11,9 @@ interface DraggedBlocks {
 export const useDraggedBlocks = create<DraggedBlocks>(() => ({ tops: new Set(), dx: 0, dy: 0 }));
 
 /**
- * Moves dragged blocks with the pointer. The browser moves what is drawn, by the property
- * `translate`, which React does not set: no block renders, however many are moved and however large
- * the tree is. Blocks that come into view on the way are found, since each step queries the page again.
+ * Moves dragged blocks with the pointer. It sets the CSS property `translate`, which React does not set, on
+ * the drawn elements: no block renders, however many move and however large the tree is. Each step queries
+ * the page again and so includes blocks that come into view.
  */
 export class BlockDrag {
   constructor(

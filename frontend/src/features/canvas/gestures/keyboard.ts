@@ -15,18 +15,18 @@ import { useProjectStore } from '@/store/project';
 import { editSelected, openBlock, toggleFolded, toggleInside } from '../commands/selectedBlock';
 import { openQuickAddHere } from '../quickAdd/open';
 
-/** What presses a button that has the focus, or leaves it. */
+/** Keys that press a focused button or move the focus. */
 const PRESSES: ReadonlySet<string> = new Set(['Enter', ' ', 'Tab']);
 
 type Direction = 'up' | 'down' | 'before' | 'after';
 
-/** Arrow keys as the eye sees them: in a left-right layout a parent is to the left. */
+/** Arrow keys by their direction on the screen: in a left-right layout a parent is to the left. */
 const DIRECTIONS: Record<Diagram['layout'], Readonly<Record<string, Direction>>> = {
   vertical: { ArrowUp: 'up', ArrowDown: 'down', ArrowLeft: 'before', ArrowRight: 'after' },
   horizontal: { ArrowLeft: 'up', ArrowRight: 'down', ArrowUp: 'before', ArrowDown: 'after' },
 };
 
-/** The block beside, above or below; beyond the last sibling, the nearest cousin. */
+/** The next block in a direction: a sibling, or beyond the last sibling the nearest cousin. */
 export function neighbour(diagram: Diagram, id: NodeId, direction: Direction): NodeId | null {
   if (direction === 'up') return parentOf(diagram, id);
   if (direction === 'down') return visibleChildren(diagram, id)[0] ?? null;
@@ -52,17 +52,17 @@ function walk(diagram: Diagram, id: NodeId | undefined, direction: Direction, ex
   const { select, selection } = useProjectStore.getState();
   const next = id === undefined ? diagram.root : neighbour(diagram, id, direction);
   if (next === null) return;
-  // The block that was walked to comes first: keys act on it.
+  // The new block comes first, since keys act on the first one.
   select(diagram.id, extend ? [next, ...selection.filter((other) => other !== next)] : [next]);
 }
 
-/** Goes to the tree that a block seen inside of a SubTree belongs to. */
+/** Opens the tree of a block that is shown inside of a SubTree. */
 export function enterInside({ tree, node }: Inside): void {
   openTree(tree);
   useProjectStore.getState().reveal(tree, node);
 }
 
-/** Keys on a selected block; true when the key was handled here. */
+/** Handles keys on a selected block; returns true if it handled the key. */
 function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean {
   switch (event.key) {
     case 'Tab':
@@ -93,14 +93,14 @@ function onBlockKey(event: KeyboardEvent, diagram: Diagram, id: NodeId): boolean
   }
 }
 
-/** The key of the right mouse button's menu, and what keyboards without it have. */
+/** The context menu key, and Shift+F10 for keyboards without one. */
 export const isMenuKey = ({ key, shiftKey }: KeyboardEvent): boolean =>
   key === 'ContextMenu' || (key === 'F10' && shiftKey);
 
-/** The canvas's own keys; those with Ctrl that the whole frame has are in the table of commands. */
+/** Handles keys of the canvas; keys with Ctrl that apply to the whole page are in the table of commands. */
 export function onCanvasKey(event: KeyboardEvent): void {
   const target = event.target as HTMLElement;
-  // A menu stands elsewhere in the page, though React tells of its keys here, too.
+  // React also delivers the key events of a menu, which is elsewhere in the DOM.
   if (!event.currentTarget.contains(target)) return;
   if (target.matches('input, textarea, select, [contenteditable=true]')) return;
   if (target.matches('button') && PRESSES.has(event.key)) return;
@@ -116,7 +116,7 @@ export function onCanvasKey(event: KeyboardEvent): void {
     else walk(diagram, id, direction, event.shiftKey);
   } else if (event.key === 'Home' && diagram.root !== null) select(diagram.id, [diagram.root]);
   else if (event.key === 'Escape') {
-    // With nothing to leave, the key is for the frame.
+    // If there is nothing to leave, the page handles the key.
     done = selection.length > 0;
     select(diagram.id, []);
   } else if (id !== undefined && onBlockKey(event, diagram, id)) done = true;

@@ -6,7 +6,7 @@ import { connect } from '@/store/project/edits/blocks';
 import { openQuickAdd, openQuickAddBelow } from '../quickAdd/open';
 import type { TreeOnCanvas } from '../useTree';
 
-/** Drawing connections by hand; one that ends on empty canvas asks what to put there. */
+/** Connects blocks by hand; a connection that ends on the empty canvas opens the quick-add box. */
 export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
   const flow = useReactFlow();
 
@@ -31,7 +31,7 @@ export function useConnecting({ diagram, vocabulary }: TreeOnCanvas) {
         ?.closest('.react-flow__node')
         ?.getAttribute('data-id');
       if (target && target !== from) {
-        // Dropped on the body of a block: it need not be the small handle.
+        // Dropped on the body of a block: the target need not be the small handle.
         if (state.fromHandle?.type === 'source' && !isWithin(diagram, from, target)) connect(from, target);
         else if (state.fromHandle?.type === 'target') connect(target, from);
         return;

@@ -11,19 +11,19 @@ import { BlockDrag } from './draggedBlocks';
 import type { BlockNode } from '../flow';
 import type { TreeOnCanvas } from '../useTree';
 
-/** A smaller move is a click, since hands tremble. */
+/** A smaller movement counts as a click, since hands tremble. */
 const DEAD_ZONE = 6;
 
-/** Computed once at the start of a drag, for all moves of the pointer. */
+/** Values that are computed once at the start of a drag. */
 interface Grip {
   readonly hand: BlockDrag;
-  /** The blocks in the hand that are below none of the others, in execution order. */
+  /** The dragged blocks that are below no other dragged block, in execution order. */
   readonly tops: readonly NodeId[];
   readonly layout: unknown;
   readonly findSlot: SlotFinder;
 }
 
-/** Moving blocks by hand: into a slot of the tree, or to a position of their own. Alt copies. */
+/** Drags blocks into a slot of the tree or to a free position. Alt copies them. */
 export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | null>) {
   const flow = useReactFlow();
   const grip = useRef<Grip | null>(null);
@@ -54,7 +54,7 @@ export function useDragging(tree: TreeOnCanvas, canvas: RefObject<HTMLElement | 
   }, []);
   useEffect(() => letGo, [letGo]);
 
-  /** Copies come in addition to what hangs there; what is moved leaves its place first. */
+  /** A copy is added to the children that are there; a moved block leaves its place first. */
   const allows = useCallback(
     (slot: Slot, tops: readonly NodeId[], isCopy: boolean): boolean =>
       isCopy ? hasRoom(diagram, slot.parent, vocabulary, tops.length) : !isSamePlace(diagram, tops, slot),

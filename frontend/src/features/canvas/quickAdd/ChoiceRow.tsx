@@ -17,7 +17,7 @@ export function ChoiceRow({ id, choice, isActive, onChoose }: ChoiceRowProps) {
         tabIndex={-1}
         className={classes['choice']}
         onPointerDown={(event) => {
-          // Before the search box loses the focus, which would close the list.
+          // Keeps the focus in the search box, whose blur would close the list.
           event.preventDefault();
           onChoose();
         }}

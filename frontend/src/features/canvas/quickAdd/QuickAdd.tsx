@@ -21,27 +21,27 @@ function purposeOf({ goal }: QuickAddState): Purpose {
   }
 }
 
-/** A name that is a question is probably a condition: that choice comes first. */
+/** A name that is a question is probably a condition: then conditions come first. */
 function kindsFor(name: string): readonly ActionKind[] {
   return /^(is|has|can|check)([A-Z_]|$)/i.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
 }
 
 interface QuickAddProps {
   readonly request: QuickAddState;
-  /** Returns the focus to the canvas. */
+  /** Called on closing; must return the focus to the canvas. */
   readonly onClose: () => void;
 }
 
 const WIDTH = 340;
 const HEIGHT = 380;
 
-/** A search box at the place of the future block, listing what is legal there. */
+/** A search box at the place of the new block; it lists the blocks that are allowed there. */
 export function QuickAdd({ request, onClose }: QuickAddProps) {
   const { t } = useTranslation('canvas');
   const diagram = useProjectStore((state) => state.diagrams[request.tree]);
   const vocabulary = useProjectStore((state) => state.vocabulary);
   const [search, setSearch] = useState(request.text);
-  /** Null until the user moves: then the most likely choice. */
+  /** The chosen row; null until the user moves: then the most likely one. */
   const [index, setIndex] = useState<number | null>(null);
   const list = useRef<HTMLDivElement>(null);
   const field = useRef<HTMLInputElement>(null);
@@ -61,7 +61,7 @@ export function QuickAdd({ request, onClose }: QuickAddProps) {
   const canCreate = request.goal.does === 'add' && isPythonName(search) && !vocabulary.specs.has(search);
   const made = canCreate ? kindsFor(search) : [];
   const count = found.length + made.length;
-  // A name that no block has means a new action, even if a description contains the word.
+  // A name that no block has is a new action, even if a description contains the word.
   const least = /^[A-Z]/.test(search) ? 3 : 1;
   const isNamed = found.some(({ label }) => matchScore(label, search) >= least);
   const likely = made.length > 0 && !isNamed ? found.length : 0;

@@ -6,7 +6,7 @@ interface Answer {
   readonly error?: { readonly code?: unknown };
 }
 
-/** A request that later typing made obsolete has no answer; no error is shown. */
+/** Suppresses the error of a request that later typing has made obsolete. */
 export function withoutOutdated(message: string): string {
   if (!message.includes('"error"')) return message;
   const answer = JSON.parse(message) as Answer;

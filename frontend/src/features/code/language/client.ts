@@ -21,9 +21,12 @@ import { ProjectWorkspace } from './workspace';
 const SEVERITIES = ['error', 'error', 'warning', 'info', 'info'] as const;
 const RETRY_AFTER_MS = [500, 2000, 8000, 30_000] as const;
 const SYNC_AFTER_MS = 700;
-/** The first answer waits until the server has read rclpy and all messages, which a busy machine takes its time for. */
+/**
+ * The first answer waits until the server has read rclpy and all messages, which takes long on a busy
+ * machine.
+ */
 const ANSWER_WITHIN_MS = 60_000;
-/** A server that lived this long was healthy: its end resets the count of retries. */
+/** A server that lived this long was healthy: when it ends, the count of retries starts again. */
 const WELL_AFTER_MS = 30_000;
 
 interface Published {
@@ -76,7 +79,7 @@ function makeClient(): LSPClient {
 
 const setState = (state: LanguageState) => useLanguageStore.setState({ state });
 
-/** The one connection of this page: opened with the first Python file, reopened when it breaks. */
+/** The page's only connection: opened with the first Python file, reopened when it breaks. */
 class Connection {
   readonly client = makeClient();
   private socket: { close(): void } | null = null;
@@ -99,7 +102,7 @@ class Connection {
     this.open();
   }
 
-  /** Brings unsaved texts to the server; connects again when it had gone for lack of work. */
+  /** Sends unsaved texts to the server; connects again if the server has stopped because it was idle. */
   wake(): void {
     if (this.socket === null && useLanguageStore.getState().state.kind === 'off') this.open();
     else if (this.client.serverCapabilities) this.client.sync();
@@ -165,7 +168,7 @@ class Connection {
 
 let connection: Connection | null = null;
 
-/** The extensions that give a Python editor language support; all editors share the connection. */
+/** The extensions that connect a Python editor to the language server; all editors share the connection. */
 export function languageSupport(path: string): Extension {
   const { projectId } = useProjectStore.getState();
   if (!projectId || !path.endsWith('.py')) return [];
@@ -181,7 +184,7 @@ export function retryLanguage(): void {
   connection?.retry();
 }
 
-/** For the end of the page of a project. */
+/** Called when the page of a project closes. */
 function leaveLanguage(): void {
   connection?.end();
   connection = null;

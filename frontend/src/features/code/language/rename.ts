@@ -15,7 +15,7 @@ interface TextEdit {
   readonly newText: string;
 }
 
-/** Renames what the cursor is on, in every file of the project. */
+/** Renames the symbol at the cursor in every file of the project. */
 export const renameSymbol: Command = (view) => {
   const word = view.state.wordAt(view.state.selection.main.head);
   const plugin = LSPPlugin.get(view);
@@ -79,7 +79,7 @@ async function rename(view: EditorView, at: number, before: string, after: strin
   }
 }
 
-/** An action is called as its file: when its class was renamed, its file and its blocks are, too. */
+/** An action has the name of its file: when its class is renamed, its file and its blocks are renamed too. */
 function renameActionToo(uris: readonly string[], before: string, after: string): void {
   const { files, currentText, renameAction } = useProjectStore.getState();
   const path = actionPath(before);

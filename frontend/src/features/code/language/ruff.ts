@@ -15,7 +15,7 @@ export function setFormatsOnSave(on: boolean): void {
   localStorage.setItem(KEY, on ? 'on' : 'off');
 }
 
-/** Ruff counts code points, the editor UTF-16 units. */
+/** Converts a place to an offset: ruff counts code points, the editor UTF-16 units. */
 export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
   if (line > doc.lines) return doc.length;
   const { from, text } = doc.line(Math.max(line, 1));
@@ -23,10 +23,13 @@ export function offsetOf(doc: Text, { line, column }: PythonPlace): number {
   return from + units;
 }
 
-/** Texts that have little in common are not compared further: the user waits for the result. */
+/**
+ * Limits of the comparison, since the user waits for the result: texts with little in common are not compared
+ * further.
+ */
 const COARSE = { scanLimit: 1000, timeout: 100 };
 
-/** The changes that make one text of another, so that cursors and marks stay where they are. */
+/** The changes between two texts, so that cursors and marks keep their places. */
 export function changesBetween(before: string, after: string): ChangeSpec[] {
   return diff(before, after, COARSE).map(({ fromA, toA, fromB, toB }) => ({
     from: fromA,
@@ -36,8 +39,8 @@ export function changesBetween(before: string, after: string): ChangeSpec[] {
 }
 
 /**
- * Formats the text as ruff does, as one step that undo takes back. A text with a syntax error, or one that
- * changed meanwhile, stays as it is.
+ * Formats the text with ruff, as one step of undo. A text with a syntax error, or one that changed meanwhile,
+ * stays unchanged.
  */
 export async function formatPython(view: EditorView, path: string, how: 'asked' | 'saving'): Promise<void> {
   const before = view.state.doc;

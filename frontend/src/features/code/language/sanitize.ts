@@ -25,7 +25,7 @@ function clean(node: Element): void {
   }
 }
 
-/** Documentation comes from docstrings of unknown authors: only text and markup pass, nothing active. */
+/** Sanitizes HTML of docstrings, whose authors are unknown: text and markup pass, active content does not. */
 export function sanitizeHtml(html: string): string {
   const { body } = new DOMParser().parseFromString(html, 'text/html');
   clean(body);

@@ -1,4 +1,4 @@
-/** The server's URIs for the project's files; their folder on its machine stays hidden. */
+/** The root of the URIs of the project's files; the real folder on the server stays hidden. */
 const PROJECT = 'file:///project/';
 const LIBRARY = 'file:///library/';
 
@@ -7,6 +7,6 @@ export const uriOf = (path: string): string => PROJECT + path.split('/').map(enc
 export const pathOf = (uri: string): string | null =>
   uri.startsWith(PROJECT) ? decodeURIComponent(uri.slice(PROJECT.length)) : null;
 
-/** The module of a library that an address names, for people. */
+/** The name of the library module that a URI stands for. */
 export const libraryOf = (uri: string): string | null =>
   uri.startsWith(LIBRARY) ? decodeURIComponent(uri.slice(LIBRARY.length)) : null;

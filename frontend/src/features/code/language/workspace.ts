@@ -8,7 +8,7 @@ import { libraryOf, pathOf, uriOf } from './uris';
 type WorkspaceFile = Workspace['files'][number];
 type Update = ReturnType<Workspace['syncFiles']>[number];
 
-/** More than these are read from their saved state only. */
+/** Further files are sent in their saved state only. */
 const MAX_FILES = 200;
 
 class ProjectFile implements WorkspaceFile {
@@ -41,8 +41,8 @@ const pythonFiles = (): string[] =>
     .slice(0, MAX_FILES);
 
 /**
- * All Python files of the project, whether an editor shows them or not: what is typed and not saved is
- * known in every file, and renaming reaches all of them.
+ * All Python files of the project, whether or not an editor shows them: the server knows unsaved text in
+ * each, and a rename reaches all.
  */
 export class ProjectWorkspace extends Workspace {
   files: ProjectFile[] = [];
@@ -80,7 +80,7 @@ export class ProjectWorkspace extends Workspace {
   override connected(): void {
     this.reconcile();
     for (const file of this.files) {
-      // Text that was typed while there was no server is in the editors.
+      // The editors hold text that was typed while the server was not running.
       file.doc = file.getView()?.state.doc ?? textOf(file.path) ?? file.doc;
       const view = file.getView();
       if (view) LSPPlugin.get(view)?.clear();
@@ -122,7 +122,7 @@ export class ProjectWorkspace extends Workspace {
     return file;
   }
 
-  /** Files that were made, renamed or deleted since. */
+  /** Adds and removes files that were created, renamed or deleted since the last call. */
   private reconcile(): void {
     const paths = new Set(pythonFiles());
     for (const path of paths) {

@@ -13,20 +13,20 @@ import { DRAGGED } from '../PlaceButton';
 
 interface EditorCanvasProps {
   readonly label: string;
-  /** The replacement of the view without WebGL. */
+  /** The text that replaces the view in browsers without WebGL. */
   readonly noWebGl: string;
   readonly testId: string;
   readonly count: number;
   readonly near: number;
   readonly onKey: (event: KeyboardEvent) => void;
-  /** Something of the palette was let go over the view. */
+  /** Called when something from the palette is dropped on the view. */
   readonly onDropped: (what: unknown, at: Point | undefined) => void;
   readonly stage: (isDark: boolean) => ReactNode;
-  /** Elements above the view. */
+  /** Elements on top of the view. */
   readonly children: ReactNode;
 }
 
-/** A document in 3D, as one control with keys of its own. */
+/** The 3D view of a document, one focusable control with its own keys. */
 export function EditorCanvas(props: EditorCanvasProps) {
   const view = useRef<HTMLDivElement>(null);
   const camera = useRef<THREE.Camera | null>(null);

@@ -19,26 +19,26 @@ export function setThingPose(node: THREE.Object3D, [x, y, z, roll, pitch, yaw]: 
   node.scale.set(1, 1, 1);
 }
 
-/** Where the gizmo stands, and what can be done there. */
+/** The pose of the gizmo, and the operations that it offers there. */
 export interface Stand {
   readonly pose: Pose;
   readonly mode: Mode;
-  /** Turns about all axes, not only about the upright one. */
+  /** Rotates about all axes, not only about the vertical one. */
   readonly turnsFreely: boolean;
-  /** Moves over the floor only. */
+  /** Moves along the floor only. */
   readonly isFlat: boolean;
   readonly grid: number;
 }
 
-/** The effects of the gizmo on the things of an editor. */
+/** The results of the gizmo's gestures on an editor's things. */
 export interface Handles {
-  /** Null: nothing that can be moved is selected. */
+  /** Null: the selection contains nothing that can be moved. */
   stand(): Stand | null;
   /** The objects that follow the gizmo while it is dragged. */
   held(): readonly THREE.Object3D[];
-  /** Applies the gesture; `start` is the pose of the gizmo before it. */
+  /** Applies the gesture; `start` is the gizmo's pose before it. */
   commit(mode: Mode, pivot: THREE.Object3D, start: THREE.Matrix4): void;
-  /** Draws everything as it is written. */
+  /** Draws all things as they are in the document. */
   show(): void;
 }
 
@@ -47,7 +47,7 @@ interface On {
   readonly hold: (isHeld: boolean) => void;
 }
 
-/** Arrows, rings and boxes by which the selected things are moved, turned and stretched. */
+/** Arrows, rings and boxes that move, rotate and scale the selected things. */
 export class Gizmo {
   readonly controls: TransformControls;
   readonly root: THREE.Object3D;
@@ -93,7 +93,7 @@ export class Gizmo {
     this.controls.setTranslationSnap(grid || null);
     this.controls.setRotationSnap(grid ? TURN_STEP : null);
     this.controls.attach(this.pivot);
-    // Handles can be grabbed at their new place even before they are drawn there.
+    // The handles must be grabbable at the new place even before the next frame is drawn.
     this.controls.getHelper().updateMatrixWorld(true);
   }
 
@@ -137,7 +137,7 @@ export class Gizmo {
     this.held = [];
     if (held === 0) return;
     this.handles.commit(OF[this.controls.getMode()], this.pivot, this.start);
-    // A gesture that was refused, or had no effect, is drawn without its change.
+    // Undoes the drawn change of a gesture that was refused or had no effect.
     this.handles.show();
     this.update();
   }

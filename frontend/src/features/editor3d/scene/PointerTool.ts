@@ -7,23 +7,26 @@ import type { ThingScene } from './ThingScene';
 
 const CLICK_PX = 4;
 
-/** What can be dragged over the floor. */
+/** Things that can be dragged over the floor. */
 interface Load {
   readonly keys: readonly string[];
-  /** Where the thing under the pointer is: its place falls on the grid, and the others follow. */
+  /**
+   * The position of the thing under the pointer: it snaps to the grid, and the others move by the same
+   * offset.
+   */
   readonly anchor: Point;
   readonly nodes: readonly THREE.Object3D[];
 }
 
-/** The effects of the pointer on the things of an editor. */
+/** The results of the pointer's gestures on an editor's things. */
 export interface DragHandler {
-  /** Null: what is under the pointer stays where it is. */
+  /** Null: the thing under the pointer cannot be dragged. */
   take(hit: Aimed): Load | null;
   drop(keys: readonly string[], by: Point): void;
   click(hit: Aimed | null, isAdding: boolean): void;
 }
 
-/** Something that is drawn point by point, in place of selecting. */
+/** A tool that draws something point by point; it replaces selecting. */
 export interface Drawing {
   isOn(): boolean;
   move(point: Point): void;
@@ -39,7 +42,7 @@ interface Parts {
   readonly drawing?: Drawing;
   readonly camera: THREE.Camera;
   readonly canvas: HTMLElement;
-  /** Whether the gizmo has the pointer. */
+  /** Whether the gizmo handles the pointer at the moment. */
   readonly isTaken: () => boolean;
   readonly hold: (isHeld: boolean) => void;
   readonly redraw: () => void;
@@ -52,7 +55,7 @@ interface Dragging extends Load {
   offset: Point;
 }
 
-/** The pointer on the floor plan: selects, drags, and draws. */
+/** The pointer on the floor plan: selects, drags and draws. */
 export class PointerTool {
   private pressed: { x: number; y: number; isFree: boolean } | null = null;
   private dragging: Dragging | null = null;

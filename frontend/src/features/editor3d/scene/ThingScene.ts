@@ -10,7 +10,7 @@ import { box } from './marks';
 const PENDING = [0.6, 0.62, 0.66, 0.5];
 const FAILED = [0.85, 0.25, 0.22, 0.6];
 
-/** `#rrggbb` or `#rrggbbaa` as parts from 0 to 1. */
+/** The parts of `#rrggbb` or `#rrggbbaa`, each from 0 to 1. */
 export function rgba(color: string): number[] {
   const parts = [1, 3, 5, 7].map((at) => parseInt(color.slice(at, at + 2), 16) / 255);
   return parts.map((part, index) => (Number.isNaN(part) ? (index === 3 ? 1 : 0.6) : part));
@@ -21,7 +21,7 @@ interface Drawn {
   readonly said: string;
 }
 
-/** What can be selected in an editor, as three.js draws it; kept outside React, and changed thing by thing. */
+/** The three.js objects of an editor's things; kept outside of React, and updated one by one. */
 export abstract class ThingScene<T extends { readonly key: string }> {
   readonly group = new THREE.Group();
   readonly bounds = new THREE.Box3();
@@ -40,11 +40,11 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     });
   }
 
-  /** The state of a thing's drawing beyond its value: whether its files have arrived. */
+  /** Further state that a thing's drawing depends on, such as whether its files have arrived. */
   protected abstract stateOf(thing: T): unknown;
   /** Draws a thing into its node. */
   protected abstract fill(node: THREE.Group, thing: T): void;
-  /** Puts a node where its thing is. */
+  /** Sets the pose of a thing's node. */
   protected abstract put(node: THREE.Group, thing: T): void;
 
   /** Draws the changed things; the objects of the others stay. */
@@ -72,7 +72,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     this.mark(this.selected);
   }
 
-  /** Draws again what is shown: something of it may have arrived. */
+  /** Draws the present things again after assets have arrived. */
   protected again(): void {
     this.show(this.things);
   }
@@ -81,7 +81,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return this.drawn.get(key)?.node;
   }
 
-  /** The key of the thing that something drawn is a part of. */
+  /** The key of the thing that a drawn object belongs to. */
   keyOf(part: THREE.Object3D): string | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const key: unknown = at.userData['thing'];
@@ -101,7 +101,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return bounds;
   }
 
-  /** Draws frames around the selection. */
+  /** Draws frames around the selected things. */
   mark(selection: readonly string[]): void {
     this.selected = selection;
     for (const [key, { node }] of this.drawn) {
@@ -131,7 +131,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     return mesh;
   }
 
-  /** Shapes that may be on their way; in their place stands a box of this size in m. */
+  /** Adds shapes, or a box of this size in m until they have arrived. */
   protected addShapes(node: THREE.Group, { value, failed }: Fetched<Shape[]>, size: number): void {
     if (!value) {
       node.add(box(size, failed ? FAILED : PENDING));
@@ -155,7 +155,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
     node.add(mesh);
   }
 
-  /** Whether shapes and their meshes have arrived, as a text. */
+  /** A text that changes when shapes or their meshes arrive. */
   protected arrivals(entry: Fetched<Shape[]>): string {
     const meshes = (entry.value ?? [])
       .filter(({ mesh }) => mesh)
@@ -174,7 +174,7 @@ export abstract class ThingScene<T extends { readonly key: string }> {
   }
 }
 
-/** A copy of a mesh that says where in a picture its triangles are; in m while it is painted. */
+/** A copy of a mesh with texture coordinates; its vertices are in m while they are computed. */
 function painted(
   mesh: THREE.BufferGeometry,
   { size }: Shape,

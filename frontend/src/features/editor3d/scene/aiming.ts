@@ -7,7 +7,7 @@ const ray = new THREE.Raycaster();
 export interface Aimed {
   readonly key: string;
   readonly height: number;
-  /** The point of a way that is under the pointer. */
+  /** The index of the waypoint under the pointer. */
   readonly waypoint: number | null;
 }
 
@@ -29,7 +29,7 @@ export function thingAt(
 ): Aimed | null {
   aim(event, canvas, camera);
   const hits = ray.intersectObject(scene.group).filter(({ object }) => object.visible);
-  // A handle is small and lies on the floor: it goes before what is in front of it.
+  // A handle is small and lies on the floor: it takes precedence over objects in front of it.
   const hit = hits.find(({ object }) => object.userData['waypoint'] !== undefined) ?? hits[0];
   const key = hit ? scene.keyOf(hit.object) : null;
   if (!hit || key === null) return null;
@@ -37,7 +37,7 @@ export function thingAt(
   return { key, height: hit.point.z, waypoint: typeof waypoint === 'number' ? waypoint : null };
 }
 
-/** Where the pointer is at a height over the floor. */
+/** The pointer's position at a height above the floor. */
 export function pointAt(event: At, canvas: HTMLElement, camera: THREE.Camera, height = 0): Point | null {
   aim(event, canvas, camera);
   const plane = new THREE.Plane(new THREE.Vector3(0, 0, 1), -height);
@@ -52,10 +52,10 @@ const FORWARD: readonly Point[] = [
   [0, -1],
 ];
 
-/** The axis of the world that points most away from the camera. */
+/** The world axis that points most away from the camera. */
 export function forwardOf(camera: THREE.Camera): Point {
   const ahead = camera.getWorldDirection(new THREE.Vector3());
-  // From straight above, what is up on the screen is ahead.
+  // Seen from straight above, the upper edge of the screen is ahead.
   if (Math.hypot(ahead.x, ahead.y) < 0.05) ahead.set(0, 1, 0).applyQuaternion(camera.quaternion);
   return FORWARD.reduce((best, axis) =>
     axis[0] * ahead.x + axis[1] * ahead.y > best[0] * ahead.x + best[1] * ahead.y ? axis : best,

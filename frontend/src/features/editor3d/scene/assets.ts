@@ -6,10 +6,10 @@ import { fileUrl } from '@/store/saving/binary';
 import { readMesh } from './meshes';
 import { urdfShapes } from './urdf';
 
-/** A fetched object to draw: null while it is loading, or if it is not available. */
+/** A fetched object to draw: null while it loads, or if it is not available. */
 export type Fetched<T> = { value: T | null; failed: boolean };
 
-/** Meshes and robots that a universe names, fetched once; `onArrival` tells that there is more to draw. */
+/** Meshes and robots of a universe, each fetched once; `onArrival` is called when one has arrived. */
 export class Assets {
   private readonly meshes = new Map<string, Fetched<THREE.BufferGeometry>>();
   private readonly models = new Map<string, Fetched<Shape[]>>();
@@ -26,7 +26,7 @@ export class Assets {
     });
   }
 
-  /** What a robot looks like: one of the project's own, or one that we ship. */
+  /** The shapes of a robot: one of the project, or one of ours. */
   robot(id: string): Fetched<Shape[]> {
     return this.fetched(this.models, `robot:${id}`, async () => {
       const own = ownUrdf(id);
@@ -35,7 +35,7 @@ export class Assets {
     });
   }
 
-  /** What a URDF of the project looks like. */
+  /** The shapes of a URDF in the project. */
   model(path: string): Fetched<Shape[]> {
     return this.fetched(this.models, path, () => {
       const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
@@ -67,13 +67,13 @@ export class Assets {
   }
 }
 
-/** The URDF of a robot of the project, if there is one that can be read as it stands. */
+/** The URDF of a robot in the project; undefined if it cannot be read in its present form. */
 function ownUrdf(id: string): string | undefined {
   const { files } = useProjectStore.getState();
   return Object.keys(files).find((path) => path.startsWith(`robots/${id}/`) && path.endsWith('.urdf'));
 }
 
-/** Shapes whose meshes are paths in the project. */
+/** Shapes with their mesh names resolved to paths in the project. */
 function resolved(shapes: Shape[] | null, urdf: string): Shape[] {
   if (!shapes) throw new Error('no URDF');
   const folder = urdf.slice(0, urdf.lastIndexOf('/') + 1);

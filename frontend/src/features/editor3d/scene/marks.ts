@@ -4,14 +4,14 @@ import type { ActorThing } from '@/model/universe/types';
 const ACCENT = 0x6f7dff;
 const CHOSEN = 0xff9f1a;
 
-/** Marks are not a part of the thing: the pointer ignores them. */
+/** The pointer ignores marks, since they are not a part of the thing. */
 const untouchable = <T extends THREE.Object3D>(object: T): T => {
   object.raycast = () => undefined;
   object.userData['isOwn'] = true;
   return object;
 };
 
-/** A box in place of something that is not there yet. */
+/** A placeholder box for shapes that have not arrived. */
 export function box(size: number, [r = 0, g = 0, b = 0, a = 1]: readonly number[]): THREE.Mesh {
   const color = new THREE.Color().setRGB(r, g, b, THREE.SRGBColorSpace);
   const mesh = new THREE.Mesh(
@@ -23,7 +23,7 @@ export function box(size: number, [r = 0, g = 0, b = 0, a = 1]: readonly number[
   return mesh;
 }
 
-/** The edges of the box round all that a node shows, in the node's own axes; seen through everything. */
+/** The edges of a node's bounding box in the node's own axes; visible through everything. */
 export function frameOf(node: THREE.Object3D, pad = 0.02): THREE.LineSegments {
   const bounds = new THREE.Box3().setFromObject(node, true);
   bounds.translate(node.position.clone().negate());
@@ -38,7 +38,7 @@ export function frameOf(node: THREE.Object3D, pad = 0.02): THREE.LineSegments {
   return frame;
 }
 
-/** Lines that are seen while their thing is selected. */
+/** Lines that are visible while their thing is selected. */
 export function markLines(geometry: THREE.BufferGeometry): THREE.LineSegments {
   const material = new THREE.LineBasicMaterial({ color: ACCENT, transparent: true, opacity: 0.55 });
   const lines = untouchable(new THREE.LineSegments(geometry, material));
@@ -48,7 +48,7 @@ export function markLines(geometry: THREE.BufferGeometry): THREE.LineSegments {
   return lines;
 }
 
-/** Shows on the floor where a robot looks. */
+/** An arrow on the floor that shows a robot's heading. */
 export function arrow(): THREE.Mesh {
   const outline = new THREE.Shape([
     new THREE.Vector2(0.3, -0.09),
@@ -62,7 +62,7 @@ export function arrow(): THREE.Mesh {
   return mesh;
 }
 
-/** A person's way on the floor, with a handle at each point while the person is selected. */
+/** A person's path on the floor, with a handle at each waypoint while the person is selected. */
 export function wayOf({ path, loop }: ActorThing): THREE.Object3D[] {
   const closed = loop && path.length > 2 ? [...path, path[0] ?? [0, 0]] : path;
   const points = closed.map(([x, y]) => new THREE.Vector3(x, y, 0.02));

@@ -35,7 +35,7 @@ async function parsed(path: string, data: ArrayBuffer): Promise<THREE.BufferGeom
       const { ColladaLoader } = await import('three/examples/jsm/loaders/ColladaLoader.js');
       const scene = new ColladaLoader().parse(text(), '')?.scene;
       if (!scene) throw new Error(t('editor3d:mesh.empty'));
-      // The file's own axes and units: the simulator reads neither.
+      // Keeps the file's own axes and units: the simulator ignores the declared ones, too.
       scene.rotation.set(0, 0, 0);
       scene.scale.set(1, 1, 1);
       return merged(scene);

@@ -16,7 +16,7 @@ interface ModelFieldsProps {
   readonly thing: ModelThing;
 }
 
-/** What a thing weighs when it begins to. */
+/** The initial mass of a thing that gets one, in kg. */
 const FIRST_MASS = 1;
 
 export function ModelFields({ editor, thing }: ModelFieldsProps) {
@@ -29,7 +29,7 @@ export function ModelFields({ editor, thing }: ModelFieldsProps) {
       (now) => setField(now, key, field, value),
       mergeKey === undefined ? {} : { mergeKey },
     );
-  /** Without its texture a thing has no size of one repetition either. */
+  /** A thing without a texture has no repetition size either. */
   const paint = (texture: string | undefined) =>
     edit(editor, 'texture', (now) => {
       const { ops } = setField(now, key, 'texture', texture);

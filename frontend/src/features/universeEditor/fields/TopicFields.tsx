@@ -15,7 +15,7 @@ interface TopicFieldsProps {
 
 const TOPIC = /^\/[A-Za-z0-9_/]+$/;
 
-/** How the topics of a robot are called in this universe; empty: as the robot calls them. */
+/** The names of a robot's topics in this universe; an empty field keeps the robot's own name. */
 export function TopicFields({ editor, thing }: TopicFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const { key, model, topics } = thing;

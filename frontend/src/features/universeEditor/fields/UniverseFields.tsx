@@ -14,11 +14,11 @@ interface UniverseFieldsProps {
   readonly universe: Universe;
 }
 
-/** How high a ceiling begins to be, in m. */
+/** The initial height of a ceiling, in m. */
 const CEILING_M = 2.5;
 const AXES = ['x', 'y', 'z'] as const;
 
-/** What belongs to no thing: the name, the ground and the sun. */
+/** Properties of the whole universe: name, ground and sun. */
 export function UniverseFields({ editor, universe }: UniverseFieldsProps) {
   const { t } = useTranslation('universeEditor');
   const set = (path: Path, value: Json, mergeKey?: string) =>

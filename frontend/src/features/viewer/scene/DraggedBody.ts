@@ -2,12 +2,12 @@ import * as THREE from 'three';
 import type { MoveBody } from '@/generated/messages';
 import type { World } from './World';
 
-/** Larger bodies are the room, not something in it. */
+/** Larger bodies are parts of the room and cannot be dragged. */
 const LARGEST_M = 3;
 
 export type BodyPose = MoveBody['pose'];
 
-/** The body that an object belongs to, if it can be dragged; walls, ground and people cannot. */
+/** The body of an object if it can be dragged; walls, ground and people cannot. */
 export function carriable(world: World, objectId: number | null): string | null {
   const object = objectId === null ? undefined : world.scene.objects.find(({ id }) => id === objectId);
   if (!object || object.kind === 'actor') return null;
@@ -18,14 +18,14 @@ export function carriable(world: World, objectId: number | null): string | null 
 /** x, y, z in m and roll, pitch, yaw in rad, world frame. */
 export function poseOf(object: THREE.Object3D): BodyPose {
   const { x, y, z } = object.position;
-  // Roll, pitch and yaw about fixed axes: the same as yaw, pitch, roll about the body's own.
+  // Roll, pitch and yaw about fixed axes equal yaw, pitch, roll about the body's own axes.
   const angles = new THREE.Euler().setFromQuaternion(object.quaternion, 'ZYX');
   return [x, y, z, angles.x, angles.y, angles.z];
 }
 
-/** A body on its way under the pointer, with a ghost where it was. */
+/** A dragged body, with a ghost at its old place. */
 export class DraggedBody {
-  /** Where the body was when it was taken. */
+  /** The pose of the body before the drag. */
   readonly origin: BodyPose;
   private readonly parts: { object: THREE.Object3D; start: THREE.Matrix4 }[];
   private readonly root: THREE.Object3D;
@@ -81,7 +81,7 @@ export class DraggedBody {
     return poseOf(this.root);
   }
 
-  /** Lets go; the body stays where it is, or goes back. */
+  /** Ends the drag; the body stays at its new place, or returns. */
   release(isKept: boolean): void {
     if (!isKept) {
       this.offset.set(0, 0, 0);

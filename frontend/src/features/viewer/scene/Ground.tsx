@@ -8,7 +8,7 @@ interface GroundProps {
   readonly color: readonly number[];
   readonly isDark: boolean;
   readonly isSimple: boolean;
-  /** Name of the picture on it, among `textures`. */
+  /** The name of its texture in `textures`. */
   readonly picture?: string | undefined;
   readonly textures?: Pictures;
 }
@@ -33,7 +33,7 @@ export function Ground({ color, isDark, isSimple, picture, textures }: GroundPro
   );
 }
 
-/** The ground's picture, with a corner at the origin of the world; null until it is there. */
+/** The ground's texture with a corner at the origin of the world; null until it has arrived. */
 function useGroundPicture(textures?: Pictures, name = ''): THREE.Texture | null {
   const [map, setMap] = useState<THREE.Texture | null>(null);
   useEffect(() => {

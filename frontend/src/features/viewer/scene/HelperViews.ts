@@ -3,7 +3,7 @@ import type { Scene, SensorPlacement } from '@/generated/messages';
 import type { World } from './World';
 
 const FRUSTUM_COLOR = 0x2f9e6e;
-/** Where a camera sees further than this, its frustum would hide the room. */
+/** The longest drawn frustum of a camera: a longer one would hide the room. */
 const LONGEST_M = 2.5;
 const ASPECT = 4 / 3;
 const FRAME_M = 0.25;
@@ -47,7 +47,7 @@ export class FramesView {
   }
 }
 
-/** What the robots' cameras see: a pyramid from each lens. Cameras look along x, z is up. */
+/** The field of view of the robots' cameras: a pyramid from each lens. Cameras look along x, z is up. */
 export class FrustumView {
   private readonly pyramids: THREE.LineSegments[] = [];
 

@@ -11,7 +11,7 @@ interface LightsProps {
 
 const SHADOW_MAP = 2048;
 
-/** The world's own lights, a sky, and soft shadows over the whole room. */
+/** The world's own lights, the light of the sky, and soft shadows over the whole room. */
 export function Lights({ scene, bounds, isDark, hasShadows }: LightsProps) {
   const size = Math.min(Math.max(bounds.getSize(new THREE.Vector3()).length() / 2, 4), 20);
   const lights = useMemo(

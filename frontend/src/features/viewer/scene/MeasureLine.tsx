@@ -6,7 +6,7 @@ import { useMeasuring } from '../measuring';
 const COLOR = 0xd6336c;
 const DOT_PX = 9;
 
-/** The points that were clicked, and the line between them; always in front. */
+/** The measured points and the line between them; never hidden by objects. */
 export function MeasureLine() {
   const points = useMeasuring((state) => state.points);
   const invalidate = useThree((state) => state.invalidate);

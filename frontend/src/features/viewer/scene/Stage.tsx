@@ -23,7 +23,7 @@ interface StageProps {
   readonly isDark: boolean;
 }
 
-/** What is drawn: the world, its light, and what helps to read it. */
+/** The content of the view: the world, its light, and optional helpers. */
 export function Stage({ scene, options, isDark }: StageProps) {
   const isSimple = isSoftwareWebGl();
   const requestFrame = useThrottledInvalidate();

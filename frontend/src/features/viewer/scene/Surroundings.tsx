@@ -23,14 +23,14 @@ interface SurroundingsProps {
   readonly ground: { readonly color: readonly number[]; readonly picture?: string | undefined };
   readonly textures?: Pictures | undefined;
   readonly hasGrid: boolean;
-  /** Finer lines round the origin, in m; 1 and 0 are none. */
+  /** Spacing of the finer lines around the origin, in m; 1 and 0 draw none. */
   readonly fineGrid?: number;
   /** The nearest and farthest distance of the camera, in m. */
   readonly reach: readonly [number, number];
   readonly children: ReactNode;
 }
 
-/** Sky, light, ground and grid, and what turns the view: the same wherever a world is shown. */
+/** Sky, light, ground, grid and camera controls, the same for every view of a world. */
 export function Surroundings(props: SurroundingsProps) {
   const { controls, isDark, lights, bounds, ground, textures, hasGrid, fineGrid = 0, reach } = props;
   const isSimple = isSoftwareWebGl();
@@ -62,7 +62,7 @@ export function Surroundings(props: SurroundingsProps) {
       <OrbitControls
         ref={controls}
         makeDefault
-        // Gliding on draws many pictures more, and each costs the simulation here.
+        // Damping draws many more pictures, and in software each takes time from the simulation.
         enableDamping={!isSimple}
         maxPolarAngle={Math.PI / 2 - 0.02}
         minDistance={nearest}
@@ -95,13 +95,13 @@ function Grid({ main, line, side, step, opacity }: GridProps) {
 
 interface Sight {
   readonly bounds: THREE.Box3;
-  /** How long the diagonal of what is seen may be, in m. */
+  /** The smallest visible diagonal, in m. */
   readonly least: number;
   readonly most: number;
   readonly kind: 'default' | 'top' | 'selection';
 }
 
-/** Moves the camera to show all of a box: from above, from the side, or from the present direction. */
+/** Moves the camera so that a box is visible: from above, from the side, or from the present direction. */
 export function look(
   camera: THREE.Camera,
   controls: Orbit | null,
@@ -123,7 +123,7 @@ export function look(
   controls?.update();
 }
 
-/** Ends what a gesture left of its swing, which would carry the next view away. */
+/** Ends the inertia of a gesture, which would move the next view away. */
 function rest(controls: Orbit): void {
   const { enableDamping } = controls;
   controls.enableDamping = false;
@@ -131,7 +131,7 @@ function rest(controls: Orbit): void {
   controls.enableDamping = enableDamping;
 }
 
-/** Looks again whenever `request` is another object. */
+/** Moves the camera whenever `request` is a new object. */
 export function useSight(controls: RefObject<Orbit | null>, request: object, sight: () => Sight): void {
   const camera = useThree((state) => state.camera);
   const invalidate = useThree((state) => state.invalidate);

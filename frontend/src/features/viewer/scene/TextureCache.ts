@@ -3,16 +3,16 @@ import type { Texture as TextureData } from '@/generated/messages';
 
 type Take = (texture: THREE.Texture) => void;
 
-/** Pictures by name, which arrive when they do. */
+/** Pictures by name, which arrive asynchronously. */
 export interface Pictures {
-  /** Hands out the picture of a name, which repeats, as soon as it is there; a damaged one never is. */
+  /** Calls back with the repeating picture as soon as it has arrived; never for a damaged one. */
   whenLoaded(name: string, take: Take): void;
-  /** Width and height of a repetition in m. */
+  /** The width and height of a repetition, in m. */
   tileOf(name: string): readonly [number, number];
   dispose(): void;
 }
 
-/** Loads a picture that repeats; null where it cannot be had. */
+/** Loads a repeating picture; null if it cannot be loaded. */
 export function loadTexture(
   address: string,
   anisotropy: number,
@@ -32,7 +32,7 @@ interface Loading {
   waiting: Take[];
 }
 
-/** The pictures of a scene, decoded once each. What waits for one is drawn without it until then. */
+/** The pictures of a scene, each decoded once. Objects are drawn without a picture until it arrives. */
 export class TextureCache implements Pictures {
   private readonly known = new Map<string, Loading>();
   private isOver = false;

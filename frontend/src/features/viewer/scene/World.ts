@@ -13,7 +13,7 @@ interface Moving {
   start: number;
 }
 
-/** A jump this far is a reset or a drag, not motion: it is shown at once. */
+/** A longer jump is a reset or a drag and not motion: it is shown at once. */
 const JUMP_M = 1;
 
 /** The scene's objects as three.js draws them. Poses are applied here, outside React. */
@@ -48,7 +48,7 @@ export class World {
     this.bounds.setFromObject(this.group);
   }
 
-  /** Sets where objects are to be; they get there within one interval between frames. */
+  /** Sets the target poses of objects; they reach them within one interval between frames. */
   receive(changed: Iterable<[number, Pose]>, now: number): void {
     if (this.lastFrameAt > 0) {
       const passed = Math.min(Math.max(now - this.lastFrameAt, 10), 200);
@@ -87,7 +87,7 @@ export class World {
     return this.moving.get(id)?.object;
   }
 
-  /** The id of the object that a mesh is a part of. */
+  /** The id of the object that a mesh belongs to. */
   idOf(part: THREE.Object3D): number | null {
     for (let at: THREE.Object3D | null = part; at; at = at.parent) {
       const id = this.ids.get(at);
@@ -101,7 +101,7 @@ export class World {
     return [...this.moving.values()].filter((item) => item.body === body).map((item) => item.object);
   }
 
-  /** Of what it is made of; what its camera sees, and its axes, hang on it too and reach further. */
+  /** The bounding box of a body's own shapes; the drawn frustums and axes that hang on it are larger. */
   boundsOf(body: string): THREE.Box3 {
     const bounds = new THREE.Box3();
     for (const object of this.objectsOf(body)) {
@@ -112,13 +112,13 @@ export class World {
     return bounds;
   }
 
-  /** While a body is held, poses that arrive do not move it. */
+  /** Stops a body from following received poses. */
   hold(body: string): void {
     this.held.add(body);
     for (const item of this.moving.values()) if (item.body === body) item.start = 0;
   }
 
-  /** Puts a body where the session last said that it is. */
+  /** Moves a body to its last received pose. */
   put(body: string): void {
     for (const [id, item] of this.moving) {
       const pose = currentPoses.get(id);
@@ -147,7 +147,7 @@ export class World {
     const node = new THREE.Group();
     node.name = object.link ? `${object.body}/${object.link}` : object.body;
     for (const shape of object.shapes) {
-      // Only robots' cameras see ceilings, since they would hide the rooms from outside.
+      // Only robots' cameras see ceilings, since these would hide the rooms from above.
       if (shape.ceiling) continue;
       const mesh = meshOf(shape, this.geometries, this.materials);
       if (object.kind === 'static') mesh.receiveShadow = true;

@@ -9,7 +9,7 @@ export class GeometryCache {
 
   constructor(private readonly meshes: Record<string, MeshData>) {}
 
-  /** The triangles of a shape; with a texture of this size they say where in it they are. */
+  /** The triangles of a shape; with the size of a texture, also its texture coordinates. */
   get(shape: Shape, tile?: readonly [number, number]): THREE.BufferGeometry {
     const size = shape.shape === 'mesh' && !tile ? '' : shape.size.join();
     const key = `${shape.shape}:${shape.mesh ?? ''}:${size}:${tile?.join() ?? ''}`;
@@ -35,14 +35,14 @@ export class GeometryCache {
     }
     const [x = 1, y = 1, z = 1] = shape.shape === 'mesh' ? shape.size : [];
     const apart = whole.index ? whole.toNonIndexed() : whole;
-    // In m while it is painted; a mesh gets its size from the object that shows it.
+    // Texture coordinates are computed in m; the size of a mesh is set on the object that shows it.
     mapPicture(apart.scale(x, y, z), shape.shape, tile);
     return apart.scale(1 / x, 1 / y, 1 / z);
   }
 
   private make({ shape, size, mesh = '' }: Shape): THREE.BufferGeometry {
     const [a = 1, b = 1, c = 1] = size;
-    // Round shapes of three.js lie along y, ours along z.
+    // Round shapes of three.js have their axis along y, ours along z.
     switch (shape) {
       case 'box':
         return new THREE.BoxGeometry(a, b, c);

@@ -1,15 +1,16 @@
 import * as THREE from 'three';
 import type { Shape } from '@/generated/messages';
 
-/** From this share of z on, a normal of a cylinder is that of a lid. */
+/** A normal of a cylinder with at least this share of z belongs to a lid. */
 const FLAT = 0.99;
 const TURN = 2 * Math.PI;
 
 type Tile = readonly [number, number];
 
 /**
- * Says where in a repeating picture each vertex is; 1 is a repetition, v points up. As `executor/render/mapping.py`
- * does it: flat faces are seen along the axis that they face most, cylinders and balls are wrapped.
+ * Sets the texture coordinates of each vertex; 1 is a repetition, v points up. The rules are those of
+ * `executor/render/mapping.py`: flat faces are projected along the axis that they face most, cylinders and
+ * balls are wrapped.
  *
  * @param geometry three vertices a triangle, in m.
  */
@@ -44,7 +45,7 @@ function alongAxis(corners: Corners, { min, max }: THREE.Box3, tile: Tile): numb
   const isFront = across[axis] > 0;
   return corners.flatMap((corner) => {
     const v = axis === 'z' ? corner.y - min.y : corner.z - min.z;
-    // Seen from outside, a picture is never mirrored.
+    // Mirrored on opposite faces, so that the picture is never reversed when seen from outside.
     const along = axis === 'x' ? corner.y - min.y : corner.x - min.x;
     const back = axis === 'x' ? max.y - corner.y : max.x - corner.x;
     const u = (axis === 'y') === isFront ? back : along;

@@ -3,11 +3,11 @@ import { actionPath } from '../state';
 
 export type ActionKind = 'Action' | 'Condition';
 
-/** The source of a new action: complete, runnable, and short enough to be read at once. */
+/** The source of a new action: complete, runnable and short. */
 export function actionSource(
   name: string,
   kind: ActionKind,
-  /** Those that a block of it sets already. */
+  /** Ports that a block of it already sets. */
   ports: readonly string[] = [],
 ): string {
   const declares = kind === 'Condition' ? '\n    NODE_KIND = "Condition"\n' : '';
@@ -52,7 +52,7 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
   const { files, actions, addFile, setChecked, diagnostics } = useProjectStore.getState();
   if (actionPath(name) in files) return;
   addFile(actionPath(name), actionSource(name, kind, ports));
-  // The server reads the class after the save; until then this says what the template declares.
+  // Until the server has read the class after a save, these are the template's declarations.
   setChecked({
     diagnostics,
     actions: [

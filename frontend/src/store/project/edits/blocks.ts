@@ -39,13 +39,13 @@ import type { EditOptions } from '../state';
 
 const store = () => useProjectStore.getState();
 
-/** The active tree, or null when none is open. */
+/** The active tree; null if none is open. */
 export function activeDiagram(): Diagram | null {
   const { activeTree, diagrams } = store();
   return activeTree === null ? null : (diagrams[activeTree] ?? null);
 }
 
-/** Whether the editor or the server found something wrong with a block of the active tree. */
+/** Whether a block of the active tree has a problem, found by the editor or the server. */
 export function hasProblem(id: NodeId | undefined): boolean {
   const diagram = activeDiagram();
   const { vocabulary, diagnostics } = store();
@@ -71,14 +71,14 @@ export function addAt(kind: Kind, place: Placement): NodeId | null {
   return id;
 }
 
-/** Adds where it fits best by what is selected: a click in the palette. */
+/** Adds a block at the best place for the present selection: for a click in the palette. */
 export function addHere(kind: Kind): NodeId | null {
   const diagram = activeDiagram();
   if (!diagram) return null;
   return addAt(kind, bestPlacement(diagram, store().selection[0], store().vocabulary));
 }
 
-/** Does what the quick-add box was opened for. */
+/** Carries out the goal of the quick-add box with the chosen kind. */
 export function achieve(goal: QuickAddGoal, kind: Kind): void {
   const diagram = activeDiagram();
   if (!diagram) return;
@@ -99,7 +99,7 @@ export function achieve(goal: QuickAddGoal, kind: Kind): void {
   }
 }
 
-/** The block to select when these are gone: the next sibling, the one before, or the parent. */
+/** The block to select after these are removed: the next sibling, the previous one, or the parent. */
 function neighbourOf(diagram: Diagram, ids: readonly NodeId[]): NodeId[] {
   const [first] = topmost(diagram, ids);
   if (first === undefined) return [];
@@ -142,7 +142,7 @@ interface Company {
   readonly ids: readonly NodeId[];
 }
 
-/** The selected blocks that keys move together: all where they are siblings, else the one that is walked with. */
+/** The selected blocks that keys move together: all if they are siblings, else the first one. */
 function selectedSiblings(): Company | null {
   const diagram = activeDiagram();
   const { selection } = store();
@@ -172,7 +172,7 @@ export function moveOut(): void {
   change('move', [moveNodes(ids, { at: 'child', parent: above, index })]);
 }
 
-/** Moves the selected blocks under the sibling before them, or the one after. */
+/** Moves the selected blocks under the previous sibling, or under the next one. */
 export function moveIn(): void {
   const found = selectedSiblings();
   if (!found) return;
@@ -187,7 +187,7 @@ export function moveIn(): void {
   change('move', [moveNodes(ids, { at: 'child', parent: target, index })]);
 }
 
-/** Hangs a block under another, as a connection drawn by hand does. */
+/** Moves a block under another, for a connection that is drawn by hand. */
 export function connect(parent: NodeId, child: NodeId): boolean {
   const diagram = activeDiagram();
   if (!diagram || !canMoveUnder(diagram, child, parent, store().vocabulary)) return false;
@@ -197,12 +197,12 @@ export function connect(parent: NodeId, child: NodeId): boolean {
   return true;
 }
 
-/** Cuts the connection to the parent; the piece becomes a draft where it is. */
+/** Removes the connection to the parent; the block becomes a draft at its place. */
 export function disconnect(id: NodeId, position: readonly [number, number]): void {
   change('disconnect', [moveNode(id, { at: 'draft', position })], { select: [id] });
 }
 
-/** The place right after the selected block, or the best there is. */
+/** The place after the selected block, or the best other place. */
 export function placeAfter(diagram: Diagram, id: NodeId): Placement {
   const parent = parentOf(diagram, id);
   const { vocabulary } = store();

@@ -5,10 +5,10 @@ import { fragmentToXml, xmlToFragment } from '@/model/xml';
 import { activeDiagram, change, deleteSelection, placeAfter } from './blocks';
 import { useProjectStore } from '../index';
 
-/** What was copied last, for browsers that refuse to give the clipboard back. */
+/** The last copied text, for browsers that do not allow reading the clipboard. */
 let remembered = '';
 
-/** The selected blocks as XML, or null when there are none. */
+/** The selected blocks as XML; null if there are none. */
 export function copiedText(): string | null {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
@@ -22,7 +22,7 @@ export async function copySelection(): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(remembered);
   } catch {
-    // Not allowed here: pasting in this tab works from what is remembered.
+    // The browser refused: pasting in this tab uses the remembered text.
   }
   return true;
 }
@@ -31,7 +31,7 @@ export async function cutSelection(): Promise<void> {
   if (await copySelection()) deleteSelection();
 }
 
-/** What the clipboard holds: for a menu, where no paste event brings it. */
+/** The content of the clipboard: for a menu, which gets no paste event. */
 export async function clipboardText(): Promise<string> {
   try {
     return await navigator.clipboard.readText();
@@ -40,7 +40,7 @@ export async function clipboardText(): Promise<string> {
   }
 }
 
-/** Pastes into the selected block where it takes children, else after it, else as a draft. */
+/** Pastes under the selected block if it accepts children, else after it, else as a draft. */
 export function pasteText(text: string): boolean {
   const fragment = xmlToFragment(text);
   const diagram = activeDiagram();

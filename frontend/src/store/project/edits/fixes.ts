@@ -7,7 +7,7 @@ import { actionPath, treePath } from '../state';
 
 const store = () => useProjectStore.getState();
 
-/** What can be done about a finding that the server told: by the editor's own where it has found the same. */
+/** The fixes of a server finding: those of the same finding of the editor, if there is one. */
 export function fixesOfDiagnostic(item: Diagnostic): Fix[] {
   const { diagrams, vocabulary } = store();
   const diagram = diagrams[item.tree ?? ''];
@@ -35,7 +35,7 @@ function make(making: Making): () => void {
   };
 }
 
-/** Applies a fix; a file that it made is taken away by the returned function, a change of the tree by undo. */
+/** Applies a fix. The returned function removes a file that it created; undo reverts the tree. */
 export function applyFix(tree: string, { does }: Fix): (() => void) | null {
   if (typeof does !== 'function') return make(does);
   store().apply(tree, 'fix', [does]);

@@ -4,7 +4,7 @@ import { currentText } from '../files';
 import { actionPath, type FileEntry, type ProjectData } from '../state';
 import { removeFile } from '../transitions';
 
-/** An action by another name: its file, its class, and the files that import it; null where that cannot be. */
+/** Renames an action: its file, its class, and the imports of other files; null if it cannot be renamed. */
 export function withActionRenamed(data: ProjectData, { from, to }: Renaming): ProjectData | null {
   const [before, after] = [actionPath(from), actionPath(to)];
   const source = currentText(data, before);

@@ -3,7 +3,7 @@ import { areNeighbours, extractSubtree, inlineSubtree } from '@/model/edits';
 import { activeDiagram, change } from './blocks';
 import { useProjectStore } from '../index';
 
-/** A tree name made from a block's name: letters and digits, not taken by a tree or a type. */
+/** A tree name from a block's name: letters and digits, not used by a tree or a type. */
 function freeTreeId(wanted: string): string {
   const { diagrams, vocabulary } = useProjectStore.getState();
   const words = wanted.split(/[^\p{L}\p{N}]+/u).filter(Boolean);
@@ -14,7 +14,7 @@ function freeTreeId(wanted: string): string {
   return id;
 }
 
-/** Makes a tree of its own out of the selected blocks, which must stand side by side. */
+/** Extracts the selected blocks, which must be consecutive siblings, to a new tree. */
 export function extractSelection(): void {
   const diagram = activeDiagram();
   const { selection } = useProjectStore.getState();
@@ -34,7 +34,7 @@ export function extractSelection(): void {
   change('extract', [extracted.recipe], { also: { [treeId]: tree }, select: created });
 }
 
-/** Puts the blocks of the subtree in the place of the selected SubTree. */
+/** Replaces the selected SubTree by the blocks of its tree. */
 export function inlineSelection(): void {
   const diagram = activeDiagram();
   const { selection, diagrams } = useProjectStore.getState();

@@ -1,9 +1,9 @@
 import type { NodeStatus } from '@/generated/messages';
 
-/** Statuses as bits: a stretch that was made coarser may hold several. */
+/** Statuses as bits, since a coarsened stretch can hold several. */
 export const BIT: Record<NodeStatus, number> = { IDLE: 0, RUNNING: 1, SUCCESS: 2, FAILURE: 4, SKIPPED: 8 };
 
-/** Results that follow each other this closely are drawn as one stretch, s. */
+/** Results that follow each other within this time are drawn as one stretch, s. */
 const JOIN_S = 0.15;
 const FIRST_CAPACITY = 16;
 export const MAX_STRETCHES = 2048;
@@ -14,7 +14,7 @@ export interface Stretch {
   mask: number;
 }
 
-/** The statuses of one node over simulated time, oldest first. Its memory is bounded. */
+/** The statuses of one node over simulated time, oldest first, in bounded memory. */
 export class NodeTrace {
   count = 0;
   starts = new Float64Array(FIRST_CAPACITY);
@@ -34,7 +34,7 @@ export class NodeTrace {
     this.count += 1;
   }
 
-  /** Drops what ended before a time. */
+  /** Drops stretches that ended before a time. */
   forget(before: number): void {
     const first = this.firstAfter(before);
     if (first === 0) return;
@@ -62,7 +62,7 @@ export class NodeTrace {
     };
   }
 
-  /** Joins neighbours two by two, until at most so many are left: finer than a screen shows anyway. */
+  /** Joins neighbouring stretches in pairs until at most this many are left. */
   coarsen(most: number): void {
     while (this.count > most) {
       const pairs = this.count >> 1;

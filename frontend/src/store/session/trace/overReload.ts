@@ -6,28 +6,28 @@ const KEY = 'bts.run.';
 let sessionId: string | null = null;
 
 /**
- * What only this page knows of a run, kept over a reload: the way that the robot went and what the nodes
- * did. The session itself sends everything else again.
+ * Keeps data that only this page has over a reload: the robot's trail, and the trace of the nodes. The
+ * session sends everything else again.
  */
 function keepRun(): void {
   if (!sessionId) return;
   try {
     sessionStorage.setItem(KEY, JSON.stringify({ sessionId, trail: trail.keep(), history: trace.keep() }));
   } catch {
-    // No room: both begin empty after the reload, nothing else is lost.
+    // The browser's storage is full: trail and trace start empty after the reload.
   }
 }
 
 interface Kept {
   sessionId: string;
   trail: string;
-  /** Named before the trace had its name; pages that were open then still hold it. */
+  /** The old name of the field, which pages that were opened before an update still store. */
   history: string;
 }
 
 let kept: Kept | null = null;
 
-/** From now on the run of this session is kept; what a reload left of it comes back. */
+/** Starts to keep the run of this session, and restores what a reload left of it. */
 export function rememberRun(id: string): void {
   if (id === sessionId) return;
   if (sessionId) trail.clear();
@@ -49,7 +49,7 @@ export function forgetRun(): void {
   trace.start([], 0);
 }
 
-/** The trace before a reload or a lost connection; after a reload it is returned once. */
+/** After a reload the trace from before it, but only once; otherwise the present trace, for a reconnection. */
 export function takeCachedTrace(): string | null {
   const text = kept?.history ?? null;
   kept = null;

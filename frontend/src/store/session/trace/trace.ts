@@ -1,13 +1,16 @@
 import type { NodeStatus, TreeNode } from '@/generated/messages';
 import { BIT, NodeTrace, type Stretch } from './nodeTrace';
 
-/** How far back the timeline goes, in simulated seconds. */
+/** The length of the timeline, in simulated seconds. */
 export const HISTORY_S = 600;
 
-/** How long a result shows that was gone again after its tick, s. */
+/** The drawn length of a result that lasted only for its tick, s. */
 const FLASH_S = 0.05;
 const FORGET_EVERY_S = 20;
-/** Stretches that a reload keeps, over all nodes together: well within what a browser stores. */
+/**
+ * The number of stretches that are kept over a reload, for all nodes together; within the browser's storage
+ * limit.
+ */
 const KEPT_STRETCHES = 40_000;
 
 interface Open {
@@ -22,13 +25,15 @@ interface Kept {
   nodeTraces: [uid: number, stretches: number[]][];
 }
 
-/** The statuses of each node over the last ten minutes. Outside React: panels read it when they draw. */
+/**
+ * The statuses of each node over the last ten minutes. Kept outside of React: panels read it when they draw.
+ */
 export class Trace {
   nodes: readonly TreeNode[] = [];
-  /** Simulated time of the first and of the newest thing known. */
+  /** The simulated times of the oldest and of the newest data. */
   begin = 0;
   now = 0;
-  /** Counts up with each run. */
+  /** Increases with each run. */
   run = 0;
   private nodeTraces = new Map<number, NodeTrace>();
   private open = new Map<number, Open>();
@@ -44,13 +49,13 @@ export class Trace {
     this.open = new Map();
   }
 
-  /** Takes the changes of a tick. */
+  /** Adds the changes of a tick. */
   tick(
     changed: readonly (readonly [number, NodeStatus])[],
     flashed: readonly (readonly [number, NodeStatus])[],
     t: number,
   ): void {
-    // The world was put back to its start: times would overlap.
+    // The world was reset: times would overlap.
     if (t < this.now - 1) this.start(this.nodes, t);
     this.advance(t);
     for (const [uid, status] of flashed) this.nodeTrace(uid).add(t, t + FLASH_S, BIT[status]);
@@ -75,7 +80,7 @@ export class Trace {
     return this.open.get(uid)?.status ?? 'IDLE';
   }
 
-  /** Stretches of a node that touch a span of time, the current one last. */
+  /** Stretches of a node that overlap a span of time, the current one last. */
   stretches(uid: number, from: number, to: number): Stretch[] {
     const found: Stretch[] = [];
     const nodeTrace = this.nodeTraces.get(uid);
@@ -91,7 +96,7 @@ export class Trace {
     return found;
   }
 
-  /** Seconds that a node spent running, and how often it began to. */
+  /** The seconds that a node was running, and the number of times that it started. */
   runningOf(uid: number): { seconds: number; times: number } {
     let seconds = 0;
     let times = 0;
@@ -126,7 +131,7 @@ export class Trace {
     } satisfies Kept);
   }
 
-  /** Brings back what was known before a reload, if the same tree still runs; call it after `start`. */
+  /** Restores the trace from before a reload, if the same tree still runs; must be called after `start`. */
   restore(text: string | null, t: number): void {
     if (!text) return;
     try {
@@ -140,7 +145,7 @@ export class Trace {
         }
       }
     } catch {
-      // Unreadable: the trace begins now.
+      // The stored trace is unreadable: it starts empty.
     }
   }
 
@@ -160,7 +165,7 @@ export class Trace {
 
 const round = (seconds: number) => Math.round(seconds * 100) / 100;
 
-/** The same for the same tree. */
+/** A text that is equal for equal trees. */
 function signature(nodes: readonly TreeNode[]): string {
   return nodes.map((node) => `${node.uid}:${node.tree_id}/${node.node_id}:${node.type}`).join(';');
 }

@@ -4,7 +4,7 @@ import { takeCachedTrace } from './overReload';
 
 const APPLICATION: readonly State[] = ['application_running', 'paused'];
 
-/** Passes on to the trace what concerns the nodes. */
+/** Passes events of nodes on to the trace. */
 export function feedTrace({ command, data, t }: ServerMessage): void {
   switch (command) {
     case 'tree':

@@ -17,7 +17,7 @@ export class Trail {
   add(x: number, y: number, t: number): void {
     const step = Math.hypot(x - this.x(this.count - 1), y - this.y(this.count - 1));
     const passed = t - this.time;
-    // Time went back or the robot was put somewhere else: the old way does not lead there.
+    // Time went back or the robot was moved: the old path does not connect to the new place.
     if (passed < 0 || (this.count > 0 && step > Math.max(STEP_M, passed * FASTEST_M_S))) this.count = 0;
     else if (this.count > 0 && step < STEP_M) return;
     this.time = t;
@@ -59,7 +59,7 @@ export class Trail {
       this.time = time;
       this.version += 1;
     } catch {
-      // Unreadable: the trail begins now.
+      // The stored trail is unreadable: it starts empty.
     }
   }
 }

@@ -78,7 +78,7 @@ class Team:
         client = signed_in(self.first, "root")
         cookie = next(one for one in client.cookies if one.name.endswith("session"))
         self.root = Browser(self.servers, "root", f"{cookie.name}={cookie.value}")
-        page = client.get(f"{self.first.base}/admin/accounts/user/?all=")
+        page = client.get(f"{self.first.base}/admin/accounts/user/")
         self._page_of = {
             name: path
             for path, name in re.findall(r'href="(/admin/accounts/user/\d+/)change/">(\w+)<', page.text)

@@ -15,48 +15,18 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-def one_statement() -> None:
-    """Writes row by row, in the same hand-written SQL."""
-    from backend.projects.storage import rows
+def one_write() -> None:
+    """Writes by the ORM, as on SQLite."""
+    from backend.projects.storage import at_once
 
-    rows.AT_ONCE = -1
-
-
-def sql_writes() -> None:
-    """Writes by the ORM."""
-    from backend.projects.storage import rows
-    from tests.benchmarks import orm_rows
-
-    rows.write, rows.forget_drafts = orm_rows.write, orm_rows.forget_drafts
+    at_once.has_room = lambda _: False
 
 
-def sql_reads() -> None:
-    """Reads the project and its files by the ORM."""
-    from backend.projects.storage import rows
-    from tests.benchmarks import orm_rows
+def one_read() -> None:
+    """Reads and locks the project by the ORM."""
+    from backend.projects.storage import at_once, rows
 
-    rows.project, rows.existing = orm_rows.project, orm_rows.existing
-    rows.root_trees, rows.taken_by_others = orm_rows.root_trees, orm_rows.taken_by_others
-
-
-def sessions() -> None:
-    """Reads the session by Django's `cached_db`, and the user by the ORM."""
-    from backend.accounts import identity
-
-    def remember(key: str, user: Any, _: object) -> None:
-        # Which thread a request waits for depends on its user: that is no matter of speed.
-        identity._known[key] = identity._Known("", user.pk, "", frozenset())
-
-    identity._known_user = lambda _: None  # type: ignore[assignment]
-    identity._remember = remember
-
-
-def sessions_of_database() -> None:
-    """Reads the session by Django's `db`."""
-    from django.conf import settings
-
-    settings.SESSION_ENGINE = "django.contrib.sessions.backends.db"
-    sessions()
+    at_once.locked = rows.locked
 
 
 def threads() -> None:
@@ -106,49 +76,14 @@ def contents() -> None:
     """Fetches all contents that a check needs, each time."""
     from backend.projects.storage import cache
 
-    cache._kept.get = lambda _: {}  # type: ignore[assignment, method-assign]
+    cache.put = lambda *_: None
 
 
 def lists() -> None:
     """Fetches the list of a project's files, each time."""
     from backend.projects.storage import cache
 
-    cache.files = lambda _: None  # type: ignore[assignment, misc]
-    cache.put_files = lambda *_: None  # type: ignore[misc]
-
-
-def own_caches() -> None:
-    """The caches of contents and lists by `cachetools`."""
-    from threading import Lock
-
-    from cachetools import LRUCache
-
-    from backend.projects.storage import cache
-
-    lock = Lock()
-    known: LRUCache[str, bytes] = LRUCache(cache.ROOM, getsizeof=len)
-    of_projects: LRUCache[Any, Any] = LRUCache(cache.FILES, getsizeof=lambda one: len(one[2]))
-
-    def put(sha256: str, data: bytes) -> None:
-        if len(data) <= cache.LARGEST:
-            with lock:
-                known[sha256] = data
-
-    def get(wanted: Any) -> dict[str, bytes]:
-        with lock:
-            return {sha256: known[sha256] for sha256 in wanted if sha256 in known}
-
-    def put_files(project: Any, files: Any) -> None:
-        with lock:
-            of_projects[project.pk] = (project.revision, project.updated_at, files)
-
-    def files(project: Any) -> dict[str, Any] | None:
-        with lock:
-            revision, at, found = of_projects.get(project.pk, (0, None, {}))
-        return dict(found) if (revision, at) == (project.revision, project.updated_at) else None
-
-    cache._kept.get, cache._kept.put = get, put  # type: ignore[method-assign]
-    cache.put, cache.files, cache.put_files = put, files, put_files  # type: ignore[assignment, misc]
+    cache.put_files = lambda *_: None
 
 
 def prepared() -> None:
@@ -209,28 +144,24 @@ def switching() -> None:
 PIECES: dict[str, Callable[[], None]] = {
     piece.__name__: piece
     for piece in (
-        one_statement,
-        sql_writes,
-        sql_reads,
-        sessions,
-        sessions_of_database,
-        threads,
-        handler,
+        one_write,
+        one_read,
+        own_projects,
         contents,
         lists,
-        own_caches,
-        prepared,
         serializers,
-        pages,
-        own_projects,
-        notices,
+        prepared,
         frozen,
         switching,
+        pages,
+        notices,
+        threads,
+        handler,
     )
 }
 ALL = "all"
-NOT_IN_ALL = {"one_statement", "sessions_of_database", "threads", "own_caches"}
-"""Others replace the same place."""
+NOT_IN_ALL = {"threads"}
+"""Django's handler needs none."""
 
 
 def leave_out(names: str) -> None:

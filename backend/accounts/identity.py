@@ -1,15 +1,16 @@
-"""Finds the user of a request or a socket by the browser's session."""
+"""Finds the user of a request by the browser's session; for the API and for sockets alike."""
 
 from __future__ import annotations
 
 from functools import lru_cache
 from importlib import import_module
 from threading import Lock
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final
 from uuid import UUID
 
+from cachetools import LRUCache
 from django.conf import settings
-from django.contrib.auth import HASH_SESSION_KEY, get_user
+from django.contrib.auth import HASH_SESSION_KEY, SESSION_KEY, get_user
 from django.contrib.sessions.models import Session
 from django.db import connection
 from django.http import HttpRequest
@@ -19,103 +20,90 @@ from django.utils.crypto import constant_time_compare
 from backend.accounts.models import User
 from backend.accounts.writes import local_user
 from backend.config.environment import environment
-from backend.core.instances import columns, instance
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 LINKS: Final = "links"
 """Where a session keeps the read-only links that were opened: ids of links by ids of projects."""
+MOST_SEEN: Final = 4096
+
+_seen: Final[LRUCache[str, int]] = LRUCache(MOST_SEEN)
+_lock: Final = Lock()
 
 
 def identify(cookies: Mapping[str, str]) -> User | None:
-    """Returns the local user, the user who is signed in, a guest with a link, or None."""
+    """Returns the local user, the user who is signed in, a guest with a link, or None.
+
+    Session and user are read from the database at each request, so that nobody is let in for longer than it
+    says. What this process keeps is only whose session it was, to read both at once.
+    """
     if not environment().is_team:
         return the_local_user()
     key = cookies.get(settings.SESSION_COOKIE_NAME)
     if not key:
         return None
-    return _known_user(key) or _asked_user(key)
+    user = _read_at_once(key, last_seen(cookies)) or _read(key)
+    if user is not None and not user.is_guest:
+        with _lock:
+            _seen[key] = user.pk
+    return user
 
 
-def last_seen(cookies: Mapping[str, str]) -> int | None:
-    """Returns the account whose cookies these were at the last check; it grants no right."""
-    known = _known.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
-    return None if known is None else known.user_id
-
-
-def _asked_user(key: str) -> User | None:
+def _read(key: str) -> User | None:
+    """The user of a session by Django's own way."""
     request = HttpRequest()
-    request.session = import_module(settings.SESSION_ENGINE).SessionStore(key)
+    request.session = _store()(key)
     links = _links(request.session)
     found = get_user(request)
     user = found if isinstance(found, User) else User(is_active=False) if links else None
     if user is not None:
         user.links = links
-        _remember(key, user, request.session)
     return user
 
 
-class _Known(NamedTuple):
-    """The contents of a session when it was last read."""
-
-    data: str
-    user_id: int
-    auth_hash: str
-    links: frozenset[UUID]
-
-
-_known: Final[dict[str, _Known]] = {}
-_MAX_KNOWN: Final = 4096
-_lock: Final = Lock()
-
-
-def _known_user(key: str) -> User | None:
-    """Whose session this is, if it is as it was when it was last read.
-
-    What a session holds is costly to read. That it is there, unchanged, and its user active with the same
-    password, is looked up each time, in one query, so that nobody is let in for longer.
-    """
-    known = _known.get(key)
-    if known is None:
+def _read_at_once(key: str, user_id: int | None) -> User | None:
+    """The same in one statement, if the session is still that of this user; else `_read` decides."""
+    if user_id is None:
         return None
     now = connection.ops.adapt_datetimefield_value(timezone.now())
-    with connection.cursor() as cursor:
-        cursor.execute(_known_sql(connection.vendor), [key, now, known.user_id])
-        row = cursor.fetchone()
-    if row is None or row[-1] != known.data:
+    user: Any = next(iter(User.objects.raw(_together(), [key, now, user_id])), None)
+    if user is None or not user.is_active:
         return None
-    user = instance(User, row)
-    if not user.is_active or not constant_time_compare(user.get_session_auth_hash(), known.auth_hash):
+    session = _store()().decode(user.session_data)
+    is_theirs = session.get(SESSION_KEY) == str(user.pk) and constant_time_compare(
+        session.get(HASH_SESSION_KEY, ""), user.get_session_auth_hash()
+    )
+    if not is_theirs:
         return None
-    user.links = known.links
-    return user
+    user.links = _links(session)
+    found: User = user
+    return found
 
 
-@lru_cache(maxsize=2)
-def _known_sql(vendor: str) -> str:
+@lru_cache(maxsize=1)
+def _together() -> str:
     session, user = (connection.ops.quote_name(model._meta.db_table) for model in (Session, User))
     return (
-        f"SELECT {columns(User)}, {session}.session_data FROM {session}, {user} "  # noqa: S608 - names of ours alone
+        f"SELECT {user}.*, {session}.session_data FROM {session}, {user} "  # noqa: S608 - names of ours alone
         f"WHERE {session}.session_key = %s AND {session}.expire_date > %s AND {user}.id = %s"
     )
 
 
-def _remember(key: str, user: User, session: Any) -> None:
-    if user.is_guest:
-        return
-    data = Session.objects.filter(session_key=key).values_list("session_data", flat=True).first()
-    if data is None or session.decode(data) != dict(session.items()):
-        return
+@lru_cache(maxsize=1)
+def _store() -> Any:
+    return import_module(settings.SESSION_ENGINE).SessionStore
+
+
+def last_seen(cookies: Mapping[str, str]) -> int | None:
+    """Whose account these cookies were when they were last shown here; no right follows from it."""
     with _lock:
-        while len(_known) >= _MAX_KNOWN:
-            del _known[next(iter(_known))]
-        _known[key] = _Known(data, user.pk, session[HASH_SESSION_KEY], user.links)
+        return _seen.get(cookies.get(settings.SESSION_COOKIE_NAME, ""))
 
 
 @lru_cache(maxsize=1)
 def the_local_user() -> User:
-    """Returns the one user of localhost; looked up once, since nobody can change it."""
+    """On localhost nobody can change the one user, so one look is enough."""
     return local_user()
 
 

@@ -42,7 +42,7 @@ class TeamSettings(BaseSettings):
     )
     redis_url: SecretStr = Field(
         default=SecretStr(""),
-        description="`redis://:password@host:6379/0`: what web servers share (login attempts, sign-ins). "
+        description="`redis://:password@host:6379/0`: what web servers share (login attempts, notices). "
         "Team mode with PostgreSQL wants one.",
     )
     secret_key: SecretStr = Field(

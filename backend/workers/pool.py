@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import msgspec
+from cachetools import LRUCache
 
 from backend.config.environment import REPOSITORY
 from backend.core.processes.fair import FairQueue, QueueFullError
@@ -71,7 +72,7 @@ class Pool:
         self._changed = threading.Condition()
         self._queue: FairQueue[_Job] = FairQueue(room=limits.waiting, per_owner=limits.per_owner)
         self._going: dict[bytes, Future[Any]] = {}
-        self._kept = _Kept()
+        self._kept: LRUCache[bytes, bytes] = LRUCache(KEPT_BYTES, getsizeof=len)
         self._too_long: OrderedDict[bytes, float] = OrderedDict()
         self._workers: list[_Worker] = []
         self._idle = 0
@@ -161,8 +162,8 @@ class Pool:
         with self._changed:
             self._queue.done(owner)
             self._going.pop(job.key, None)
-            if error is None and isinstance(answer, bytearray):
-                self._kept.put(job.key, answer)
+            if error is None and isinstance(answer, bytearray) and len(answer) <= LARGEST_KEPT_BYTES:
+                self._kept[job.key] = bytes(answer)
             if isinstance(error, TookTooLongError):
                 self._too_long[job.key] = time.monotonic()
                 while len(self._too_long) > MOST_TOO_LONG:
@@ -289,28 +290,6 @@ class _Worker:
 _ENVIRONMENT: Final = {
     name: os.environ[name] for name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH") if name in os.environ
 }
-
-
-class _Kept:
-    """Answers by the hash of their question; what was not used for longest goes."""
-
-    def __init__(self) -> None:
-        self._answers: OrderedDict[bytes, bytes] = OrderedDict()
-        self._size = 0
-
-    def get(self, key: bytes) -> bytes | None:
-        found = self._answers.get(key)
-        if found is not None:
-            self._answers.move_to_end(key)
-        return found
-
-    def put(self, key: bytes, answer: bytearray) -> None:
-        if len(answer) > LARGEST_KEPT_BYTES or key in self._answers:
-            return
-        self._answers[key] = bytes(answer)
-        self._size += len(answer)
-        while self._size > KEPT_BYTES:
-            self._size -= len(self._answers.popitem(last=False)[1])
 
 
 def packed_job(job: str, arguments: dict[str, Any]) -> bytes:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).parents[2]
 TIMEOUT_S = 240
+PROGRAM = ("-m", "backend.cli.main")
 
 
 class Served:
@@ -33,10 +34,10 @@ class Served:
         return self.process.returncode
 
 
-def start(folder, *arguments, prefix=(), **environment):
+def start(folder, *arguments, prefix=(), program=PROGRAM, **environment):
     """A process that serves, or tries to; started by the program `prefix`, if any."""
     clean = {name: value for name, value in os.environ.items() if not name.startswith("BT_STUDIO_")}
-    command = [sys.executable, "-m", "backend.cli.main", "serve", "--no-browser", "--data-dir", str(folder)]
+    command = [sys.executable, *program, "serve", "--no-browser", "--data-dir", str(folder)]
     return subprocess.Popen(
         [*prefix, *command, *arguments],
         cwd=REPOSITORY,
@@ -58,13 +59,12 @@ def await_ready(process, ready_file):
 
 
 @contextmanager
-def serving(folder, *arguments, prefix=(), **environment):
+def serving(folder, *arguments, prefix=(), program=PROGRAM, **environment):
     """A server on a free port, ended in the end."""
     ready_file = Path(folder) / "ready.json"
     ready_file.unlink(missing_ok=True)
-    process = start(
-        folder, "--port", "0", "--ready-file", str(ready_file), *arguments, prefix=prefix, **environment
-    )
+    own = ("--port", "0", "--ready-file", str(ready_file))
+    process = start(folder, *own, *arguments, prefix=prefix, program=program, **environment)
     with process:
         try:
             yield Served(process, await_ready(process, ready_file))

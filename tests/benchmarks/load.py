@@ -95,14 +95,19 @@ def report(title: str, measured: Measured, started: float, used_s: dict[str, flo
 
 def team(stack: ExitStack, folder: Path, *, sqlite: bool) -> tuple[dict[str, str], int]:
     """The settings of a server with accounts, and its port."""
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
     services = {"BT_STUDIO_DATABASE_URL": f"sqlite:///{folder}/team.sqlite3"}
     if not sqlite:
         services = {
             "BT_STUDIO_DATABASE_URL": stack.enter_context(postgresql()),
             "BT_STUDIO_REDIS_URL": stack.enter_context(redis()),
         }
+    return settings_of(services)
+
+
+def settings_of(services: dict[str, str]) -> tuple[dict[str, str], int]:
+    """The settings of one server that uses these services, and its port."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
     settings = {
         "BT_STUDIO_MODE": "team",
         "BT_STUDIO_PUBLIC_URL": f"http://127.0.0.1:{port}",

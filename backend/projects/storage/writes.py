@@ -22,10 +22,10 @@ from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, Idempot
 from backend.projects.signals import project_deleted, revision_made
 from backend.projects.storage import cache, names, queries, rows
 from backend.projects.storage.access import Need
+from backend.projects.storage.at_once import BLOBS
 from backend.projects.storage.bounds import require_bounded
 from backend.projects.storage.changes import Conflict, Content, Existing, FileChange, Plan, plan
 from backend.projects.storage.manifest import MANIFEST, Manifest, read, write
-from backend.projects.storage.rows import BLOBS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

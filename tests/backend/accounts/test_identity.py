@@ -1,22 +1,17 @@
-"""A session that was read before is known again at once, and never for longer than it is good."""
+"""A session is good at each request, and never for longer than the database says."""
 
 from __future__ import annotations
 
 from datetime import timedelta
 
 import pytest
+from cachetools import LRUCache
 from django.conf import settings
 from django.contrib.sessions.models import Session
-from django.core.cache import cache
 from django.utils import timezone
 
 from backend.accounts import identity
 from backend.accounts.models import User
-
-
-@pytest.fixture(autouse=True)
-def _nobody_known():
-    identity._known.clear()
 
 
 def known(person):
@@ -31,14 +26,26 @@ def known(person):
     return ada, who
 
 
-def test_it_takes_one_query(person, django_assert_num_queries):
-    ada, who = known(person)
+def test_a_session_that_was_seen_takes_one_query(person, django_assert_num_queries):
+    _, who = known(person)
     with django_assert_num_queries(1):
         found = who()
-    assert found == ada.user
-    assert {field.attname: getattr(found, field.attname) for field in User._meta.concrete_fields} == {
-        field.attname: getattr(User.objects.get(), field.attname) for field in User._meta.concrete_fields
-    }
+    identity._seen.clear()
+    with django_assert_num_queries(2):
+        expected = who()
+    fields = [field.attname for field in User._meta.concrete_fields]
+    assert [getattr(found, name) for name in fields] == [getattr(expected, name) for name in fields]
+    assert found.links == expected.links
+
+
+def test_a_session_that_is_another_users_by_now_is_theirs(person):
+    ada, who = known(person)
+    bob = person("bob")
+    ada.client.force_login(bob.user)  # the same browser, with a new key
+    key = ada.client.cookies[settings.SESSION_COOKIE_NAME].value
+    identity._seen[key] = ada.user.pk
+    assert identity.identify({settings.SESSION_COOKIE_NAME: key}) == bob.user
+    assert who() is None
 
 
 def signs_out(ada):
@@ -60,13 +67,12 @@ def is_gone(ada):
 
 def stayed_away_too_long(ada):
     Session.objects.update(expire_date=timezone.now() - timedelta(seconds=1))
-    cache.clear()
 
 
 @pytest.mark.parametrize(
     "what", [signs_out, is_deactivated, has_another_password, is_gone, stayed_away_too_long]
 )
-def test_whoever_may_no_longer_is_out_at_once(person, what):
+def test_an_account_that_may_no_longer_is_out_at_once(person, what):
     ada, who = known(person)
     what(ada)
     assert who() is None
@@ -84,7 +90,10 @@ def test_a_change_of_what_the_session_holds_is_seen(person):
 
 
 def test_only_so_many_are_remembered(person, monkeypatch):
-    monkeypatch.setattr(identity, "_MAX_KNOWN", 2)
+    monkeypatch.setattr(identity, "_seen", LRUCache(2))
+    cookies = []
     for name in ("ada", "bob", "cleo"):
-        person(name).get("me")
-    assert len(identity._known) == 2
+        ada = person(name)
+        cookies.append({name: morsel.value for name, morsel in ada.client.cookies.items()})
+        identity.identify(cookies[-1])
+    assert [identity.last_seen(one) is not None for one in cookies] == [False, True, True]

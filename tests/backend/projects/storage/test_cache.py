@@ -1,19 +1,25 @@
-"""Contents that are kept in memory: the right ones, and not too many."""
+"""Contents and lists that are kept in memory: the right ones, and not too many."""
 
 from __future__ import annotations
 
 import pytest
+from cachetools import LRUCache
 
-from backend.projects.models import Blob
+from backend.projects.models import Blob, Project
 from backend.projects.storage import cache
 from backend.projects.storage.changes import Content
 
 
 @pytest.fixture
 def fresh(monkeypatch):
-    found = cache._Kept()
-    monkeypatch.setattr(cache, "_kept", found)
-    return found
+    """Caches that are empty, and as large as a test says."""
+
+    def make(*, room=cache.ROOM, files=cache.FILES):
+        monkeypatch.setattr(cache, "_contents", LRUCache(room, getsizeof=len))
+        monkeypatch.setattr(cache, "_lists", LRUCache(files, getsizeof=cache._lists.getsizeof))
+
+    make()
+    return make
 
 
 def stored(text):
@@ -35,16 +41,33 @@ def test_a_content_that_nobody_stored_is_left_out(fresh, db):
     assert cache.contents(["0" * 64]) == {}
 
 
-def test_what_was_not_used_for_longest_goes_first(fresh, monkeypatch):
-    monkeypatch.setattr(cache, "ROOM", 20)
+def test_what_was_not_used_for_longest_goes_first(fresh, db):
+    fresh(room=20)
     for name in "abc":
-        fresh.put(name, name.encode() * 8)
-        fresh.get(["a"])
-    assert fresh.get("abc") == {"a": b"a" * 8, "c": b"c" * 8}
+        cache.put(name, name.encode() * 8)
+        cache.contents(["a"])
+    assert cache.contents("abc") == {"a": b"a" * 8, "c": b"c" * 8}
 
 
-def test_a_large_content_is_fetched_each_time(fresh, monkeypatch):
+def test_a_large_content_is_fetched_each_time(fresh, db, monkeypatch):
     monkeypatch.setattr(cache, "LARGEST", 3)
-    fresh.put("a", b"1234")
-    fresh.put("b", b"123")
-    assert fresh.get("ab") == {"b": b"123"}
+    cache.put("a", b"1234")
+    cache.put("b", b"123")
+    assert cache.contents("ab") == {"b": b"123"}
+
+
+def test_not_more_files_are_kept_than_there_is_room_for(fresh):
+    fresh(files=5)
+    projects = [Project(revision=1) for _ in range(3)]
+    for project in projects:
+        cache.put_files(project, dict.fromkeys("ab"))
+    assert [cache.files(project) is not None for project in projects] == [False, True, True]
+    cache.put_files(projects[2], dict.fromkeys("abc"))
+    assert [cache.files(project) is not None for project in projects] == [False, True, True]
+
+
+def test_more_files_than_there_is_room_for_are_not_kept(fresh, monkeypatch):
+    monkeypatch.setattr(cache, "FILES", 2)
+    project = Project(revision=1)
+    cache.put_files(project, dict.fromkeys("abc"))
+    assert cache.files(project) is None

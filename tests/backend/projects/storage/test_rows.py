@@ -1,4 +1,4 @@
-"""The written-out statements of a save: few files in one, many in several, the same is stored."""
+"""The statements of a save: few files in one, many in several, the same is stored."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from django.db import connection
 from django.test.utils import CaptureQueriesContext
 
 from backend.projects.models import Draft, FileRevision, Project
-from backend.projects.storage import cache, queries, rows
+from backend.projects.storage import at_once, cache, queries, rows
 
 
 def new(path, content="x"):
     return {"path": path, "base_revision": 0, "content": content}
 
 
-@pytest.mark.parametrize("number", [1, rows.AT_ONCE, rows.AT_ONCE + 1, rows.ROWS + 1])
+@pytest.mark.parametrize("number", [1, at_once.FILES, at_once.FILES + 1, rows.ROWS + 1])
 def test_any_number_of_files_is_one_change(api, project, number):
     files = {f"notes/{n:03}.txt": f"note {n % 7}" for n in range(number)}
     done = api.save(project["id"], *(new(path, text) for path, text in files.items()), message="Notes")
@@ -26,7 +26,7 @@ def test_any_number_of_files_is_one_change(api, project, number):
     assert (newest["number"], newest["message"], len(newest["files"])) == (2, "Notes", number)
 
 
-@pytest.mark.parametrize("number", [1, rows.AT_ONCE + 1])
+@pytest.mark.parametrize("number", [1, at_once.FILES + 1])
 def test_writing_and_moving_and_removing_go_together(api, project, number):
     paths = [f"old/{n}.txt" for n in range(number)]
     api.save(project["id"], *(new(path, path) for path in paths), new("gone.txt"))
@@ -40,7 +40,7 @@ def test_writing_and_moving_and_removing_go_together(api, project, number):
     assert set(moved.values_list("renamed_from", flat=True)) == set(paths)
 
 
-@pytest.mark.parametrize("number", [1, rows.AT_ONCE + 1])
+@pytest.mark.parametrize("number", [1, at_once.FILES + 1])
 def test_drafts_of_what_is_saved_are_done_with_and_no_others(api, project, number):
     paths = [f"{n}.txt" for n in range(number)]
     for path in (*paths, "other.txt"):
@@ -79,14 +79,3 @@ def test_files_are_remembered_for_the_very_revision_alone(api, project):
     now.revision -= 1
     now.updated_at = now.created_at
     assert cache.files(now) is None
-
-
-def test_not_more_files_are_remembered_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(cache, "FILES", 5)
-    lists = cache._Lists()
-    projects = [Project(revision=1) for _ in range(3)]
-    for project in projects:
-        lists.put(project, dict.fromkeys("ab"))
-    assert [lists.get(project) is not None for project in projects] == [False, True, True]
-    lists.put(projects[2], dict.fromkeys("abc"))
-    assert [lists.get(project) is not None for project in projects] == [False, True, True]

@@ -1,0 +1,129 @@
+"""The two statements of a save on PostgreSQL: one locks and reads the project, one writes everything.
+
+Django's ORM does the same in eight (`rows.locked`, `rows.store`, which tests compare these with). It builds
+each of them again whenever it is used, and each costs a round trip.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, Final
+
+from django.db import connection
+
+from backend.core.locks import lock_number
+from backend.projects.models import Blob, ChangeSet, CurrentFile, Draft, FileRevision, Project
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from uuid import UUID
+
+    from django.db.models import Field, Model
+
+    from backend.projects.storage.rows import Writing
+
+BLOBS: Final = "blobs"
+"""The lock that keeps blobs from being collected while a save is about to use them."""
+FILES: Final = 20
+"""Changes of more files are left to the ORM: each number of files is another statement to plan."""
+
+_CHANGE: Final = ("project", "number", "author", "message", "label", "created_at")
+_BLOB: Final = ("sha256", "size", "data")
+_REVISION: Final = ("path", "blob", "renamed_from")
+_FILE: Final = ("project", "path", "path_key", "blob", "revision", "updated_at")
+_PROJECT: Final = ("revision", "size", "updated_at", "id")
+_NEWER: Final = (
+    "ON CONFLICT (project_id, path_key) DO UPDATE SET path = EXCLUDED.path, revision = EXCLUDED.revision, "
+    "updated_at = EXCLUDED.updated_at, blob_id = EXCLUDED.blob_id"
+)
+
+
+def is_here() -> bool:
+    """Whether the statements are for this database."""
+    return connection.vendor == "postgresql"
+
+
+def has_room(writing: Writing) -> bool:
+    """Whether a change of so many files is one statement."""
+    return max(len(writing.drafts), len(writing.revisions)) <= FILES
+
+
+def locked(project_id: UUID) -> Project | None:
+    """A project that is not deleted, with its lock and that of the blobs."""
+    return next(iter(Project.objects.raw(_locked_sql(), [project_id])), None)
+
+
+@lru_cache(maxsize=1)
+def _locked_sql() -> str:
+    lock = f"pg_advisory_xact_lock_shared({lock_number(BLOBS)})"
+    where = "WHERE id = %s AND deleted_at IS NULL FOR UPDATE"
+    return f"SELECT *, {lock} FROM {_table(Project)} {where}"  # noqa: S608 - names of ours alone
+
+
+def write(writing: Writing) -> None:
+    """Stores a change set with its files; then the change has its key."""
+    change, project = writing.change, writing.change.project
+    files = [(project.pk, *file, change.number, change.created_at) for file in writing.files]
+    values = [
+        *_values(
+            ChangeSet, _CHANGE, [[getattr(change, _field(ChangeSet, name).attname) for name in _CHANGE]]
+        ),
+        # In one order, so that two saves of the same blobs never wait for each other.
+        *_values(Blob, _BLOB, sorted(writing.blobs)),
+        *_values(FileRevision, _REVISION, writing.revisions),
+        *_values(CurrentFile, _FILE, files),
+        *([project.pk, change.author_id, *writing.drafts] if writing.drafts else []),
+        *_values(Project, _PROJECT, [[getattr(project, name) for name in _PROJECT]]),
+    ]
+    numbers = (len(writing.blobs), len(writing.revisions), len(writing.files), len(writing.drafts))
+    with connection.cursor() as cursor:
+        cursor.execute(_sql(*numbers), values)
+        change.pk = cursor.fetchone()[0]
+
+
+def _values(model: type[Model], names: Sequence[str], rows: Sequence[Sequence[object]]) -> list[Any]:
+    fields = [_field(model, name) for name in names]
+    return [
+        field.get_db_prep_save(value, connection)
+        for row in rows
+        for field, value in zip(fields, row, strict=True)
+    ]
+
+
+def _field(model: type[Model], name: str) -> Field[Any, Any]:
+    return model._meta.get_field(name)  # type: ignore[return-value]
+
+
+@lru_cache(maxsize=256)
+def _sql(blobs: int, revisions: int, files: int, drafts: int) -> str:
+    """The statement for so many rows. None of its parts needs to see the rows that another writes."""
+    parts = {
+        "change": f"{_insert(ChangeSet, _CHANGE, 1)} RETURNING id",
+        "blobs": f"{_insert(Blob, _BLOB, blobs)} ON CONFLICT DO NOTHING" if blobs else "",
+        "revisions": _insert(FileRevision, _REVISION, revisions, of="change") if revisions else "",
+        "files": f"{_insert(CurrentFile, _FILE, files)} {_NEWER}" if files else "",
+        "drafts": (
+            f"DELETE FROM {_table(Draft)} "  # noqa: S608 - names of ours alone
+            f"WHERE project_id = %s AND author_id = %s AND path IN {_places(drafts)}"
+        )
+        if drafts
+        else "",
+        "project": f"UPDATE {_table(Project)} SET revision = %s, size = %s, updated_at = %s WHERE id = %s",  # noqa: S608
+    }
+    listed = ", ".join(f"{name} AS ({sql})" for name, sql in parts.items() if sql)
+    return f"WITH {listed} SELECT id FROM change"  # noqa: S608 - as above
+
+
+def _insert(model: type[Model], names: Sequence[str], rows: int, *, of: str = "") -> str:
+    """Inserts so many rows; those that are `of` another part have its key in a first column."""
+    columns = ", ".join([f"{of}_id"] * bool(of) + [str(_field(model, name).column) for name in names])
+    row = _places(len(names), f"(SELECT id FROM {of})" if of else "")  # noqa: S608 - as above
+    return f"INSERT INTO {_table(model)} ({columns}) VALUES {', '.join([row] * rows)}"  # noqa: S608 - as above
+
+
+def _places(number: int, first: str = "") -> str:
+    return "(" + ", ".join([first] * bool(first) + ["%s"] * number) + ")"
+
+
+def _table(model: type[Model]) -> str:
+    return connection.ops.quote_name(model._meta.db_table)

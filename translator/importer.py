@@ -9,7 +9,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from translator.action_kind import LIMITS
-from translator.catalog import NodeModel, builtins
+from translator.catalog import NodeModel, builtins, nearest
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
@@ -209,6 +209,8 @@ def _actions(
     for type_, use in seen.items() if stubs else ():
         path = f"actions/{type_}.py"
         model = models.get(type_)
+        if model is None and type_ not in kinds and use.children and nearest(type_, _with_children()):
+            continue  # more likely a built-in node that is spelled wrong
         kind = model.kind if model is not None else kinds.get(type_, use.kind)
         if use.children and kind not in LIMITS:
             kind = use.kind  # a leaf could not have them
@@ -228,6 +230,10 @@ class _Use:
     def kind(self) -> str:
         """The kind that fits."""
         return "control" if self.children > 1 else "decorator" if self.children else "action"
+
+
+def _with_children() -> list[str]:
+    return [name for name, model in builtins().items() if model.max_children != 0]
 
 
 def _unknown_nodes(trees: list[Tree]) -> dict[str, _Use]:

@@ -28,6 +28,10 @@ class _Child(Behaviour):
         self.owner = owner
         self.index = index
 
+    def update(self) -> PyTreesStatus:
+        """Returns the child's result; `tick` does the work."""
+        return self.status
+
     def tick(self) -> Iterator[Any]:
         """Ticks the child once; one that rests in a result starts again, as in py_trees."""
         if self.owner.child_status(self.index).is_completed:

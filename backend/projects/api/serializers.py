@@ -99,6 +99,13 @@ class PortSerializer(serializers.Serializer[Any]):
     description = serializers.CharField()
 
 
+class ChildrenSerializer(serializers.Serializer[Any]):
+    """How many children a node of a kind has; a largest number of null allows any."""
+
+    min = serializers.IntegerField()
+    max = serializers.IntegerField(allow_null=True)
+
+
 class ActionSerializer(serializers.Serializer[Any]):
     """The declarations in the source of an action."""
 
@@ -106,6 +113,7 @@ class ActionSerializer(serializers.Serializer[Any]):
     path = serializers.CharField()
     doc = serializers.CharField()
     kind = serializers.CharField()
+    children = ChildrenSerializer()
     open = serializers.BooleanField()
     line = serializers.IntegerField()
     ports = PortSerializer(many=True)

@@ -89,7 +89,9 @@ class ControlNode:
     def _node(self) -> "CustomControl":
         node: CustomControl | None = getattr(self, "tree_gardener_node", None)
         if node is None:
-            raise RuntimeError(f"{self!r} is in no tree yet: children, ports and clock are there from setup() on")
+            raise RuntimeError(
+                f"{self!r} is in no tree yet: children, ports and clock are there from setup() on"
+            )
         return node
 
     @property

@@ -86,7 +86,9 @@ def _with_nodes(text: str) -> str:
     for mark in (MARK, SLEEP, START):
         if mark not in text:
             raise ValueError(f"the program has no '{mark}'")
-    text = text.replace(MARK, MARK + lines).replace(SLEEP, 'std::chrono::case_clock::msec+=o["ms"].get<int>()')
+    text = text.replace(MARK, MARK + lines).replace(
+        SLEEP, 'std::chrono::case_clock::msec+=o["ms"].get<int>()'
+    )
     return includes + text.replace(START, f"{START}std::chrono::case_clock::msec=0;")
 
 

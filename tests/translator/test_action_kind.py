@@ -53,7 +53,9 @@ def test_bases_are_named_in_full():
 
 
 def test_a_base_of_another_file_is_named_by_the_kind():
-    found, codes = model(f"from shared import Base\n\n\nclass A(Base):\n    NODE_KIND = 'Decorator'\n{UPDATE}")
+    found, codes = model(
+        f"from shared import Base\n\n\nclass A(Base):\n    NODE_KIND = 'Decorator'\n{UPDATE}"
+    )
     assert (found.kind, found.max_children, codes) == ("decorator", 1, [])
 
 
@@ -101,16 +103,22 @@ def test_ports_are_read_from_methods_of_a_class_that_declares_none():
     assert {port.name: port.direction for port in found.ports} == {"out": "output", "speed": "input"}
 
 
-@pytest.mark.parametrize("type_", ["SharedQueue[int]", "tree_gardener.SharedQueue[int]", "collections.deque[int]"])
+@pytest.mark.parametrize(
+    "type_", ["SharedQueue[int]", "tree_gardener.SharedQueue[int]", "collections.deque[int]"]
+)
 def test_a_queue_of_numbers_is_a_list_to_the_editor(type_):
     ports = f"    OUTPUT_PORTS = {{'q': Port({type_})}}\n"
     found, codes = model(f"from tree_gardener import *\n\n\nclass A(ControlNode):\n{ports}{UPDATE}")
     assert (found.ports[0].type, codes) == ("list[int]", [])
-    other, codes = model(f"from x import *\n\n\nclass A(B):\n    OUTPUT_PORTS = {{'q': Port(SharedQueue[Pose])}}\n")
+    other, codes = model(
+        f"from x import *\n\n\nclass A(B):\n    OUTPUT_PORTS = {{'q': Port(SharedQueue[Pose])}}\n"
+    )
     assert (other.ports[0].type, codes) == ("any", [])
 
 
-CONTROL = f"from tree_gardener import ControlNode\n\n\nclass Own(ControlNode):\n    MAX_CHILDREN = 2\n{UPDATE}"
+CONTROL = (
+    f"from tree_gardener import ControlNode\n\n\nclass Own(ControlNode):\n    MAX_CHILDREN = 2\n{UPDATE}"
+)
 
 
 @pytest.mark.parametrize(("count", "codes"), [(0, ["BT0104"]), (1, []), (2, []), (3, ["BT0104"])])

@@ -150,4 +150,7 @@ def test_another_name_gets_a_stub_or_is_said_to_be_written(name):
     (finding,) = [
         item for item in check(from_xml(OWN.format(name=name), stubs=False)) if item.code == "BT0112"
     ]
-    assert f"Write actions/{name}.py with a class {name} derived from tree_gardener.DecoratorNode" in finding.hint
+    assert (
+        f"Write actions/{name}.py with a class {name} derived from tree_gardener.DecoratorNode"
+        in finding.hint
+    )

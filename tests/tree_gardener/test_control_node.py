@@ -298,7 +298,9 @@ def test_a_loop_takes_elements_of_any_class_from_a_shared_queue() -> None:
     ("element", "text", "values"),
     [(int, "1;2", [1, 2]), (Way, "LEFT;2", [Way.LEFT, Way.RIGHT]), (Any, "a;b", ["a", "b"])],
 )
-def test_a_loop_reads_literals_where_its_elements_have_them(element: Any, text: str, values: list[Any]) -> None:
+def test_a_loop_reads_literals_where_its_elements_have_them(
+    element: Any, text: str, values: list[Any]
+) -> None:
     tree = load(f'<Each queue="{text}" value="{{x}}"><Succeeding/></Each>', nodes={"Each": loop(element)})
     found = []
     for _ in values:

@@ -96,7 +96,9 @@ def _report_unknown(context: Context, tree: Tree, node: Node) -> None:
         known = context.project.known_types()
         with_children = [name for name in known if (model := context.model(name)) and model.max_children != 0]
         base = "ControlNode" if len(node.children) > 1 else "DecoratorNode"
-        otherwise = f"Write actions/{node.type}.py with a class {node.type} derived from tree_gardener.{base}."
+        otherwise = (
+            f"Write actions/{node.type}.py with a class {node.type} derived from tree_gardener.{base}."
+        )
         suggestion = did_you_mean(node.type, with_children, otherwise=otherwise)
         context.report("BT0112", tree, node, type=node.type, suggestion=suggestion)
     else:

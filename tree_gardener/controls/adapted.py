@@ -116,5 +116,7 @@ class _DecoratorAdapter(_Adapter, DecoratorNode):
 
 def adapted(cls: type) -> type[ControlNode] | None:
     """Returns the control node that ticks a py_trees class; None if it is no composite or decorator."""
-    base = _Adapter if issubclass(cls, Composite) else _DecoratorAdapter if issubclass(cls, Decorator) else None
+    base = (
+        _Adapter if issubclass(cls, Composite) else _DecoratorAdapter if issubclass(cls, Decorator) else None
+    )
     return None if base is None else cast("type[ControlNode]", type(cls.__name__, (base,), {"CLASS": cls}))

@@ -11,7 +11,9 @@ class RoundRobin(ControlNode):
     """
 
     MARKS_RUNNING = True
-    INPUT_PORTS = {"wrap_around": Port(bool, default=False, description="Whether the first follows the last.")}
+    INPUT_PORTS = {
+        "wrap_around": Port(bool, default=False, description="Whether the first follows the last.")
+    }
 
     def __init__(self, name: str) -> None:
         super().__init__(name)

@@ -1,7 +1,7 @@
 """The kind of an action's class and its number of children, read from its syntax tree.
 
-A control node or decorator derives from a class of the engine or of py_trees. Where the base class is in another
-file, `NODE_KIND` says what it is.
+A control node or decorator derives from a class of the engine or of py_trees. Where the base class is in
+another file, `NODE_KIND` says what it is.
 """
 
 from __future__ import annotations

@@ -134,8 +134,8 @@ class TickError(TreeGardenerError):
         self.message = message = f"{message} ({hint})" if hint else message
         self.file, self.line = _locate(cause.__traceback__) if cause is not None else place
         self.traceback_text = _format(cause)
-        place = f" at {self.file}:{self.line}" if self.file else ""
-        super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{place}")
+        at = f" at {self.file}:{self.line}" if self.file else ""
+        super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{at}")
 
 
 _PACKAGE = __file__.rsplit("/", 1)[0] + "/"

@@ -1,6 +1,6 @@
-"""Makes `tests/conformance/controls.jsonl.gz`: random trees of Nav2's control nodes, run in BehaviorTree.CPP 4.10.
+"""Makes `tests/conformance/controls.jsonl.gz`: random trees of Nav2's nodes, run in BehaviorTree.CPP 4.10.
 
-python -m tests.tools.control_cases --program oracle.cpp --btcpp BehaviorTree.CPP --nav2 navigation2 --build FOLDER
+python -m tests.tools.control_cases --program FILE --btcpp FOLDER --nav2 FOLDER --build FOLDER
 
 The three sources are not part of this repository (`oracle_build.py`). The cases depend on the seed alone.
 """
@@ -215,7 +215,8 @@ def compact(case: dict[str, Any]) -> dict[str, Any]:
     expected = [
         {key: line[key] for key in KEPT if line.get(key) or key == "status"} for line in case["expected"]
     ]
-    kept = {key: case[key] for key in ("name", "xml", "ticks", "tick_mode", "bb", "before") if key in case}
+    names = ("name", "xml", "ticks", "tick_mode", "bb", "before")
+    kept: dict[str, Any] = {key: case[key] for key in names if key in case}
     final = case.get("final_halt")
     return {**kept, "expected": expected, **({"final_halt": final} if final else {})}
 

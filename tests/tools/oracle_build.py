@@ -1,15 +1,17 @@
 """Builds a program that runs conformance cases in BehaviorTree.CPP 4.10 with Nav2's own control nodes.
 
 The sources come from outside: the program that runs cases (see `FORMAT.md` beside the cases), a checkout of
-BehaviorTree.CPP at 4.10.0, and one of Nav2. The time that RateController reads is made virtual, so that a case
-gives the same trace on any machine: a step ``sleep`` advances it.
+BehaviorTree.CPP at 4.10.0, and one of Nav2. The time that RateController reads is made virtual, so that a
+case gives the same trace on any machine: a step ``sleep`` advances it.
 """
 
 from __future__ import annotations
 
 import subprocess
-from pathlib import Path
-from typing import Final
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 NICE: Final = ("nice", "-n", "19")
 PRELUDE: Final = """

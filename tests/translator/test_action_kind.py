@@ -6,12 +6,12 @@ import ast
 
 import pytest
 
-from tree_gardener import Status, Tree
-from tree_gardener.actions import load_actions
 from translator import check, inspect_action
 from translator.action_kind import kind_by_bases, qualified_bases
 from translator.catalog import NodeModel, PortModel
 from translator.stub import stub_source
+from tree_gardener import Status, Tree
+from tree_gardener.actions import load_actions
 
 UPDATE = "    def update(self):\n        return self.tick_child(0)\n"
 
@@ -111,7 +111,7 @@ def test_a_queue_of_numbers_is_a_list_to_the_editor(type_):
     found, codes = model(f"from tree_gardener import *\n\n\nclass A(ControlNode):\n{ports}{UPDATE}")
     assert (found.ports[0].type, codes) == ("list[int]", [])
     other, codes = model(
-        f"from x import *\n\n\nclass A(B):\n    OUTPUT_PORTS = {{'q': Port(SharedQueue[Pose])}}\n"
+        "from x import *\n\n\nclass A(B):\n    OUTPUT_PORTS = {'q': Port(SharedQueue[Pose])}\n"
     )
     assert (other.ports[0].type, codes) == ("any", [])
 
@@ -138,5 +138,6 @@ def test_a_stub_loads_and_always_fails(kind, base):
         assert f"class Own({base})" in source
         found = inspect_action(source, "actions/Own.py")
         assert (found.kind, found.diagnostics) == (kind, ())
-        xml = '<root BTCPP_format="4"><BehaviorTree ID="M"><Own hz="2.0"><AlwaysSuccess/></Own></BehaviorTree></root>'
+        body = '<BehaviorTree ID="M"><Own hz="2.0"><AlwaysSuccess/></Own></BehaviorTree>'
+        xml = f'<root BTCPP_format="4">{body}</root>'
         assert Tree.from_xml(xml, load_actions({"Own": source})).tick_exactly_once() is Status.FAILURE

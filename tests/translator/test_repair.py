@@ -98,7 +98,9 @@ def test_a_palette_opens_as_actions_without_a_tree():
     project = from_xml(PALETTE)
     kinds = {name: action.kind for name, action in sorted(project.actions.items())}
     assert kinds == {
-        **{"IsStuck": "condition", "PipelineSequence": "control", "RateController": "decorator"},
+        "IsStuck": "condition",
+        "PipelineSequence": "control",
+        "RateController": "decorator",
         "Spin": "action",
     }
     (hz,) = project.actions["RateController"].ports

@@ -1,4 +1,4 @@
-"""Helpers of the tests of Nav2's nodes. Their rules are proven by `controls.jsonl.gz`, which Nav2's C++ made."""
+"""Helpers of the tests of Nav2's nodes; their rules are proven by `controls.jsonl.gz`, made by Nav2's C++."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 import tree_gardener.nav2
 from tests.tree_gardener.trees import load, recording
+from translator import inspect_action
 from tree_gardener import Status, Tree
 from tree_gardener.actions import load_actions
-from translator import inspect_action
 
 LETTERS = {"S": Status.SUCCESS, "F": Status.FAILURE, "R": Status.RUNNING, "K": Status.SKIPPED}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import enum
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
@@ -30,7 +30,8 @@ def letters(tree: Any) -> str:
 
 
 def first_child(self: Any) -> Status:
-    return self.tick_child(0)
+    result: Status = self.tick_child(0)
+    return result
 
 
 @pytest.mark.parametrize(("result", "after"), [(S, "IS"), (F, "IF"), (R, "RR"), (K, "II")])
@@ -124,8 +125,8 @@ def test_ports_clock_wake_up_and_setup() -> None:
     clock = ManualClock(5.0)
 
     class Own(ControlNode):
-        INPUT_PORTS = {"speed": Port(float, default=0.5)}
-        OUTPUT_PORTS = {"out": Port(float)}
+        INPUT_PORTS: ClassVar = {"speed": Port(float, default=0.5)}
+        OUTPUT_PORTS: ClassVar = {"out": Port(float)}
         calls = 0
 
         def setup(self, **kwargs: Any) -> None:
@@ -279,7 +280,7 @@ def test_a_loop_takes_elements_of_any_class_from_a_shared_queue() -> None:
     seen: list[Any] = []
 
     class Note(ControlNode):
-        INPUT_PORTS = {"pose": Port(Pose)}
+        INPUT_PORTS: ClassVar = {"pose": Port(Pose)}
 
         def update(self) -> Status:
             seen.append(self.get_input("pose"))
@@ -323,13 +324,14 @@ def test_a_loop_refuses_an_element_of_another_class_and_a_literal_of_a_class() -
 
 def test_a_queue_may_be_declared_by_the_action_that_fills_it() -> None:
     class Fill(ControlNode):
-        OUTPUT_PORTS = {"queue": Port(SharedQueue[Pose])}
+        OUTPUT_PORTS: ClassVar = {"queue": Port(SharedQueue[Pose])}
 
         def update(self) -> Status:
             self.set_output("queue", SharedQueue[Pose]([Pose()]))
             return S
 
-    body = '<Sequence><Fill queue="{q}"><Running/></Fill><Each queue="{q}" value="{x}"><Succeeding/></Each></Sequence>'
+    fill, each = '<Fill queue="{q}"><Running/></Fill>', '<Each queue="{q}" value="{x}"><Succeeding/></Each>'
+    body = f"<Sequence>{fill}{each}</Sequence>"
     tree = load(body, nodes={"Fill": Fill, "Each": loop(Pose)})
     assert tree.tick_exactly_once() is R
     assert isinstance(tree.blackboard["x"], Pose)

@@ -1,8 +1,8 @@
 """Control nodes and decorators that users write: what the engine does round their `update`.
 
-After `update`: SUCCESS and FAILURE set the node's status, a control resets nothing by itself, and a decorator's
-child that is done becomes IDLE. SKIPPED leaves the status as it is. Faults against the contract are TickErrors
-with a code:
+After `update`: SUCCESS and FAILURE set the node's status, a control resets nothing by itself, and a
+decorator's child that is done becomes IDLE. SKIPPED leaves the status as it is. Faults against the contract
+are TickErrors with a code:
 
 * TG701: there is no such child;
 * TG702: `update` returned no result of a tick;

@@ -8,7 +8,7 @@ from tree_gardener import ControlNode, Port, PortError, Status
 class PersistentSequence(ControlNode):
     """A Sequence that keeps its position on the blackboard, also when it is halted.
 
-    The entry of `current_child_idx` must have a value, such as by ``<Script code="current_child_idx := 0"/>``.
+    The entry of `current_child_idx` must have a value, as ``<Script code="current_child_idx := 0"/>`` gives.
     A child that is skipped counts as done. After a failure, and at the end, it starts again at the first.
     """
 

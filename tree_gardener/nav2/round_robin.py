@@ -7,7 +7,7 @@ class RoundRobin(ControlNode):
     """Ticks the next child each time: after a success, the one after it.
 
     A child that fails or is skipped hands over to the next one in the same tick. Without `wrap_around` the
-    last child ends the round: then the node fails, whatever that child returned, and starts again at the first.
+    last child ends the round: the node fails, whatever that child returned, and starts again at the first.
     """
 
     MARKS_RUNNING = True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from typing import Any
+from typing import Any, ClassVar
 
 import py_trees
 import pytest
@@ -59,7 +59,7 @@ DECORATORS: dict[str, Any] = {cls.__name__: cls for cls in (Twice, Not)}
 class Lettered(py_trees.behaviour.Behaviour):
     """Returns the letters of its name one after the other, and logs that."""
 
-    log: list[str] = []
+    log: ClassVar[list[str]] = []
 
     def __init__(self, name: str) -> None:
         super().__init__(name)
@@ -103,7 +103,7 @@ def as_stock(node: tuple[str, list[Any]]) -> Any:
 
 def test_random_trees_of_py_trees_run_as_in_py_trees(monkeypatch: pytest.MonkeyPatch) -> None:
     for seed in range(400):
-        rng = random.Random(seed)
+        rng = random.Random(seed)  # noqa: S311 - a reproducible tree, no secret
         node = generate(rng, 3, iter(range(1000)))
         tree = Tree.from_xml(document(as_xml(node)), {"Lettered": Lettered, **COMPOSITES, **DECORATORS})
         stock = as_stock(node)
@@ -145,8 +145,8 @@ def test_invalid_without_a_skip_counts_as_failure_and_is_said_once() -> None:
 
 def test_ports_setup_and_shutdown_reach_the_users_object() -> None:
     class Own(py_trees.composites.Composite):
-        INPUT_PORTS = {"x": Port(int)}
-        calls: list[Any] = []
+        INPUT_PORTS: ClassVar = {"x": Port(int)}
+        calls: ClassVar[list[Any]] = []
 
         def setup(self, **kwargs: Any) -> None:
             self.calls.append(kwargs["node"])

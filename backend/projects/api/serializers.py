@@ -100,7 +100,7 @@ class PortSerializer(serializers.Serializer[Any]):
 
 
 class ChildrenSerializer(serializers.Serializer[Any]):
-    """How many children a node of a kind has; a largest number of null allows any."""
+    """The numbers of children that a kind of node may have; null as the largest allows any."""
 
     min = serializers.IntegerField()
     max = serializers.IntegerField(allow_null=True)

@@ -33,8 +33,8 @@ export const isPortName = (name: string): boolean =>
   XML_NAME.test(name) && !name.startsWith('_') && name !== 'name' && name !== 'ID';
 
 /** A port that is written may hold a literal where it is only read then, or names a key. */
-const takesLiteral = (node: DiagramNode, { direction, name }: PortSpec): boolean =>
-  direction === 'input' || (direction === 'inout' && (node.type.startsWith('Loop') || name === 'output_key'));
+const takesLiteral = ({ direction, name }: PortSpec): boolean =>
+  direction === 'input' || (direction === 'inout' && (name === 'queue' || name === 'output_key'));
 
 /** A built-in node that watches an entry cannot be without its name. */
 const namesEntry = ({ name }: PortSpec, { source }: NodeSpec): boolean =>
@@ -49,7 +49,7 @@ function checkDeclared(id: NodeId, node: DiagramNode, port: PortSpec, spec: Node
   if (port.type === 'script') return [];
   const braces = checkBraces(id, port.name, text);
   if (braces.length > 0 || pointerOf(text) !== null) return braces;
-  if (!takesLiteral(node, port)) return [atPort('output-literal', id, port.name, { text })];
+  if (!takesLiteral(port)) return [atPort('output-literal', id, port.name, { text })];
   return checkLiteral(id, port, text);
 }
 

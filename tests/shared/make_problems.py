@@ -190,7 +190,9 @@ def cases() -> Iterator[tuple[str, Trees]]:
     for name in ("Own", "AnyNumber", "Around"):
         yield from counts_of(action_node_model(project.actions[name]))
     texts = ("1;2", "1;x", "{q}", "", "{")
-    looping = [{"type": "EachInt", "ports": {"queue": text, "value": "{v}"}, "children": ["c"]} for text in texts]
+    looping = [
+        {"type": "EachInt", "ports": {"queue": text, "value": "{v}"}, "children": ["c"]} for text in texts
+    ]
     for text, node in zip(texts, looping, strict=True):
         yield f"an own loop over {text!r}", {"MainTree": {"root": "r", "nodes": {"r": node, "c": dict(LEAF)}}}
     for direction in DIRECTIONS:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import enum
+import re
+from pathlib import Path
 from typing import Any, ClassVar
 
 import pytest
 
 from tests.tree_gardener.trees import load, recording
+from translator import inspect_action
 from tree_gardener import LoadError, ManualClock, Port, Status, TickError
+from tree_gardener.actions import load_actions
 from tree_gardener.control_node import ControlNode, DecoratorNode, LoopNode
 from tree_gardener.values import SharedQueue
 
@@ -335,3 +339,22 @@ def test_a_queue_may_be_declared_by_the_action_that_fills_it() -> None:
     tree = load(body, nodes={"Fill": Fill, "Each": loop(Pose)})
     assert tree.tick_exactly_once() is R
     assert isinstance(tree.blackboard["x"], Pose)
+
+
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "write-a-control-node.md"
+
+
+def test_the_examples_of_the_page_are_sound_and_run() -> None:
+    blocks = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    sources = {
+        match.group(1): block for block in blocks if (match := re.search(r"^class (\w+)", block, re.M))
+    }
+    assert set(sources) == {"FirstOf", "AtMostEvery", "LoopPose", "Prefer"}
+    for name, source in sources.items():
+        assert inspect_action(source, f"actions/{name}.py").diagnostics == ()
+    nodes = load_actions({name: source for name, source in sources.items() if name != "LoopPose"})
+    assert load("<FirstOf><Failing/><Succeeding/></FirstOf>", nodes=nodes).tick_once() is S
+    assert load('<FirstOf limit="1"><Failing/><Succeeding/></FirstOf>', nodes=nodes).tick_once() is F
+    assert load("<Prefer><Failing/><Running/></Prefer>", nodes=nodes).tick_once() is R
+    tree = load("<AtMostEvery><Succeeding/></AtMostEvery>", nodes=nodes, clock=ManualClock())
+    assert [tree.tick_once(), tree.tick_once()] == [S, K]

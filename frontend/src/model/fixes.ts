@@ -56,7 +56,8 @@ function typeFixes(id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Fix[]
     fix('call-tree', setType(id, 'SubTree', name), { name }),
   );
   const count = node.children?.length ?? 0;
-  const kind = count > 1 ? ({ kind: 'Control' } as const) : count === 1 ? ({ kind: 'Decorator' } as const) : {};
+  const kind =
+    count > 1 ? ({ kind: 'Control' } as const) : count === 1 ? ({ kind: 'Decorator' } as const) : {};
   const made = isPythonName(node.type)
     ? [
         fix(

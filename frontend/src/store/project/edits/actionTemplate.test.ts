@@ -15,7 +15,9 @@ describe('the source of a new node', () => {
   it('declares the ports that its block has', () => {
     const source = actionSource('Mine', 'Decorator', ['hz']);
     expect(source).toContain('from tree_gardener import DecoratorNode, Port, Status');
-    expect(source).toContain('        "hz": Port(str, description="Say what it is."),\n    }\n\n    def update');
+    expect(source).toContain(
+      '        "hz": Port(str, description="Say what it is."),\n    }\n\n    def update',
+    );
     expect(actionSource('Mine', 'Action', ['hz'])).toContain('"hz": Port(str');
   });
 });

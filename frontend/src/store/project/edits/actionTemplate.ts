@@ -86,7 +86,13 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
   if (actionPath(name) in files) return;
   addFile(actionPath(name), actionSource(name, kind, ports));
   const isOwnNode = kind === 'Control' || kind === 'Decorator';
-  const message = { name: 'message', direction: 'input', type: 'str', default: name, required: false } as const;
+  const message = {
+    name: 'message',
+    direction: 'input',
+    type: 'str',
+    default: name,
+    required: false,
+  } as const;
   // The server reads the class after the save; until then this says what the template declares.
   setChecked({
     diagnostics,

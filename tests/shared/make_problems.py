@@ -189,12 +189,12 @@ def cases() -> Iterator[tuple[str, Trees]]:
     project = project_of_actions()
     for name in ("Own", "AnyNumber", "Around"):
         yield from counts_of(action_node_model(project.actions[name]))
-    texts = ("1;2", "1;x", "{q}", "", "{")
-    looping = [
-        {"type": "EachInt", "ports": {"queue": text, "value": "{v}"}, "children": ["c"]} for text in texts
-    ]
-    for text, node in zip(texts, looping, strict=True):
-        yield f"an own loop over {text!r}", {"MainTree": {"root": "r", "nodes": {"r": node, "c": dict(LEAF)}}}
+    for queue in ("1;2", "1;x", "{q}", "", "{"):
+        loop = {"type": "EachInt", "ports": {"queue": queue, "value": "{v}"}, "children": ["c"]}
+        yield (
+            f"an own loop over {queue!r}",
+            {"MainTree": {"root": "r", "nodes": {"r": loop, "c": dict(LEAF)}}},
+        )
     for direction in DIRECTIONS:
         for type_ in TYPES:
             texts = KEYS + LITERALS if direction == "input" else KEYS[:6] + LITERALS[:16]

@@ -8,7 +8,8 @@ from functools import lru_cache
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
-from translator.action_ports import Declarations, declared_ports, last_name, ports_used
+from translator.action_kind import KINDS, children_of, is_loop, kind_by_bases, qualified_bases
+from translator.action_ports import Declarations, assigned, declared_ports, last_name, loop_ports, ports_used
 from translator.diagnostic import Diagnostic, Place, diagnostic
 from translator.limits import ACTION_BYTES, megabytes
 from translator.python_source import parse
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 KEPT_BYTES = 16 * 1024
 """Longer sources are not cached, which bounds the memory of the cache."""
-KINDS = {"Action": "action", "SyncAction": "action", "Condition": "condition"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,11 +33,13 @@ class Import:
 
 @dataclass(frozen=True, slots=True)
 class ActionModel:
-    """An action as its source declares it. `open` actions accept any port."""
+    """An action, a control node or a decorator as its source declares it. `open` ones accept any port."""
 
     name: str
     doc: str = ""
     kind: str = "action"
+    min_children: int = 0
+    max_children: int | None = 0
     ports: tuple[PortModel, ...] = ()
     open: bool = True
     imports: tuple[Import, ...] = ()
@@ -53,6 +55,7 @@ class ActionModel:
             "path": self.path,
             "doc": self.doc,
             "kind": self.kind,
+            "children": {"min": self.min_children, "max": self.max_children},
             "open": self.open,
             "line": self.line,
             "ports": [
@@ -138,16 +141,23 @@ class _Inspector:
             code = "BT0602" if self.is_local() else "BT0607"
             self.report(code, self.module, name=self.name, classes=others)
             return self.result(imports=imports)
+        lineage = self.lineage(cls)
+        bases = qualified_bases(self.module, lineage)
+        kind = self.kind(lineage, kind_by_bases(bases))
+        loops = is_loop(bases)
         if not self.is_behaviour(cls):
             self.report("BT0603", cls, name=self.name)
-        elif not self.has_update(cls):
+        elif not loops and not self.has_update(cls):
             self.report("BT0604", cls, name=self.name)
-        declarations = Declarations.collect(self.lineage(cls))
-        ports = declared_ports(declarations, self.report)
-        is_open = not declarations.any
+        declarations = Declarations.collect(lineage)
+        ports = loop_ports(lineage) if loops else declared_ports(declarations, self.report)
+        is_open = not loops and not declarations.any
+        least, most = children_of(lineage, kind, self.report)
         return self.result(
             doc=ast.get_docstring(cls) or "",
-            kind=self.kind(cls),
+            kind=kind,
+            min_children=least,
+            max_children=most,
             ports=ports_used(cls) if is_open else ports,
             open=is_open,
             imports=imports,
@@ -165,7 +175,7 @@ class _Inspector:
             if isinstance(node, ast.Import | ast.ImportFrom):
                 if any((alias.asname or alias.name) == self.name for alias in node.names):
                     return False
-            elif _assigned(node, self.name) is not None:
+            elif assigned(node, self.name) is not None:
                 return False
         return True
 
@@ -212,30 +222,23 @@ class _Inspector:
                     return True
         return False
 
-    def kind(self, cls: ast.ClassDef) -> str:
-        for member in self.lineage(cls):
+    def kind(self, lineage: list[ast.ClassDef], by_bases: str) -> str:
+        for member in lineage:
             for node in member.body:
-                value = _assigned(node, "NODE_KIND")
+                value = assigned(node, "NODE_KIND")
                 if value is None:
                     continue
                 if isinstance(value, ast.Constant) and value.value in KINDS:
                     return KINDS[value.value]
                 self.report("BT0606", node, kinds=", ".join(KINDS))
-                return "action"
-        return "action"
+                return by_bases
+        return by_bases
 
 
-_BASES_WITHOUT_UPDATE = {"Behaviour", "PortsMixin", "ABC", "BehaviourWithPorts"}
+_BASES_WITHOUT_UPDATE = {
+    *("Behaviour", "PortsMixin", "ABC", "BehaviourWithPorts", "ControlNode", "DecoratorNode"),
+}
 _PLAIN_BASES = {"object", "Exception", "ABC", "Protocol", "Enum", "dict", "list", "str", "int", "float"}
-
-
-def _assigned(node: ast.stmt, name: str) -> ast.expr | None:
-    if isinstance(node, ast.Assign):
-        if any(isinstance(target, ast.Name) and target.id == name for target in node.targets):
-            return node.value
-    elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id == name:
-        return node.value
-    return None
 
 
 def _imports(module: ast.Module) -> Iterator[Import]:

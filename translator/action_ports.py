@@ -26,6 +26,7 @@ TYPES = {
     "any": "any",
     "object": "any",
 }
+_LISTS = ("list", "deque", "SharedQueue")
 POSITIONAL = {
     "Port": ("type", "default", "required", "description"),
     "PortInformation": ("data_type", "required", "description", "default_value"),
@@ -115,10 +116,12 @@ def _type_name(text: str) -> str | None:
     text = text.strip().removeprefix("typing.").replace("List[", "list[")
     if text in TYPES:
         return TYPES[text]
+    text = text.removeprefix("tree_gardener.").removeprefix("collections.")
     if text == "list":
         return "any"
-    if text.startswith("list[") and text.endswith("]"):
-        inner = TYPES.get(text[5:-1].strip())
+    opening = next((name for name in _LISTS if text.startswith(f"{name}[")), "")
+    if opening and text.endswith("]"):
+        inner = TYPES.get(text[len(opening) + 1 : -1].strip())
         return f"list[{inner}]" if inner and inner != "any" else "any"
     # A class that the action defines: its values are passed over the blackboard by reference.
     return "any" if text.replace(".", "").replace("_", "").isalnum() else None
@@ -169,6 +172,28 @@ def _assignment(node: ast.stmt) -> tuple[str, ast.expr | None]:
     return "", None
 
 
+def assigned(node: ast.stmt, name: str) -> ast.expr | None:
+    """Returns what a statement assigns to a name, or None if it does not."""
+    if isinstance(node, ast.Assign):
+        if any(isinstance(target, ast.Name) and target.id == name for target in node.targets):
+            return node.value
+    elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name) and node.target.id == name:
+        return node.value
+    return None
+
+
+def loop_ports(lineage: Iterable[ast.ClassDef]) -> tuple[PortModel, ...]:
+    """Returns the ports of a LoopNode, whose `ELEMENT` says what it loops over."""
+    elements = (assigned(node, "ELEMENT") for cls in lineage for node in cls.body)
+    element = _type(next((value for value in elements if value is not None), None)) or "any"
+    queue = f"list[{element}]" if element != "any" and not element.startswith("list") else "any"
+    return (
+        PortModel("queue", "inout", queue, required=True, description="A queue of the blackboard."),
+        PortModel("value", "output", element, description="Where the element goes."),
+        PortModel("if_empty", "input", "status", "SUCCESS", description="The result when it is empty."),
+    )
+
+
 def _is_empty_call(value: ast.expr) -> bool:
     return isinstance(value, ast.Call) and last_name(value.func) == "dict" and not value.keywords
 
@@ -182,9 +207,10 @@ def ports_used(cls: ast.ClassDef) -> tuple[PortModel, ...]:
             function = last_name(node.func)
             if function == "set_port_content" and node.args and (name := _port_key(node.args[0])):
                 written.add(name)
-            elif function in {"get_input", "set_output"} and len(node.args) > 1:
-                asked = _constant(node.args[1])
-                if isinstance(asked, str):
+            elif function in {"get_input", "set_output"} and node.args:
+                texts = (_constant(argument) for argument in node.args[:2])
+                asked = next((text for text in texts if isinstance(text, str)), None)
+                if asked is not None:
                     names.setdefault(asked)
                     if function == "set_output":
                         written.add(asked)

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
-from translator.catalog import NodeModel, builtins
+from translator.action_kind import LIMITS
+from translator.catalog import NodeModel, builtins, nearest
 from translator.diagnostic import Diagnostic, Place, TranslatorError, diagnostic
 from translator.diagram import diagram_path, diagram_text
 from translator.limits import NAME_CHARACTERS, XML_INCLUDES, oversize
@@ -190,7 +191,7 @@ def main_tree_of(documents: Iterable[Document]) -> tuple[str, str]:
 def _actions(
     trees: list[Tree], documents: list[Document], sources: Mapping[str, bytes], *, stubs: bool
 ) -> dict[str, bytes]:
-    """Returns the action files: those given, those of `<Code>`, and stubs for the others that are leaves."""
+    """Returns the action files: those given, those of `<Code>`, and stubs for the others."""
     files = {f"actions/{name}": raw for name, raw in sources.items()}
     for document in documents:
         for name, code in document.code.items():
@@ -201,31 +202,49 @@ def _actions(
     for document in documents:
         models.update(document.models)
         kinds.update(document.kinds)
-    seen = _unknown_leaves(trees)
+    seen = _unknown_nodes(trees)
     if not any(tree.nodes for tree in trees):  # a palette
-        leaves = (name for name, model in models.items() if model.kind in {"action", "condition"})
-        seen |= {name: set() for name in leaves if name not in builtins() and can_be_class(name)}
-    for type_, ports in seen.items() if stubs else ():
+        others = (name for name, model in models.items() if model.kind != "subtree")
+        seen |= {name: _Use() for name in others if name not in builtins() and can_be_class(name)}
+    for type_, use in seen.items() if stubs else ():
         path = f"actions/{type_}.py"
         model = models.get(type_)
-        kind = model.kind if model is not None else kinds.get(type_, "action")
-        if path in files or kind in {"control", "decorator"}:
-            continue
-        source = stub_source(type_, model, ports, kind=kind)
-        files[path] = source.encode()
+        if model is None and type_ not in kinds and use.children and nearest(type_, _with_children()):
+            continue  # more likely a built-in node that is spelled wrong
+        kind = model.kind if model is not None else kinds.get(type_, use.kind)
+        if use.children and kind not in LIMITS:
+            kind = use.kind  # a leaf could not have them
+        if path not in files:
+            files[path] = stub_source(type_, model, use.ports, kind=kind).encode()
     return files
 
 
-def _unknown_leaves(trees: list[Tree]) -> dict[str, set[str]]:
-    """Returns the types of leaves that are not built in, with the ports seen on them."""
+@dataclass(slots=True)
+class _Use:
+    """The ports and the largest number of children that a type of node is seen with."""
+
+    ports: set[str] = field(default_factory=set)
+    children: int = 0
+
+    @property
+    def kind(self) -> str:
+        """The kind that fits."""
+        return "control" if self.children > 1 else "decorator" if self.children else "action"
+
+
+def _with_children() -> list[str]:
+    return [name for name, model in builtins().items() if model.max_children != 0]
+
+
+def _unknown_nodes(trees: list[Tree]) -> dict[str, _Use]:
+    """Returns the types of nodes that are not built in, with what is seen on them."""
     ids = {tree.id for tree in trees}
-    with_children: set[str] = set()
-    seen: dict[str, set[str]] = {}
+    seen: dict[str, _Use] = {}
     for tree in trees:
         for node in tree.nodes.values():
             if node.type in builtins() or node.type in ids or not can_be_class(node.type):
                 continue
-            if node.children:
-                with_children.add(node.type)
-            seen.setdefault(node.type, set()).update(node.ports)
-    return {type_: ports for type_, ports in sorted(seen.items()) if type_ not in with_children}
+            use = seen.setdefault(node.type, _Use())
+            use.ports.update(node.ports)
+            use.children = max(use.children, len(node.children))
+    return dict(sorted(seen.items()))

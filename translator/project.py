@@ -68,10 +68,12 @@ _imported: WeakKeyDictionary[Project, dict[str, NodeModel]] = WeakKeyDictionary(
 
 
 def action_node_model(action: ActionModel) -> NodeModel:
-    """Returns an action as a kind of leaf."""
+    """Returns an action, or a control node or decorator of the project, as a kind of node."""
     ports: dict[str, PortModel] = {port.name: port for port in action.ports}
     return NodeModel(
-        action.name, action.kind, 0, 0, ports, open=action.open, summary=action.doc.partition("\n")[0]
+        *(action.name, action.kind, action.min_children, action.max_children, ports),
+        open=action.open,
+        summary=action.doc.partition("\n")[0],
     )
 
 

@@ -1,4 +1,4 @@
-"""Stubs: the Python of actions that an imported tree uses and nobody has written yet."""
+"""Stubs: the Python of actions and control nodes that an imported tree uses and nobody has written yet."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from translator.catalog import NodeModel
 
 _PYTHON_TYPES = {"int": "int", "uint": "int", "double": "float", "bool": "bool", "string": "str"}
+_BASES = {"control": "ControlNode", "decorator": "DecoratorNode"}
 _ATTRIBUTES = {"input": "INPUT_PORTS", "output": "OUTPUT_PORTS", "inout": "INOUT_PORTS"}
 
 
@@ -25,18 +26,22 @@ def can_be_class(name: str) -> bool:
 def stub_source(
     name: str, model: NodeModel | None, ports_seen: Iterable[str], *, kind: str = "action"
 ) -> str:
-    """Returns the source of an action that is still to be written, with the ports seen in the tree."""
-    from tree_gardener.stubs import STUB_UPDATE  # noqa: PLC0415 - the engine loads py_trees
+    """Returns the source of a node of `kind` that is still to be written, with the ports seen in the tree."""
+    from tree_gardener.stubs import STUB_CONTROL_UPDATE, STUB_UPDATE  # noqa: PLC0415 - the engine loads py_trees
 
     seen = sorted(set(ports_seen))
     declared = list(model.ports.values()) if model is not None else []
     if declared:
         declared += [PortModel(port) for port in seen if port not in {item.name for item in declared}]
-    kind = model.kind if model is not None else kind
+    doc = _docstring([] if declared else seen)
+    if kind in _BASES:
+        names = ", ".join(sorted({_BASES[kind], "Status", *(("Port",) if declared else ())}))
+        head = [f"from tree_gardener import {names}", "", "", f"class {name}({_BASES[kind]}):", *doc, ""]
+        return "\n".join([*head, *_declarations(declared), STUB_CONTROL_UPDATE])
     lines = ["import py_trees", ""]
     if declared:
         lines += ["from tree_gardener.ports import Port", ""]
-    lines += ["", f"class {name}(py_trees.behaviour.Behaviour):", *_docstring([] if declared else seen), ""]
+    lines += ["", f"class {name}(py_trees.behaviour.Behaviour):", *doc, ""]
     if kind == "condition":
         lines += ['    NODE_KIND = "Condition"', ""]
     lines += [*_declarations(declared), *_METHODS, STUB_UPDATE]

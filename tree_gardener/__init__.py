@@ -11,22 +11,28 @@ while tree.tick_once() is Status.RUNNING:
 """
 
 from tree_gardener.clock import ManualClock, SystemClock
+from tree_gardener.control_node import ControlNode, DecoratorNode, LoopNode
 from tree_gardener.errors import Diagnostic, LoadError, PortError, ScriptError, TickError
 from tree_gardener.observe import BlackboardChange, TickChanges
 from tree_gardener.ports import Port, get_input, set_output
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
+from tree_gardener.values import SharedQueue
 
 __version__ = "0.1.0"
 
 __all__ = [
     "BlackboardChange",
+    "ControlNode",
+    "DecoratorNode",
     "Diagnostic",
     "LoadError",
+    "LoopNode",
     "ManualClock",
     "Port",
     "PortError",
     "ScriptError",
+    "SharedQueue",
     "Status",
     "SystemClock",
     "TickChanges",

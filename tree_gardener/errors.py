@@ -10,9 +10,10 @@ TreeGardenerError
 """
 
 import dataclasses
+import sys
 import traceback
-from collections.abc import Sequence
-from types import TracebackType
+from collections.abc import Iterable, Sequence
+from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -108,20 +109,33 @@ class TickError(TreeGardenerError):
         message: type and text of the exception.
         traceback_text: the whole traceback, without the engine's own frames.
         cause: the exception itself, or None when the engine found the fault.
+        code: stable, such as ``TG701``, for a node that broke the contract of control nodes; else "".
+        hint: what to do about it, or "".
     """
 
-    def __init__(self, node: "Node", message: str, cause: BaseException | None = None) -> None:
+    def __init__(  # noqa: PLR0913 - most are rare
+        self,
+        node: "Node",
+        message: str,
+        cause: BaseException | None = None,
+        *,
+        code: str = "",
+        hint: str = "",
+        place: tuple[str, int] = ("", 0),
+    ) -> None:
         self.uid = node.uid
         self.path = node.path
         self.node_id = node.node_id
         self.node_type = node.type
         self.tree_id = node.tree_id
         self.cause = cause
-        self.message = message
-        self.file, self.line = _locate(cause.__traceback__ if cause is not None else None)
+        self.code = code
+        self.hint = hint
+        self.message = message = f"{message} ({hint})" if hint else message
+        self.file, self.line = _locate(cause.__traceback__) if cause is not None else place
         self.traceback_text = _format(cause)
-        place = f" at {self.file}:{self.line}" if self.file else ""
-        super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{place}")
+        at = f" at {self.file}:{self.line}" if self.file else ""
+        super().__init__(f"node '{self.path}' [{self.node_type}]: {message}{at}")
 
 
 _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
@@ -129,14 +143,24 @@ _PACKAGE = __file__.rsplit("/", 1)[0] + "/"
 
 def _locate(trace: TracebackType | None) -> tuple[str, int]:
     """Returns the innermost line that belongs to an action, else to anything outside the engine."""
-    outside = [
-        (frame.filename, frame.lineno or 0)
-        for frame in traceback.extract_tb(trace)
-        if not frame.filename.startswith(_PACKAGE)
-    ]
+    return _nearest((frame.filename, frame.lineno or 0) for frame in traceback.extract_tb(trace))
+
+
+def _nearest(places: Iterable[tuple[str, int]]) -> tuple[str, int]:
+    outside = [place for place in places if not place[0].startswith(_PACKAGE)]
     actions = [place for place in outside if place[0].startswith("actions/") or "/actions/" in place[0]]
-    places = actions or outside
-    return places[-1] if places else ("", 0)
+    nearest = actions or outside
+    return nearest[-1] if nearest else ("", 0)
+
+
+def calling_place() -> tuple[str, int]:
+    """Returns file and line of the user's code that called the engine, or ("", 0)."""
+    places = []
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        places.append((frame.f_code.co_filename, frame.f_lineno))
+        frame = frame.f_back
+    return _nearest(reversed(places))
 
 
 def _format(cause: BaseException | None) -> str:

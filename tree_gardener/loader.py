@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from tree_gardener.blackboard import EMPTY, Blackboard, Entry
 from tree_gardener.conditions import CONDITIONS, Guard, compile_conditions
+from tree_gardener.controls.custom import CustomControl
 from tree_gardener.decorators.loop import Loop
 from tree_gardener.document import Element
 from tree_gardener.errors import Diagnostic, ScriptError, describe
@@ -145,7 +146,7 @@ class Builder:
                 break
         if node.NEEDS:
             self.construct(node)
-        if isinstance(node, BehaviourLeaf):
+        if isinstance(node, (BehaviourLeaf, CustomControl)):
             self.bind(node, kind)
         return node
 
@@ -300,8 +301,8 @@ class Builder:
             return
         node.guard = Guard(scripts, Environment(node.board, self.tree.enums, node.uid))
 
-    def bind(self, node: BehaviourLeaf, kind: NodeType) -> None:
-        """Makes the behaviour of an action."""
+    def bind(self, node: BehaviourLeaf | CustomControl, kind: NodeType) -> None:
+        """Makes the behaviour of an action, or the object of a control node."""
         assert kind.behaviour_class is not None
         try:
             if kind.takes_ports:

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from typing import Any, Final
 
 from py_trees.behaviour import Behaviour
-from py_trees.composites import Composite
-from py_trees.decorators import Decorator as PyTreesDecorator
 
 from tree_gardener import catalog
+from tree_gardener.control_node import ControlNode, DecoratorNode, LoopNode
+from tree_gardener.controls.adapted import adapted
+from tree_gardener.controls.custom import CustomControl, CustomDecorator
 from tree_gardener.controls.fallback import AsyncFallback, Fallback
 from tree_gardener.controls.if_then_else import IfThenElse
 from tree_gardener.controls.parallel import Parallel, ParallelAll
@@ -35,7 +36,8 @@ from tree_gardener.leaves.scripts import Script, ScriptCondition
 from tree_gardener.leaves.sleep import Sleep
 from tree_gardener.leaves.test_node import TestNode
 from tree_gardener.node import Control, Decorator, Kind, Leaf, Node
-from tree_gardener.ports import Manifest, manifest_of
+from tree_gardener.ports import INOUT, INPUT, OUTPUT, Manifest, PortSpec, manifest_of
+from tree_gardener.values import STATUS, queue_type, value_type
 
 BUILT_IN: Final[Mapping[str, type[Node]]] = {
     **{
@@ -78,7 +80,7 @@ class NodeType:
         manifest: its ports; None if it accepts any.
         min_children: the least number of children.
         max_children: the largest number; None for any.
-        behaviour_class: the py_trees class of an action, or None.
+        behaviour_class: the class of an action, or of a control node of the user; None for others.
         takes_ports: whether that class takes the ports in its constructor.
     """
 
@@ -89,6 +91,11 @@ class NodeType:
     max_children: int | None
     behaviour_class: type[Any] | None = None
     takes_ports: bool = False
+
+    @property
+    def is_own(self) -> bool:
+        """Whether it is a control node or decorator of the user."""
+        return issubclass(self.node_class, CustomControl)
 
     @property
     def kind(self) -> Kind:
@@ -134,18 +141,45 @@ def _user_type(name: str, cls: Any) -> NodeType:
         raise TypeError(f"{cls!r} is not a class")
     if issubclass(cls, Node):
         return _engine_type(name, cls)
+    if issubclass(cls, LoopNode):
+        return NodeType(name, Loop, _loop_manifest(cls), 1, 1)
+    own = cls if issubclass(cls, ControlNode) else adapted(cls)
+    if own is not None:
+        return _own_type(name, cls, own)
     if not issubclass(cls, Behaviour):
-        raise TypeError(f"{cls.__name__} is not derived from py_trees.behaviour.Behaviour")
-    if issubclass(cls, (Composite, PyTreesDecorator)):
         raise TypeError(
-            f"{cls.__name__} is a py_trees composite or decorator, whose ticks are generators; "
-            "derive it from tree_gardener.node.Control or Decorator"
+            f"{cls.__name__} is not derived from py_trees.behaviour.Behaviour, "
+            "tree_gardener.ControlNode or tree_gardener.DecoratorNode"
         )
     kind = getattr(cls, "NODE_KIND", "Action")
     if kind not in LEAF_KINDS:
         raise ValueError(f"its NODE_KIND is {kind!r}, which is not one of {', '.join(LEAF_KINDS)}")
     parameters = inspect.signature(cls.__init__).parameters
     return NodeType(name, LEAF_KINDS[kind], manifest_of(cls), 0, 0, cls, "ports" in parameters)
+
+
+def _own_type(name: str, cls: type, own: type[ControlNode]) -> NodeType:
+    """Returns the type of a control node or decorator of the user; `own` is `cls`, or what adapts it."""
+    is_decorator = issubclass(own, DecoratorNode)
+    least, most = own.MIN_CHILDREN, own.MAX_CHILDREN
+    if is_decorator and (least, most) != (1, 1):
+        raise ValueError("a decorator has exactly one child: leave out MIN_CHILDREN and MAX_CHILDREN")
+    if type(least) is not int or least < 1:
+        raise ValueError(f"its MIN_CHILDREN is {least!r} and must be 1 or more")
+    if most is not None and (type(most) is not int or most < least):
+        raise ValueError(f"its MAX_CHILDREN is {most!r} and must be None, or {least} or more")
+    takes_ports = "ports" in inspect.signature(own.__init__).parameters
+    node_class = CustomDecorator if is_decorator else CustomControl
+    return NodeType(name, node_class, manifest_of(cls), least, most, own, takes_ports)
+
+
+def _loop_manifest(cls: type[LoopNode]) -> Manifest:
+    """Returns the ports of a loop; its queue takes any entry, as BehaviorTree.CPP's."""
+    return {
+        "queue": PortSpec("queue", INOUT, queue_type(cls.ELEMENT)),
+        "value": PortSpec("value", OUTPUT, value_type(cls.ELEMENT)),
+        "if_empty": PortSpec("if_empty", INPUT, STATUS, "SUCCESS"),
+    }
 
 
 def _engine_type(name: str, cls: type[Node]) -> NodeType:

@@ -168,11 +168,15 @@ class StructureCheck:
         """Checks the number of children; Switch, IfThenElse and others check theirs when they are ticked."""
         count = len(element.children)
         if kind.kind is Kind.CONTROL:
-            least = 2 if name == "TryCatch" else 1
+            least = kind.min_children if kind.is_own else 2 if name == "TryCatch" else 1
+            most = kind.max_children if kind.is_own else None
             if count < least:
                 self.report(
                     element, "TG210", f"{name} has {count} children and needs {least} or more", "add some"
                 )
+            elif most is not None and count > most:
+                message = f"{name} has {count} children and can have {most}"
+                self.report(element, "TG225", message, "remove some, or put them under a Sequence")
         elif kind.kind is Kind.DECORATOR:
             if count != 1:
                 hint = "put the children under a Sequence" if count else "add one"

@@ -1,4 +1,4 @@
-"""Actions that nobody has written yet: the importer leaves stubs of them, which always fail."""
+"""Actions and control nodes that nobody has written yet: the importer leaves stubs, which always fail."""
 
 import linecache
 import sys
@@ -11,18 +11,21 @@ if TYPE_CHECKING:
 
 STUB_MARK: Final = "bt-studio: to be written"
 STUB_UPDATE: Final = "    def update(self):\n        return py_trees.common.Status.FAILURE\n"
+STUB_CONTROL_UPDATE: Final = "    def update(self):\n        return Status.FAILURE\n"
 
 
 def is_stub(source: str) -> bool:
     """Whether the source of an action is an unchanged stub of the importer."""
-    return STUB_MARK in source and STUB_UPDATE in source.replace("\r\n", "\n")
+    text = source.replace("\r\n", "\n")
+    return STUB_MARK in text and (STUB_UPDATE in text or STUB_CONTROL_UPDATE in text)
 
 
 def unwritten(tree: "Tree") -> list[str]:
     """Returns the names of a tree's actions that are stubs."""
     found = set()
     for node in tree.nodes:
-        if node.type not in found and node.behaviour is not None and is_stub(_source_of(node.behaviour)):
+        own = getattr(node, "instance_behaviour", None)
+        if own is not None and node.type not in found and is_stub(_source_of(own)):
             found.add(node.type)
     return sorted(found)
 

@@ -10,6 +10,7 @@ from tree_gardener import tree_tools
 from tree_gardener.actions import load_actions
 from tree_gardener.blackboard import Blackboard
 from tree_gardener.clock import Clock, SystemClock, Timers
+from tree_gardener.controls.custom import CustomControl
 from tree_gardener.deep import DEEP, call_deep
 from tree_gardener.errors import LoadError, TickError, describe
 from tree_gardener.forest import Forest
@@ -179,7 +180,7 @@ class Tree:
     # -- life ---------------------------------------------------------------------------------------
 
     def setup(self, node: Any = None, **kwargs: Any) -> None:
-        """Calls ``setup(node=…)`` of each behaviour once, in pre-order.
+        """Calls ``setup(node=…)`` of each action and own control node once, in pre-order.
 
         Args:
             node: the rclpy node, or None.
@@ -188,11 +189,11 @@ class Tree:
         Raises:
             TickError: a behaviour raised.
         """
-        for leaf in self._leaves():
+        for own in self._users_nodes():
             try:
-                leaf.instance_behaviour.setup(node=node, **kwargs)
+                own.instance_behaviour.setup(node=node, **kwargs)
             except (Exception, SystemExit) as error:
-                raise TickError(leaf, describe(error), error) from error
+                raise TickError(own, describe(error), error) from error
 
     def halt(self) -> None:
         """Halts the whole tree, as BT.CPP's ``haltTree``: the root, and then every node once more."""
@@ -219,26 +220,26 @@ class Tree:
         except TickError as error:
             first = error
             self._halt_one_by_one()
-        for leaf in self._leaves():
+        for own in self._users_nodes():
             try:
-                leaf.instance_behaviour.shutdown()
+                own.instance_behaviour.shutdown()
             except (Exception, SystemExit) as error:
-                first = first or TickError(leaf, describe(error), error)
+                first = first or TickError(own, describe(error), error)
         if first is not None:
             raise first
 
     def _halt_one_by_one(self) -> None:
-        """Halts every leaf, after halting the tree failed in one of them."""
-        for leaf in self._leaves():
+        """Halts every node of the user, after halting the tree failed in one of them."""
+        for own in self._users_nodes():
             try:
-                leaf.halt()
+                own.halt()
             except TickError:
                 continue
         for node in self.nodes:
             node.status = IDLE
 
-    def _leaves(self) -> list[BehaviourLeaf]:
-        return [node for node in self.nodes if isinstance(node, BehaviourLeaf)]
+    def _users_nodes(self) -> list[BehaviourLeaf | CustomControl]:
+        return [node for node in self.nodes if isinstance(node, (BehaviourLeaf, CustomControl))]
 
     # -- ticking ------------------------------------------------------------------------------------
 

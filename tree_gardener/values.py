@@ -7,6 +7,7 @@ else passes by reference.
 import collections
 import dataclasses
 import enum
+import functools
 import json
 import math
 import numbers
@@ -29,6 +30,17 @@ _REAL = re.compile(
 )
 _TRUE = frozenset(("1", "true", "TRUE", "True"))
 _FALSE = frozenset(("0", "false", "FALSE", "False"))
+
+
+T = typing.TypeVar("T")
+
+
+class SharedQueue(collections.deque[T]):
+    """A queue of any objects that nodes share over the blackboard, as BehaviorTree.CPP's ``SharedQueue<T>``.
+
+    Declare it as ``Port(SharedQueue[Pose])``. The Loop nodes and a LoopNode consume it in place. Adding and
+    taking elements is safe from any thread.
+    """
 
 
 class ConversionError(ValueError):
@@ -197,6 +209,7 @@ STATUS: Final = ValueType("status", parse_status, _convert_status)
 ANY: Final = ValueType("any", _same, _same, is_strong=False)
 
 
+@functools.cache
 def _list_of(item: ValueType) -> ValueType:
     def parse(text: str) -> list[Any]:
         if text.startswith("json:"):
@@ -256,16 +269,24 @@ def value_type(annotation: Any) -> ValueType:
 
 
 def _make_type(annotation: Any) -> ValueType:
-    if typing.get_origin(annotation) in (list, collections.deque):
+    if typing.get_origin(annotation) in (list, collections.deque, SharedQueue):
         item = value_type(typing.get_args(annotation)[0])
         return BY_NAME.get(f"list[{item.name}]") or _list_of(item)
     if annotation in (list, collections.deque):
         return BY_NAME["list[string]"]
+    if annotation is SharedQueue:
+        return queue_type(Any)
     if isinstance(annotation, type) and issubclass(annotation, enum.Enum):
         return _enumeration(annotation)
     if isinstance(annotation, type):
         return _class(annotation)
     return ANY
+
+
+def queue_type(element: Any) -> ValueType:
+    """Returns the type of a loop's queue: it reads literals of its elements, and takes any entry."""
+    item = value_type(element)
+    return dataclasses.replace(BY_NAME.get(f"list[{item.name}]") or _list_of(item), is_strong=False)
 
 
 def _enumeration(cls: type[enum.Enum]) -> ValueType:

@@ -10,10 +10,11 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from tests.shared.problem_cases import written_cases
+from tests.shared.problem_cases import LEAF, written_cases
 from translator import check, load
 from translator.catalog import builtins
 from translator.diagram import restore_document
+from translator.project import action_node_model
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -110,6 +111,14 @@ def action_source(name: str, direction: str, type_: str) -> str:
     )
 
 
+def own_source(name: str, base: str, children: str = "") -> str:
+    """A control node or decorator of the project."""
+    return (
+        f"from tree_gardener import {base}\n\n\nclass {name}({base}):\n{children}"
+        "    INPUT_PORTS = {}\n\n    def update(self):\n        return self.tick_child(0)\n"
+    )
+
+
 ACTIONS: Final = {
     **{
         f"{d}_{name}": action_source(f"{d}_{name}", d, type_)
@@ -118,6 +127,10 @@ ACTIONS: Final = {
     },
     "Required": action_source("Required", "input", "float, required=True"),
     "Default": action_source("Default", "input", "float, required=True, default=1.5"),
+    "Own": own_source("Own", "ControlNode", "    MIN_CHILDREN = 2\n    MAX_CHILDREN = 3\n"),
+    "AnyNumber": own_source("AnyNumber", "ControlNode"),
+    "Around": own_source("Around", "DecoratorNode"),
+    "EachInt": "from tree_gardener import LoopNode\n\n\nclass EachInt(LoopNode):\n    ELEMENT = int\n",
     "Open": "import py_trees\n\n\nclass Open(py_trees.behaviour.Behaviour):\n"
     "    def update(self):\n        return py_trees.common.Status.SUCCESS\n",
 }
@@ -173,6 +186,15 @@ def cases() -> Iterator[tuple[str, Trees]]:
         for port in model.ports:
             others = {name: "{=}" for name in model.ports if name != port}
             yield f"{model.type}.{port}", in_a_row([(model.type, {**others, port: text}) for text in FEW])
+    project = project_of_actions()
+    for name in ("Own", "AnyNumber", "Around"):
+        yield from counts_of(action_node_model(project.actions[name]))
+    for queue in ("1;2", "1;x", "{q}", "", "{"):
+        loop = {"type": "EachInt", "ports": {"queue": queue, "value": "{v}"}, "children": ["c"]}
+        yield (
+            f"an own loop over {queue!r}",
+            {"MainTree": {"root": "r", "nodes": {"r": loop, "c": dict(LEAF)}}},
+        )
     for direction in DIRECTIONS:
         for type_ in TYPES:
             texts = KEYS + LITERALS if direction == "input" else KEYS[:6] + LITERALS[:16]
@@ -198,6 +220,7 @@ def document() -> dict[str, Any]:
         {
             "name": action.name,
             "kind": action.kind,
+            "children": {"min": action.min_children, "max": action.max_children},
             "open": action.open,
             "ports": [asdict(port) for port in action.ports],
         }

@@ -63,7 +63,7 @@ def test_directions_required_and_description():
         ("    INPUT_PORTS = {'p': 5}\n", "BT0611"),
         ("    INPUT_PORTS = {'p': make()}\n", "BT0611"),
         ("    INPUT_PORTS = {'p': Port(lambda: int)}\n", "BT0612"),
-        ("    NODE_KIND = 'Control'\n", "BT0606"),
+        ("    NODE_KIND = 'Composite'\n", "BT0606"),
     ],
 )
 def test_unreadable_source_is_reported_with_its_line(text, code):

@@ -12,7 +12,7 @@ import rclpy.action
 from tests.fakes.ros_clients import NAV2, Handle, Node
 from tests.tree_gardener.trees import load
 from translator.action import inspect_action
-from tree_gardener import Status, Tree
+from tree_gardener import ManualClock, Status, Tree
 from tree_gardener.actions import load_actions
 
 TEMPLATES = Path(__file__).parents[2] / "frontend" / "src" / "features" / "code" / "templates"
@@ -28,9 +28,29 @@ def test_each_declares_typed_ports_and_says_what_it_is(path: Path) -> None:
     model = inspect_action(source_of(path.stem), "Mine.py")
     assert model.diagnostics == ()
     assert (model.name, model.open) == ("Mine", False)
-    assert model.kind == ("condition" if path.stem == "condition" else "action")
+    named_after_their_kind = {"condition", "control", "decorator"}
+    assert model.kind == (path.stem if path.stem in named_after_their_kind else "action")
     assert model.ports
-    assert all(port.type in {"double", "string"} and port.description for port in model.ports)
+    assert all(port.type in {"double", "int", "string"} and port.description for port in model.ports)
+
+
+def test_a_control_node_tries_its_children_up_to_the_limit() -> None:
+    nodes = dict(load_actions({"Mine": source_of("control")}))
+    body = "<Failing/><Failing/><Succeeding/>"
+    for limit, expected in ((3, Status.SUCCESS), (2, Status.FAILURE)):
+        assert load(f'<Mine limit="{limit}">{body}</Mine>', nodes=nodes).tick_once() is expected
+    assert load("<Mine><Failing/><Running/></Mine>", nodes=nodes).tick_once() is Status.RUNNING
+
+
+def test_a_decorator_ticks_its_child_at_its_period() -> None:
+    clock = ManualClock()
+    nodes = dict(load_actions({"Mine": source_of("decorator")}))
+    tree = load('<Mine period_s="0.5"><Succeeding/></Mine>', nodes=nodes, clock=clock)
+    found = []
+    for _ in range(4):
+        found.append(tree.tick_once())
+        clock.advance(0.3)
+    assert found == [Status.SUCCESS, Status.SKIPPED, Status.SUCCESS, Status.SKIPPED]
 
 
 def tree_of(template: str, attributes: str, node: Node) -> Tree:

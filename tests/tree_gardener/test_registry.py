@@ -29,7 +29,6 @@ class NeedsMore(py_trees.behaviour.Behaviour):
         ("Sequence", Succeeding, "name of a built-in node"),
         ("X", "text", "is not a class"),
         ("X", int, "not derived from"),
-        ("X", py_trees.composites.Sequence, "py_trees composite"),
         ("X", type("X", (Succeeding,), {"NODE_KIND": "Decorator"}), "NODE_KIND"),
         ("X", NeedsMore, "cannot be made"),
     ],

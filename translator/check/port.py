@@ -56,7 +56,7 @@ def _check_port(context: Context, tree: Tree, node: Node, port: PortModel) -> No
         return
     if pointer(text, port.name) is not None:
         return
-    if port.is_written and not _takes_literal(node, port):
+    if port.is_written and not _takes_literal(port):
         context.report("BT0205", tree, node, port.name, port=port.name, value=text)
         return
     check_literal(context, tree, node, port, text)
@@ -80,9 +80,9 @@ def _names_entry(node: Node, port: PortModel) -> bool:
     return port.name == "entry" and node.type in builtins()
 
 
-def _takes_literal(node: Node, port: PortModel) -> bool:
+def _takes_literal(port: PortModel) -> bool:
     """Whether an output may hold a literal: an inout that is then only read, or the name of a key."""
-    return port.direction == "inout" and (node.type.startswith("Loop") or port.name == "output_key")
+    return port.direction == "inout" and port.name in {"queue", "output_key"}
 
 
 def check_braces(context: Context, tree: Tree, node: Node, port: str, text: str) -> bool:

@@ -95,7 +95,11 @@ def _report_unknown(context: Context, tree: Tree, node: Node) -> None:
     elif node.children:
         known = context.project.known_types()
         with_children = [name for name in known if (model := context.model(name)) and model.max_children != 0]
-        suggestion = did_you_mean(node.type, with_children)
+        base = "ControlNode" if len(node.children) > 1 else "DecoratorNode"
+        otherwise = (
+            f"Write actions/{node.type}.py with a class {node.type} derived from tree_gardener.{base}."
+        )
+        suggestion = did_you_mean(node.type, with_children, otherwise=otherwise)
         context.report("BT0112", tree, node, type=node.type, suggestion=suggestion)
     else:
         otherwise = f"Write actions/{node.type}.py with a class {node.type}."

@@ -2,6 +2,7 @@
 
 import collections
 import dataclasses
+import gzip
 import json
 import math
 import pathlib
@@ -13,6 +14,7 @@ from tree_gardener.clock import ManualClock
 from tree_gardener.conformance.deviations import WatchedBlackboard
 from tree_gardener.conformance.leaves import Trace, leaves
 from tree_gardener.errors import LoadError, PortError, ScriptError, TickError
+from tree_gardener.nav2 import NODES
 from tree_gardener.script import Environment, compile_script
 from tree_gardener.status import Status
 from tree_gardener.tree import Tree
@@ -47,8 +49,10 @@ class Outcome:
 
 
 def run_file(path: str | pathlib.Path) -> Iterator[Outcome]:
-    """Runs all cases of a file: JSON lines, or one JSON list (the table of scripts)."""
-    text = pathlib.Path(path).read_text(encoding="utf-8")
+    """Runs all cases of a file: JSON lines, perhaps compressed, or one JSON list (the table of scripts)."""
+    path = pathlib.Path(path)
+    raw = path.read_bytes()
+    text = (gzip.decompress(raw) if path.suffix == ".gz" else raw).decode("utf-8")
     if text.lstrip().startswith("["):
         for row in json.loads(text):
             yield run_expression(row)
@@ -112,7 +116,7 @@ class _Run:
             compile_script(case["init_script"]).run(Environment(board, self.enums))
         self.tree = Tree.from_xml(
             case["xml"],
-            leaves(self.trace),
+            {**NODES, **leaves(self.trace)},
             self.clock,
             blackboard=board,
             enums=self.enums,

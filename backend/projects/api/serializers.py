@@ -99,6 +99,13 @@ class PortSerializer(serializers.Serializer[Any]):
     description = serializers.CharField()
 
 
+class ChildrenSerializer(serializers.Serializer[Any]):
+    """The numbers of children that a kind of node may have; null as the largest allows any."""
+
+    min = serializers.IntegerField()
+    max = serializers.IntegerField(allow_null=True)
+
+
 class ActionSerializer(serializers.Serializer[Any]):
     """The declarations in the source of an action."""
 
@@ -106,6 +113,7 @@ class ActionSerializer(serializers.Serializer[Any]):
     path = serializers.CharField()
     doc = serializers.CharField()
     kind = serializers.CharField()
+    children = ChildrenSerializer()
     open = serializers.BooleanField()
     line = serializers.IntegerField()
     ports = PortSerializer(many=True)

@@ -36,6 +36,8 @@ export interface ActionModel {
   path?: string;
   doc?: string;
   kind: string;
+  /** Absent until the server has read the class. */
+  children?: { min: number; max: number | null };
   ports: ActionPort[];
   /** The action declares no ports, so that any port is accepted. */
   open: boolean;

@@ -936,6 +936,7 @@ export interface components {
             path: string;
             doc: string;
             kind: string;
+            children: components["schemas"]["Children"];
             open: boolean;
             line: number;
             ports: components["schemas"]["Port"][];
@@ -1003,6 +1004,11 @@ export interface components {
         /** @description Files that differ from what is stored, for a check before saving. */
         CheckRequest: {
             files?: components["schemas"]["OverlayFileRequest"][];
+        };
+        /** @description The numbers of children that a kind of node may have; null as the largest allows any. */
+        Children: {
+            min: number;
+            max: number | null;
         };
         /** @description Both versions of a file; `theirs` is null when the file is gone. */
         Conflict: {

@@ -72,6 +72,20 @@ describe('fixes', () => {
       does: { makes: 'action', name: 'FollowWall', ports: ['side'] },
     });
   });
+
+  it.each([
+    [['x'], 'Decorator'],
+    [['x', 'y'], 'Control'],
+  ])('offers to write a node that is missing and has the children %s as a %s', (children, kind) => {
+    const nodes = Object.fromEntries(children.map((id) => [id, { type: 'Turn' }]));
+    const diagram = {
+      ...emptyDiagram('MainTree'),
+      root: 'r',
+      nodes: { r: { type: 'Mine', children }, ...nodes },
+    };
+    expect(fixesOf(diagram).at(-1)).toMatchObject({ does: { makes: 'action', name: 'Mine', kind } });
+  });
+
   it('offers to make a tree that is missing, and no tree that would call itself', () => {
     const fixes = fixesOf(under({ type: 'SubTree', tree: 'Patrol' }));
     expect(fixes).toMatchObject([{ key: 'make-tree', does: { makes: 'tree', name: 'Patrol' } }]);

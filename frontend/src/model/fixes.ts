@@ -10,7 +10,13 @@ import { similarNames } from './similar';
 
 /** The other effect of a fix, beyond the tree: it creates a file. */
 export type Making =
-  | { readonly makes: 'action'; readonly name: string; readonly ports: readonly string[] }
+  | {
+      readonly makes: 'action';
+      readonly name: string;
+      readonly ports: readonly string[];
+      /** Of a node with children; without it, it is an action. */
+      readonly kind?: 'Control' | 'Decorator';
+    }
   | { readonly makes: 'tree'; readonly name: string };
 
 /** A fix of a finding; its texts are `editor:fix.<key>` with `values`. */
@@ -49,17 +55,18 @@ function typeFixes(id: NodeId, node: DiagramNode, vocabulary: Vocabulary): Fix[]
   const trees = similarNames(node.type, vocabulary.trees.keys(), 1).map((name) =>
     fix('call-tree', setType(id, 'SubTree', name), { name }),
   );
-  const isLeaf = (node.children?.length ?? 0) === 0;
-  const made =
-    isLeaf && isPythonName(node.type)
-      ? [
-          fix(
-            'make-action',
-            { makes: 'action', name: node.type, ports: Object.keys(node.ports ?? {}) },
-            { name: node.type },
-          ),
-        ]
-      : [];
+  const count = node.children?.length ?? 0;
+  const kind =
+    count > 1 ? ({ kind: 'Control' } as const) : count === 1 ? ({ kind: 'Decorator' } as const) : {};
+  const made = isPythonName(node.type)
+    ? [
+        fix(
+          'make-action',
+          { makes: 'action', name: node.type, ports: Object.keys(node.ports ?? {}), ...kind },
+          { name: node.type },
+        ),
+      ]
+    : [];
   return [...known, ...trees, ...made];
 }
 

@@ -23,6 +23,8 @@ export interface ActionDescription {
   readonly name: string;
   readonly doc?: string | undefined;
   readonly kind: string;
+  /** How many children it may have; without it, as the kind says. A largest number of null allows any. */
+  readonly children?: { readonly min: number; readonly max: number | null } | undefined;
   readonly open: boolean;
   readonly ports: readonly {
     readonly name: string;
@@ -76,14 +78,28 @@ export function readCatalog(document: CatalogDocument): readonly NodeSpec[] {
   }));
 }
 
+/** The kinds of classes in `actions/`: symbol, and how many children there are where the class does not say. */
+const OWN = {
+  action: { symbol: '▶', min: 0, max: 0 },
+  condition: { symbol: '?', min: 0, max: 0 },
+  control: { symbol: '◆', min: 1, max: null },
+  decorator: { symbol: '◈', min: 1, max: 1 },
+} as const;
+
+function ownFamily(kind: string): keyof typeof OWN {
+  const family = kind.toLowerCase();
+  return family === 'condition' || family === 'control' || family === 'decorator' ? family : 'action';
+}
+
 function actionSpec(action: ActionDescription): NodeSpec {
-  const condition = action.kind.toLowerCase() === 'condition';
+  const family = ownFamily(action.kind);
+  const { min, max } = action.children ?? OWN[family];
   return {
     type: action.name,
-    family: condition ? 'condition' : 'action',
-    symbol: condition ? '?' : '▶',
-    minChildren: 0,
-    maxChildren: 0,
+    family,
+    symbol: OWN[family].symbol,
+    minChildren: min,
+    maxChildren: max ?? Infinity,
     ports: action.ports.map((port) => ({
       name: port.name,
       direction: port.direction,

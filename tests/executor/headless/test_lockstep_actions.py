@@ -282,3 +282,52 @@ def update(self):
     assert status == 1
     assert f"actions/Act.py:{line}:1: " in said
     assert "/odom is of the type nav_msgs/msg/Odometry, not std_msgs/msg/String" in said
+
+
+OWN = """from tree_gardener import ControlNode, DecoratorNode, Status
+
+
+class Own(ControlNode):
+    MARKS_RUNNING = True
+
+    def setup(self, **kwargs):
+        self.node = kwargs["node"]
+        self.ticks = 0
+
+    def update(self):
+        self.ticks += 1
+        print("own", self.ticks, self.node is not None, self.now() >= 0)
+        return %s
+"""
+UNDER = json.dumps(
+    {
+        "format": "bt-studio/diagram",
+        "version": 1,
+        "id": "Main",
+        "root": "n1",
+        "nodes": {"n1": {"type": "Own", "children": ["n2"]}, "n2": {"type": "Act"}},
+    }
+)
+
+
+@pytest.mark.parametrize(
+    ("result", "status", "text"),
+    [
+        ("self.tick_child(0)", 0, "own 3 True True"),
+        ("self.tick_child(1)", 1, "actions/Own.py:14:1: "),
+        ("None", 1, "Own.update() returned nothing"),
+    ],
+)
+def test_an_own_control_node_runs_or_is_named_with_its_line(
+    tmp_path: Path, result: str, status: int, text: str
+) -> None:
+    body = """
+def initialise(self):
+    self.left = 2
+def update(self):
+    self.left -= 1
+    return Status.SUCCESS if self.left < 0 else Status.RUNNING
+"""
+    files = {"actions/Own.py": OWN % result, "trees/Main.json": UNDER}
+    found, _, said = run(project(tmp_path, body, **files))
+    assert (found, text in said) == (status, True), said

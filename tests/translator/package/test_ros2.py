@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import ast
 import io
+import os
 import re
+import subprocess
+import sys
 import zipfile
 from typing import Any
 
@@ -326,3 +329,53 @@ def test_errors_keep_a_project_from_being_packed(make_project):
 
 def test_version_of_the_engine_is_that_of_its_source():
     assert engine_version() == __version__
+
+
+OWN = """from tree_gardener import ControlNode, Port, Status
+
+
+class Own(ControlNode):
+    MAX_CHILDREN = 2
+    OUTPUT_PORTS = {"chosen": Port(int)}
+
+    def update(self):
+        self.set_output("chosen", self.child_count - 1)
+        return self.tick_child(self.child_count - 1)
+"""
+TICK = """import sys
+import tree_gardener
+assert tree_gardener.__file__.startswith(sys.argv[1]), tree_gardener.__file__
+tree = tree_gardener.Tree.from_file(sys.argv[2])
+tree.setup(node=None)
+print(tree.tick_exactly_once().name, tree.blackboard["at"], [node.status.name for node in tree.nodes])
+from tree_gardener.nav2 import NODES
+print(len(NODES))
+"""
+
+
+def test_own_control_nodes_travel_and_run_with_the_engine_of_the_package(make_project, tmp_path):
+    nodes = {
+        "n1": {"type": "Own", "ports": {"chosen": "{at}"}, "children": ["a", "b"]},
+        "a": {"type": "AlwaysFailure"},
+        "b": {"type": "AlwaysSuccess"},
+    }
+    package = to_ros2_package(make_project(nodes, actions={"Own": OWN}))
+    assert package.files["test_bt/test_bt/actions/Own.py"] == OWN.encode()
+    xml = package.files["test_bt/trees/test_bt.xml"].decode()
+    assert '<Control ID="Own">' in xml
+    assert '<output_port name="chosen" type="int"/>' in xml
+    assert "'tree_gardener.nav2'" in package.files["tree_gardener/setup.py"].decode()
+    for path, raw in package.files.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_bytes(raw)
+    engine = str(tmp_path / "tree_gardener")
+    done = subprocess.run(
+        [sys.executable, "-c", TICK, engine, str(tmp_path / "test_bt/trees/test_bt.xml")],
+        env={**os.environ, "PYTHONPATH": engine},
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        check=False,
+    )
+    assert done.stderr == ""
+    assert done.stdout.splitlines() == ["SUCCESS 1 ['IDLE', 'IDLE', 'SUCCESS']", "6"]

@@ -95,12 +95,20 @@ def test_v3_is_exported_as_v4_with_each_change_told():
     assert to_xml(from_xml(text)) == text
 
 
-def test_nav2_trees_are_kept_and_said_not_to_run_here():
+def test_nav2_trees_are_kept_and_get_stubs_of_the_right_kind():
     project = from_xml(NAV2, file="nav2.xml")
     assert to_xml(project) == NAV2
-    errors = {item.place.node for item in check(project) if item.is_error}
-    assert errors == {"n1", "n2", "n3"}
-    assert set(project.actions) == {"ComputePathToPose", "FollowPath", "GoalUpdated", "Wait"}
+    assert [item for item in check(project) if item.is_error] == []
+    kinds = {name: action.kind for name, action in project.actions.items()}
+    leaves = {name for name, kind in kinds.items() if kind == "action"}
+    assert leaves == {"ComputePathToPose", "FollowPath", "GoalUpdated", "Wait"}
+    assert {name: kind for name, kind in kinds.items() if name not in leaves} == {
+        "RecoveryNode": "control",
+        "PipelineSequence": "control",
+        "RateController": "decorator",
+    }
+    without = from_xml(NAV2, file="nav2.xml", stubs=False)
+    assert {item.place.node for item in check(without) if item.code == "BT0112"} == {"n1", "n2", "n3"}
     edited = project.with_tree(project.main.edited("n5", ports={"path": "{path}", "controller_id": "Other"}))
     assert to_xml(edited) == NAV2.replace('controller_id="FollowPath"', 'controller_id="Other"')
 

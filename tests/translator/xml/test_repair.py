@@ -96,7 +96,15 @@ PALETTE = """<root BTCPP_format="4"><TreeNodesModel>
 
 def test_a_palette_opens_as_actions_without_a_tree():
     project = from_xml(PALETTE)
-    assert sorted(project.actions) == ["IsStuck", "Spin"]
+    kinds = {name: action.kind for name, action in sorted(project.actions.items())}
+    assert kinds == {
+        "IsStuck": "condition",
+        "PipelineSequence": "control",
+        "RateController": "decorator",
+        "Spin": "action",
+    }
+    (hz,) = project.actions["RateController"].ports
+    assert (hz.name, hz.type) == ("hz", "double")
     assert [(port.name, port.default) for port in project.actions["Spin"].ports] == [("angle", "1.57")]
     assert [tree.root for tree in project.trees.values()] == [None]
     assert "BT0741" in [item.code for item in project.diagnostics]
@@ -120,17 +128,31 @@ def test_a_name_that_is_there_and_empty_is_kept():
     assert "BT0507" in [item.code for item in check(wrong)]
 
 
-@pytest.mark.parametrize(
-    ("name", "near"),
-    [("inverter", "Inverter"), ("Sequenze", "Sequence"), ("Repaet", "Repeat")]
-    + [
-        (name, "")
-        for name in ("RateController", "PipelineSequence", "GoalUpdater", "RecoveryNode", "RoundRobin")
-    ],
-)
-def test_a_name_is_suggested_only_where_it_is_near_and_can_have_children(name, near):
-    text = f"""<root BTCPP_format="4"><BehaviorTree ID="M"><{name}><Sequence><AlwaysSuccess/>
+OWN = """<root BTCPP_format="4"><BehaviorTree ID="M"><{name}><Sequence><AlwaysSuccess/>
     <ControllerSelector/><GoalUpdate/></Sequence></{name}></BehaviorTree></root>"""
-    (finding,) = [item for item in check(from_xml(text)) if item.code == "BT0112"]
-    assert ("Did you mean" in finding.hint) == bool(near)
-    assert near in finding.hint
+
+
+@pytest.mark.parametrize(
+    ("name", "near"), [("inverter", "Inverter"), ("Sequenze", "Sequence"), ("Repaet", "Repeat")]
+)
+def test_a_built_in_name_that_is_spelled_wrong_is_suggested_and_gets_no_stub(name, near):
+    project = from_xml(OWN.format(name=name))
+    assert name not in project.actions
+    (finding,) = [item for item in check(project) if item.code == "BT0112"]
+    assert f"Did you mean {near}?" in finding.hint
+
+
+@pytest.mark.parametrize(
+    "name", ["RateController", "PipelineSequence", "GoalUpdater", "RecoveryNode", "RoundRobin"]
+)
+def test_another_name_gets_a_stub_or_is_said_to_be_written(name):
+    project = from_xml(OWN.format(name=name))
+    assert project.actions[name].kind == "decorator"
+    assert [item.code for item in check(project) if item.is_error] == []
+    (finding,) = [
+        item for item in check(from_xml(OWN.format(name=name), stubs=False)) if item.code == "BT0112"
+    ]
+    assert (
+        f"Write actions/{name}.py with a class {name} derived from tree_gardener.DecoratorNode"
+        in finding.hint
+    )

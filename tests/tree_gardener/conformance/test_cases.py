@@ -16,6 +16,7 @@ CASES = Path(__file__).parents[2] / "conformance"
 FILES = {
     "accepts.jsonl": 8,
     "added.jsonl": 982,
+    "controls.jsonl.gz": 2394,
     "focused.jsonl": 123,
     "random.jsonl": 300,
     "rejects.jsonl": 43,

@@ -77,7 +77,9 @@ describe('nameProblem', () => {
 describe('actionSource', () => {
   it('names the class as its file', () => {
     for (const kind of ACTION_TEMPLATES) {
-      expect(actionSource('FollowWall', kind)).toContain('class FollowWall(py_trees.behaviour.Behaviour):');
+      const base = { control: 'ControlNode', decorator: 'DecoratorNode' }[kind as string];
+      const line = `class FollowWall(${base ?? 'py_trees.behaviour.Behaviour'}):`;
+      expect(actionSource('FollowWall', kind)).toContain(line);
     }
   });
 });

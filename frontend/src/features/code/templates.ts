@@ -1,10 +1,12 @@
 import action from './templates/action.py?raw';
 import condition from './templates/condition.py?raw';
+import control from './templates/control.py?raw';
+import decorator from './templates/decorator.py?raw';
 import goal from './templates/goal.py?raw';
 import service from './templates/service.py?raw';
 
 /** Templates of new actions, in the order in which they are offered. */
-const TEMPLATES = { action, condition, service, goal } as const;
+const TEMPLATES = { action, condition, service, goal, control, decorator } as const;
 
 export type ActionTemplate = keyof typeof TEMPLATES;
 

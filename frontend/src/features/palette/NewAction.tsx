@@ -43,6 +43,7 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
       />
       <SegmentedControl
         size="xs"
+        orientation="vertical"
         aria-label={t('kind')}
         value={kind}
         onChange={(value) => {
@@ -51,6 +52,8 @@ export function NewAction({ onDone }: { readonly onDone: () => void }) {
         data={[
           { value: 'Action', label: t('kindAction') },
           { value: 'Condition', label: t('kindCondition') },
+          { value: 'Control', label: t('kindControl') },
+          { value: 'Decorator', label: t('kindDecorator') },
         ]}
       />
       <Group gap="xs" justify="flex-end">

@@ -32,9 +32,9 @@ const XML_NAME = /^[\p{L}_][\p{L}\p{N}\p{M}._·-]*$/u;
 export const isPortName = (name: string): boolean =>
   XML_NAME.test(name) && !name.startsWith('_') && name !== 'name' && name !== 'ID';
 
-/** Input ports can hold a literal, inout ports only of nodes that just read it, or that take it as a key. */
-const takesLiteral = (node: DiagramNode, { direction, name }: PortSpec): boolean =>
-  direction === 'input' || (direction === 'inout' && (node.type.startsWith('Loop') || name === 'output_key'));
+/** A port that is written may hold a literal where it is only read then, or names a key. */
+const takesLiteral = ({ direction, name }: PortSpec): boolean =>
+  direction === 'input' || (direction === 'inout' && (name === 'queue' || name === 'output_key'));
 
 /** A built-in node that watches an entry requires that entry's name. */
 const namesEntry = ({ name }: PortSpec, { source }: NodeSpec): boolean =>
@@ -49,7 +49,7 @@ function checkDeclared(id: NodeId, node: DiagramNode, port: PortSpec, spec: Node
   if (port.type === 'script') return [];
   const braces = checkBraces(id, port.name, text);
   if (braces.length > 0 || pointerOf(text) !== null) return braces;
-  if (!takesLiteral(node, port)) return [atPort('output-literal', id, port.name, { text })];
+  if (!takesLiteral(port)) return [atPort('output-literal', id, port.name, { text })];
   return checkLiteral(id, port, text);
 }
 

@@ -23,7 +23,9 @@ function purposeOf({ goal }: QuickAddState): Purpose {
 
 /** A name that is a question is probably a condition: then conditions come first. */
 function kindsFor(name: string): readonly ActionKind[] {
-  return /^(is|has|can|check)([A-Z_]|$)/i.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
+  const isQuestion = /^(is|has|can|check)([A-Z_]|$)/i.test(name);
+  const leaves = isQuestion ? (['Condition', 'Action'] as const) : (['Action', 'Condition'] as const);
+  return [...leaves, 'Control', 'Decorator'];
 }
 
 interface QuickAddProps {

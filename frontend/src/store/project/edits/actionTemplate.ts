@@ -1,7 +1,39 @@
 import { useProjectStore } from '../index';
 import { actionPath } from '../state';
 
-export type ActionKind = 'Action' | 'Condition';
+export type ActionKind = 'Action' | 'Condition' | 'Control' | 'Decorator';
+
+const DECLARED = (port: string): string => `        "${port}": Port(str, description="Say what it is."),`;
+
+/** A control node or decorator: complete, runnable, and short enough to be read at once. */
+function ownNodeSource(name: string, kind: 'Control' | 'Decorator', ports: readonly string[]): string {
+  const base = `${kind}Node`;
+  const names = [base, ...(ports.length === 0 ? [] : ['Port']), 'Status'].join(', ');
+  const declared =
+    ports.length === 0 ? '' : `    INPUT_PORTS = {\n${ports.map(DECLARED).join('\n')}\n    }\n\n`;
+  const rule =
+    kind === 'Control'
+      ? `    """Ticks its children in order until one succeeds."""
+
+${declared}    def update(self):
+        for index in range(self.child_count):
+            status = self.tick_child(index)
+            if status is Status.RUNNING:
+                return Status.RUNNING
+            if status is Status.SUCCESS:
+                self.halt_children()
+                return Status.SUCCESS
+        self.halt_children()
+        return Status.FAILURE
+`
+      : `    """Succeeds when its child fails, and passes on all else."""
+
+${declared}    def update(self):
+        status = self.tick_child()
+        return Status.SUCCESS if status is Status.FAILURE else status
+`;
+  return `from tree_gardener import ${names}\n\n\nclass ${name}(${base}):\n${rule}`;
+}
 
 /** The source of a new action: complete, runnable and short. */
 export function actionSource(
@@ -10,6 +42,7 @@ export function actionSource(
   /** Ports that a block of it already sets. */
   ports: readonly string[] = [],
 ): string {
+  if (kind === 'Control' || kind === 'Decorator') return ownNodeSource(name, kind, ports);
   const declares = kind === 'Condition' ? '\n    NODE_KIND = "Condition"\n' : '';
   const says =
     kind === 'Condition'
@@ -18,7 +51,7 @@ export function actionSource(
   const declared =
     ports.length === 0
       ? `        "message": Port(str, default="${name}", description="What to print."),`
-      : ports.map((port) => `        "${port}": Port(str, description="Say what it is."),`).join('\n');
+      : ports.map(DECLARED).join('\n');
   const printed = `get_input(self, "${ports[0] ?? 'message'}")`;
   return `import py_trees
 
@@ -52,6 +85,14 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
   const { files, actions, addFile, setChecked, diagnostics } = useProjectStore.getState();
   if (actionPath(name) in files) return;
   addFile(actionPath(name), actionSource(name, kind, ports));
+  const isOwnNode = kind === 'Control' || kind === 'Decorator';
+  const message = {
+    name: 'message',
+    direction: 'input',
+    type: 'str',
+    default: name,
+    required: false,
+  } as const;
   // Until the server has read the class after a save, these are the template's declarations.
   setChecked({
     diagnostics,
@@ -62,10 +103,12 @@ export function createAction(name: string, kind: ActionKind = 'Action', ports: r
         path: actionPath(name),
         doc: '',
         kind,
-        open: false,
+        open: isOwnNode && ports.length === 0,
         ports:
           ports.length === 0
-            ? [{ name: 'message', direction: 'input', type: 'str', default: name, required: false }]
+            ? isOwnNode
+              ? []
+              : [message]
             : ports.map((port) => ({ name: port, direction: 'input', type: 'string' })),
       },
     ],

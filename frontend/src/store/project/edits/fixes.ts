@@ -25,7 +25,7 @@ export function fixesOfDiagnostic(item: Diagnostic): Fix[] {
 function make(making: Making): () => void {
   const path = making.makes === 'action' ? actionPath(making.name) : treePath(making.name);
   if (making.makes === 'tree') store().addTree(making.name);
-  else createAction(making.name, 'Action', making.ports);
+  else createAction(making.name, making.kind ?? 'Action', making.ports);
   return () => {
     store().deleteFile(path);
     const { actions, diagnostics, setChecked } = store();

@@ -1,0 +1,109 @@
+"""The kind of an action's class and its number of children, read from its syntax tree.
+
+A control node or decorator derives from a class of the engine or of py_trees. Where the base class is in
+another file, `NODE_KIND` says what it is.
+"""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING
+
+from translator.action_ports import assigned
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+KINDS = {
+    "Action": "action",
+    "SyncAction": "action",
+    "Condition": "condition",
+    "Control": "control",
+    "Decorator": "decorator",
+}
+LIMITS: dict[str, tuple[int, int | None]] = {"control": (1, None), "decorator": (1, 1)}
+_CONTROLS = {
+    *("tree_gardener.ControlNode", "tree_gardener.control_node.ControlNode", "tree_gardener.node.Control"),
+    *(f"py_trees.composites.{name}" for name in ("Composite", "Parallel", "Selector", "Sequence")),
+}
+_LOOPS = {"tree_gardener.LoopNode", "tree_gardener.control_node.LoopNode"}
+_DECORATORS = {
+    *("tree_gardener.DecoratorNode", "tree_gardener.control_node.DecoratorNode"),
+    *("tree_gardener.node.Decorator", *_LOOPS),
+}
+_PY_TREES_DECORATORS = "py_trees.decorators."
+
+
+def qualified_bases(module: ast.Module, lineage: Iterable[ast.ClassDef]) -> list[str]:
+    """Returns the bases of some classes by their full names, as the module imports them."""
+    names = dict(_imported(module))
+    found = []
+    for cls in lineage:
+        for base in cls.bases:
+            first, dot, rest = ast.unparse(base).partition(".")
+            found.append(names.get(first, first) + dot + rest)
+    return found
+
+
+def _imported(module: ast.Module) -> Iterator[tuple[str, str]]:
+    """Yields what each name that a module imports stands for."""
+    for node in module.body:
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                if alias.asname:
+                    yield alias.asname, alias.name
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            for alias in node.names:
+                yield alias.asname or alias.name, f"{node.module}.{alias.name}"
+
+
+def kind_by_bases(bases: Iterable[str]) -> str:
+    """Returns the kind of a class by its bases."""
+    for base in bases:
+        if base in _CONTROLS:
+            return "control"
+        if base in _DECORATORS or base.startswith(_PY_TREES_DECORATORS):
+            return "decorator"
+    return "action"
+
+
+def is_loop(bases: Iterable[str]) -> bool:
+    """Whether a class is a loop over elements of a type."""
+    return not _LOOPS.isdisjoint(bases)
+
+
+def children_of(
+    lineage: Iterable[ast.ClassDef], kind: str, report: Callable[..., None]
+) -> tuple[int, int | None]:
+    """Returns the least and the largest number of children; None for any."""
+    if kind not in LIMITS:
+        return 0, 0
+    least, most = LIMITS[kind]
+    if kind == "decorator":
+        return least, most
+    given: dict[str, tuple[ast.stmt, ast.expr]] = {}
+    for cls in lineage:
+        for node in cls.body:
+            for name in ("MIN_CHILDREN", "MAX_CHILDREN"):
+                value = assigned(node, name)
+                if value is not None:
+                    given.setdefault(name, (node, value))
+    least = _number(given, "MIN_CHILDREN", report, least=1) or least
+    return least, _number(given, "MAX_CHILDREN", report, least=least)
+
+
+def _number(
+    given: dict[str, tuple[ast.stmt, ast.expr]], name: str, report: Callable[..., None], *, least: int
+) -> int | None:
+    """Returns a number of children as it is written; reports one that the engine would refuse."""
+    if name not in given:
+        return None
+    node, value = given[name]
+    if isinstance(value, ast.Constant):
+        number = value.value
+        if type(number) is int and number >= least:
+            return number
+        if number is None and name == "MAX_CHILDREN":
+            return None
+    report("BT0615", node, attribute=name, least=least)
+    return None

@@ -1,0 +1,274 @@
+"""Control nodes and decorators that users write: what the engine does round their `update`.
+
+After `update`: SUCCESS and FAILURE set the node's status, a control resets nothing by itself, and a
+decorator's child that is done becomes IDLE. SKIPPED leaves the status as it is. Faults against the contract
+are TickErrors with a code:
+
+* TG701: there is no such child;
+* TG702: `update` returned no result of a tick;
+* TG703: a child was ticked or halted outside of the node's own tick, or ticked after the node was halted;
+* TG704: the same from another thread;
+* TG705: the node, or one of its children, was ticked while it was being ticked.
+"""
+
+from collections.abc import Callable, Mapping
+from threading import get_ident
+from typing import Any
+
+from py_trees.common import Status as PyTreesStatus
+
+from tree_gardener.clock import Timer
+from tree_gardener.control_node import ControlNode
+from tree_gardener.errors import TickError, calling_place, describe
+from tree_gardener.node import Control, Kind, Node
+from tree_gardener.ports import Manifest
+from tree_gardener.status import FAILURE, IDLE, RUNNING, SKIPPED, SUCCESS, Status
+
+_RESULTS = {
+    **{status: status for status in (SUCCESS, FAILURE, RUNNING, SKIPPED)},
+    PyTreesStatus.SUCCESS: SUCCESS,
+    PyTreesStatus.FAILURE: FAILURE,
+    PyTreesStatus.RUNNING: RUNNING,
+}
+_FROM_UPDATE = "call it only from update(), while the node is being ticked"
+_FROM_OWN_CALLS = "call it only from update(), halt() or a timer of start_timer()"
+
+
+class CustomControl(Control):
+    """A control node whose rule is a class of the user.
+
+    Attributes:
+        instance_behaviour: the user's object.
+        thread: the thread that runs the user's code now, or 0.
+        is_ticking: whether that code is `update`.
+        is_in_child: whether a child is being ticked.
+        was_halted: whether the node was halted from outside within its tick.
+    """
+
+    __slots__ = (
+        *("instance_behaviour", "is_in_child", "is_ticking", "marks_running", "own_halt", "thread"),
+        *("update", "was_halted"),
+    )
+
+    def __init__(self, kind: str, name: str, manifest: Manifest | None, ports: Mapping[str, str]) -> None:
+        super().__init__(kind, name, manifest, ports)
+        self.instance_behaviour: Any = None
+        self.thread = 0
+        self.is_ticking = self.is_in_child = self.was_halted = False
+
+    def bind(self, behaviour: ControlNode) -> None:
+        """Sets the user's object."""
+        self.instance_behaviour = getattr(behaviour, "adapted", behaviour)
+        self.update: Callable[[], Any] = behaviour.update
+        self.marks_running = bool(behaviour.MARKS_RUNNING)
+        is_own = type(behaviour).halt is not ControlNode.halt
+        self.own_halt: Callable[[], Any] | None = behaviour.halt if is_own else None
+
+    # -- ticking ------------------------------------------------------------------------------------
+
+    def execute(self) -> Status:
+        return self.settle(self.run())
+
+    def _execute_guarded(self) -> Status:
+        guard = self.guard
+        assert guard is not None
+        status = guard.before(self)
+        if status is None:
+            status = self.run()
+        if status is SUCCESS or status is FAILURE:
+            guard.after(self, status)
+        return self.settle(status)
+
+    def run(self) -> Status:
+        """Runs `update` and returns its result, which is no longer anything else than a result."""
+        if self.thread:
+            hint = "do not tick the tree from its own nodes"
+            raise self.fault("TG705", f"{self.type} is ticked while its own code runs", hint)
+        if self.marks_running and self.status is not RUNNING:
+            self.start()
+        self.thread = get_ident()
+        self.is_ticking = True
+        self.was_halted = False
+        try:
+            return self.result_of(self.update())
+        except TickError as error:
+            if error.uid != self.uid:
+                raise  # of a node below, which it names
+            return self.failed(error)
+        except (Exception, SystemExit) as error:
+            return self.failed(TickError(self, describe(error), error))
+        finally:
+            self.thread = 0
+            self.is_ticking = False
+
+    def result_of(self, returned: Any) -> Status:
+        """Converts what `update` returned."""
+        try:
+            status = _RESULTS.get(returned)
+        except TypeError:  # not hashable
+            status = None
+        if status is None:
+            what = "nothing" if returned is None else repr(returned)
+            code = getattr(self.update, "__code__", None)
+            raise TickError(
+                *(self, f"{self.type}.update() returned {what}, which is no result of a tick"),
+                code="TG702",
+                hint="return Status.SUCCESS, FAILURE, RUNNING or SKIPPED",
+                place=(code.co_filename, code.co_firstlineno) if code is not None else ("", 0),
+            )
+        if status is SUCCESS or status is FAILURE:
+            for child in self.children:
+                if child.status is RUNNING:
+                    self.warn_of(status, child)
+        return status
+
+    def warn_of(self, status: Status, child: Node) -> None:
+        """Reports once that the node is done before its child is."""
+        sentence = f"{self.type} returned {status.name} while its child '{child.local_path}' is RUNNING"
+        self.tree.warn(self, f"{sentence}: halt it, or it continues unseen")
+
+    def settle(self, status: Status) -> Status:
+        """Sets the status to a result."""
+        if status is RUNNING:
+            if self.status is not RUNNING:
+                self.start()
+            return RUNNING
+        return self.skipped() if status is SKIPPED else self.complete(status)
+
+    def failed(self, error: TickError) -> Status:
+        """Handles a fault of the user's code: the tick ends with it, or the node fails, as is configured."""
+        if self.tree.on_error is None:
+            raise error from error.cause
+        self.tree.on_error(error)
+        self.reset_children()
+        return FAILURE
+
+    # -- halting ------------------------------------------------------------------------------------
+
+    def halt(self) -> None:
+        """Runs the user's `halt`, then halts the children, even if that raised."""
+        self.was_halted = self.is_ticking
+        first: TickError | None = None
+        if self.own_halt is not None:
+            try:
+                self.call(self.own_halt)
+            except TickError as error:
+                first = error
+        try:
+            self.reset_children()
+        except TickError as error:
+            first = first or error
+        self.status = IDLE
+        if first is not None:
+            raise first from first.cause
+
+    def halt_by_itself(self) -> None:
+        """Halts the children and makes the node IDLE, as its own code asked for."""
+        self.require_own_call("halts itself")
+        self.reset_children()
+        self.status = IDLE
+        if self.journal is not None:
+            self.journal.touched.append(self)
+
+    def call(self, function: Callable[[], Any]) -> None:
+        """Calls the user's code outside of `update`: it may halt children, and tick none."""
+        before = self.thread, self.is_ticking, self.is_in_child
+        self.thread, self.is_ticking, self.is_in_child = get_ident(), False, False
+        try:
+            function()
+        except TickError:
+            raise
+        except (Exception, SystemExit) as error:
+            raise TickError(self, describe(error), error) from error
+        finally:
+            self.thread, self.is_ticking, self.is_in_child = before
+
+    def start_timer(self, delay_s: float, callback: Callable[[], None]) -> Timer:
+        """Starts a timer of the tree whose call is the user's code."""
+        return self.tree.timers.start(delay_s, lambda: self.call(callback))
+
+    # -- what the user's code calls -----------------------------------------------------------------
+
+    def child_at(self, index: int) -> Node:
+        """Returns a child."""
+        if type(index) is not int or not 0 <= index < len(self.children):
+            raise self.no_such_child(index)
+        return self.children[index]
+
+    def mark_running(self) -> None:
+        """Makes the node RUNNING within its tick."""
+        if self.thread != get_ident() or not self.is_ticking:
+            raise self.misplaced("marks itself RUNNING", _FROM_UPDATE)
+        if self.status is not RUNNING:
+            self.start()
+
+    def tick_child(self, index: int) -> Status:
+        """Ticks a child and returns its result."""
+        if self.thread != get_ident() or not self.is_ticking or self.is_in_child or self.was_halted:
+            raise self.misplaced("ticks a child", _FROM_UPDATE)
+        if type(index) is not int or not 0 <= index < len(self.ticks):
+            raise self.no_such_child(index)
+        self.is_in_child = True
+        try:
+            return self.ticks[index]()
+        finally:
+            self.is_in_child = False
+
+    def halt_child(self, index: int) -> None:
+        """Halts a child if it is RUNNING, and makes it IDLE."""
+        self.require_own_call("halts a child")
+        self.child_at(index)
+        self.reset_child(index)
+
+    def halt_children(self, first: int) -> None:
+        """Halts the children from `first` on."""
+        self.require_own_call("halts its children")
+        count = len(self.children)
+        if type(first) is not int or not 0 <= first <= count:
+            raise self.no_such_child(first)
+        for index in range(first, count):
+            self.reset_child(index)
+
+    # -- faults -------------------------------------------------------------------------------------
+
+    def require_own_call(self, what: str) -> None:
+        """Raises unless the call comes from the node's own code, while no child is being ticked."""
+        if self.thread != get_ident() or self.is_in_child:
+            raise self.misplaced(what, _FROM_OWN_CALLS)
+
+    def misplaced(self, what: str, hint: str) -> TickError:
+        """Returns the fault of a call at the wrong time or from the wrong thread."""
+        if self.thread and self.thread != get_ident():
+            return self.fault("TG704", f"{self.type} {what} from another thread", hint)
+        if self.is_in_child:
+            hint = "wait until tick_child() has returned"
+            return self.fault("TG705", f"{self.type} {what} while a child is being ticked", hint)
+        if self.is_ticking and self.was_halted:
+            hint = "return from update(): the tree was halted by the child that was ticked"
+            return self.fault("TG703", f"{self.type} {what} after it was halted", hint)
+        return self.fault("TG703", f"{self.type} {what} outside of its own tick", hint)
+
+    def no_such_child(self, index: object) -> TickError:
+        """Returns the fault of a wrong index."""
+        count = len(self.children)
+        known = "its only child is 0" if count == 1 else f"its children are 0 to {count - 1}"
+        return self.fault("TG701", f"{self.type} has no child {index!r}", known)
+
+    def fault(self, code: str, message: str, hint: str) -> TickError:
+        """Returns a fault of the user's code, with the line that called the engine."""
+        return TickError(self, message, code=code, hint=hint, place=calling_place())
+
+
+class CustomDecorator(CustomControl):
+    """A decorator whose rule is a class of the user."""
+
+    __slots__ = ()
+    KIND = Kind.DECORATOR
+
+    def settle(self, status: Status) -> Status:
+        """Sets the status to a result; a child that is done becomes IDLE."""
+        super().settle(status)
+        child = self.children[0].status
+        if child is SUCCESS or child is FAILURE:
+            self.reset_child(0)
+        return status

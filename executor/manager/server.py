@@ -25,7 +25,7 @@ from websockets.exceptions import ConnectionClosed
 
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.allowance import Allowance
-from executor.manager.metrics import CONTENT_TYPE, Traffic, metrics_text
+from executor.manager.traffic import Traffic
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
 from executor.session.events import (
     ClientJoined,
@@ -179,6 +179,9 @@ class SessionServer:
         return response
 
     def _metrics(self, connection: ServerConnection) -> Response:
+        # Prometheus' client takes 60 ms to import, for which no start of a session should wait.
+        from executor.manager.metrics import CONTENT_TYPE, metrics_text  # noqa: PLC0415
+
         self.traffic.clients, self.traffic.streams = len(self._controls), len(self._streams)
         response = connection.respond(HTTPStatus.OK, metrics_text(self._session, self.traffic))
         del response.headers["Content-Type"]

@@ -95,9 +95,13 @@ export const port = (name: string, type: string, more: Partial<ActionModel['port
 export const action = (name: string, more: Partial<ActionModel> = {}): ActionModel => ({
   name,
   kind: 'Action',
+  path: `actions/${name}.py`,
   open: false,
   doc: '',
+  line: 1,
   ports: [],
+  imports: [],
+  diagnostics: [],
   ...more,
 });
 
@@ -255,17 +259,28 @@ interface FakeRequest {
   readonly body: unknown;
 }
 
-/** Replaces `fetch`: answers by method and path, 404 for any other, and records the requests. */
+async function bodyOf(request: Request): Promise<unknown> {
+  if (!request.headers.get('Content-Type')?.includes('json'))
+    return request.body ? request.blob() : undefined;
+  return request.json();
+}
+
+/**
+ * Replaces `fetch`: answers by method and path, 404 for any other, and records the requests. A list is sent
+ * under `items`, as the server sends all its lists.
+ */
 export function fakeServer(answers: Readonly<Record<string, unknown>>) {
   const requests: FakeRequest[] = [];
-  vi.stubGlobal('fetch', async (url: string, { method = 'GET', body }: RequestInit = {}) => {
-    const path = url.replace(/^\/api\/v1/, '');
-    requests.push({ method, path, body: typeof body === 'string' ? JSON.parse(body) : body });
+  vi.stubGlobal('fetch', async (request: Request) => {
+    const { method } = request;
+    const { pathname, search } = new URL(request.url);
+    const path = pathname.replace(/^\/api\/v1/, '') + search;
+    requests.push({ method, path, body: await bodyOf(request) });
     const answer = answers[`${method} ${path}`];
     if (answer instanceof Response) return answer.clone();
     return answer === undefined
       ? Response.json({ title: 'Not found', code: 'not_found' }, { status: 404 })
-      : Response.json(answer);
+      : Response.json(Array.isArray(answer) ? { items: answer } : answer);
   });
   onTestFinished(() => {
     cleanup();

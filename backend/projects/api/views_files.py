@@ -19,6 +19,7 @@ from backend.core.problems import InvalidInputError
 from backend.core.rest.openapi import IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
 from backend.projects.api import serializers as s
+from backend.projects.api.schema import NOT_SOUND
 from backend.projects.api.views import opened
 from backend.projects.documents import archive, checking
 from backend.projects.storage import names, queries, writes
@@ -96,7 +97,7 @@ class Xml(APIView):
     @extend_schema(
         operation_id="get_xml",
         parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
-        responses={(200, "text/xml"): OpenApiTypes.STR},
+        responses={(200, "text/xml"): OpenApiTypes.STR} | NOT_SOUND,
         tags=["files"],
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
@@ -140,7 +141,7 @@ class Package(APIView):
             OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
             OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
         ],
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        responses={(200, "application/zip"): OpenApiTypes.BINARY} | NOT_SOUND,
         tags=["files"],
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
@@ -175,7 +176,7 @@ class PackagePreview(APIView):
     @extend_schema(
         operation_id="preview_package",
         parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
-        responses=PackagePreviewSerializer,
+        responses={200: PackagePreviewSerializer} | NOT_SOUND,
         tags=["files"],
     )
     def get(self, request: Request, project_id: UUID) -> HttpResponseBase:
@@ -221,7 +222,7 @@ class Import(APIView):
             OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
         ],
         request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
-        responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
+        responses={201: OpenApiResponse(s.ProjectDetailSerializer)} | NOT_SOUND,
         tags=["files"],
     )
     def post(self, request: Request) -> HttpResponseBase:

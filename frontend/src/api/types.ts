@@ -1,50 +1,37 @@
-/** What the REST API speaks; field names are the server's. */
+/**
+ * What the REST API speaks, by the generated types. Of some answers the page also makes its own, with less in
+ * them: these types ask for no more than the page needs.
+ */
+import type { components } from '@/generated/api';
 import type { OnError, OnFinish } from '@/generated/messages';
 
-export type Severity = 'error' | 'warning' | 'note';
+type Server = components['schemas'];
+type Needs<T, Field extends keyof T> = Pick<T, Field> & Partial<Omit<T, Field>>;
+
+export type Severity = Server['DiagnosticSeverityEnum'];
 
 /** A finding of the checks, at a block, a port, or a line. */
-export interface Diagnostic {
-  code: string;
-  severity: Severity;
-  message: string;
-  hint?: string | null;
-  /** What message and hint were filled with, for who tells them in another language. */
-  values?: Readonly<Record<string, string>>;
-  tree?: string | null;
-  node?: string | null;
-  port?: string | null;
-  file?: string | null;
-  line?: number | null;
-  column?: number | null;
-}
+export type Diagnostic = Needs<Server['Diagnostic'], 'code' | 'severity' | 'message'>;
 
-export type PortDirection = 'input' | 'output' | 'inout';
-
-export interface ActionPort {
-  name: string;
-  direction: PortDirection;
-  type: string;
-  default?: string | number | boolean | null;
-  required?: boolean;
-  description?: string;
-}
+export type PortDirection = Server['DirectionEnum'];
+export type ActionPort = Needs<Server['Port'], 'name' | 'direction' | 'type'>;
 
 /** What reading an action's source says about it. */
-export interface ActionModel {
-  name: string;
-  path?: string;
-  doc?: string;
-  kind: string;
+export type ActionModel = Needs<Omit<Server['Action'], 'ports' | 'diagnostics'>, 'name' | 'kind' | 'open'> & {
   ports: ActionPort[];
-  /** Declares no ports, so that any is accepted. */
-  open: boolean;
   diagnostics?: Diagnostic[];
-}
+};
 
+/** Answers that tell of a project what the translator found in it. */
+type Checked<T extends Server['Report']> = Omit<T, keyof Server['Report'] | 'files' | 'settings'> & {
+  diagnostics: Diagnostic[];
+  actions: ActionModel[];
+  /** `false`: the project could not be checked, and its actions are not known. */
+  checked?: boolean;
+};
+
+/** `project.json`, which is a file of the user: other keys stay as they are. */
 export interface ProjectSettings {
-  format?: string;
-  version?: number;
   name: string;
   description?: string;
   main_tree: string;
@@ -57,160 +44,44 @@ export interface ProjectSettings {
   [key: string]: unknown;
 }
 
-export type ProjectRole = 'viewer' | 'editor' | 'owner';
-
-export interface ProjectSummary {
-  id: string;
-  name: string;
-  description: string;
-  main_tree: string;
-  universe: string;
-  revision: number;
-  created_at: string;
-  updated_at: string;
-  /** What the user may do with it. */
-  role?: ProjectRole;
-  owner?: string;
-  /** The main tree's diagram, for the picture on the card. */
-  root_diagram: unknown;
-}
-
-/** One page of a list that may be long. */
-export interface ProjectPage {
-  items: ProjectSummary[];
-  total: number;
-  next_offset: number | null;
-}
-
-/** What a ROS 2 package will hold, before it is downloaded. */
-export interface PackagePreview {
-  name: string;
-  files: { path: string; size: number }[];
-  /** `package.xml`. */
-  manifest: string;
-  diagnostics: Diagnostic[];
-}
-
-export interface ProjectFile {
-  path: string;
-  revision: number;
-  size: number;
-  sha256: string;
-  /** `null` for a binary file. */
-  content: string | null;
-}
-
-export interface ProjectDetail extends ProjectSummary {
-  settings: ProjectSettings;
-  files: ProjectFile[];
-  actions: ActionModel[];
-  diagnostics: Diagnostic[];
-}
+export type ProjectRole = Server['ProjectRole'];
+type Kept = 'role' | 'owner' | 'size' | 'archived_at' | 'deleted_at';
+export type ProjectSummary = Needs<Server['ProjectSummary'], Exclude<keyof Server['ProjectSummary'], Kept>>;
+export type ProjectFile = Needs<Server['File'], keyof Server['FileInfo'] | 'content'>;
+export type ProjectDetail = ProjectSummary &
+  Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
 /** One file of a change set; `base_revision` 0 says that it must not exist yet. */
-export interface FileChange {
-  path: string;
-  base_revision: number;
-  content?: string;
-  content_base64?: string;
-  delete?: true;
-  rename_to?: string;
-}
-
-export interface SavedFile {
-  path: string;
-  revision: number;
-  size?: number;
-  sha256?: string;
-  deleted?: boolean;
-}
-
-export interface ChangesResult extends CheckResult {
-  revision: number;
-  files: SavedFile[];
-}
-
+export type FileChange = Server['FileChangeRequest'];
+export type ChangesResult = Checked<Server['ChangesDone']> & {
+  files: Needs<Server['FileInfo'], 'path' | 'revision'>[];
+};
 /** Two versions of one file: what the server holds, and what was sent on an older base. */
-export interface Conflict {
-  path: string;
-  base_revision: number;
+export type Conflict = Omit<Server['Conflict'], 'theirs'> & {
   /** `null`: the file was deleted there. */
-  theirs: { revision: number; content: string | null; updated_at?: string } | null;
-  mine: { content: string | null };
-}
-
-export interface CheckResult {
-  diagnostics: Diagnostic[];
-  actions: ActionModel[];
-  /** `false`: the project could not be checked, and its actions are not known. */
-  checked?: boolean;
-}
+  theirs: Needs<Server['Theirs'], 'revision' | 'content'> | null;
+};
+export type CheckResult = Checked<Server['Report']>;
 
 /** What the executor runs. */
-export interface AppBundle {
-  app_zip_base64: string;
-  tick_hz: number;
-  on_finish: OnFinish;
-  on_error: OnError;
-  universe: string | { document: string; assets_zip_base64: string; file: string };
-  robot: string | null;
-}
+export type AppBundle = Server['App'];
+export type SessionInfo = Needs<
+  Server['Session'],
+  'id' | 'state' | 'position' | 'control_url' | 'stream_url'
+>;
 
-export interface SessionInfo {
-  id: string;
-  state: 'queued' | 'starting' | 'ready' | 'failed' | 'ended';
-  position: number | null;
-  control_url: string;
-  stream_url: string;
-  error?: string;
-}
+/** What a ROS 2 package will hold, before it is downloaded. */
+export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { diagnostics: Diagnostic[] };
 
-export interface TemplateInfo {
-  id: string;
-  name: string;
-  description: string;
-  root_diagram?: unknown;
-}
-
+export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'description'>;
 /** A behaviour of the built-in library; texts are by language. */
-export interface BehaviourInfo {
-  id: string;
-  version: string;
-  group: string;
-  universe: string;
-  summary: Record<string, string>;
-  doc: Record<string, string>;
-  diagram: unknown;
-  files: Record<string, string>;
-}
-
+export type BehaviourInfo = Server['Behaviour'];
 /** A universe or a robot to choose; `preview` is the address of its picture. */
-export interface UniverseInfo {
-  id: string;
-  name: string;
-  description?: string;
-  preview?: string;
-}
+export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
+export type Me = Server['Me'];
 
-export interface Me {
-  mode: string;
-  /** Empty for a guest, who came by a read-only link. */
-  user: string;
-  name: string;
-  email: string;
-  role: 'local' | 'administrator' | 'teacher' | 'user' | 'guest';
-  version: string;
-}
-
-/** RFC 9457 body of every refusal. */
-export interface Problem {
-  type?: string;
-  title: string;
-  status: number;
-  code: string;
-  detail?: string;
-  hint?: string;
-  field?: string;
+/** RFC 9457 body of every refusal; the page makes some itself, when no server answers. */
+export type Problem = Needs<Server['Problem'], 'title' | 'status' | 'code'> & {
   diagnostics?: Diagnostic[];
   conflicts?: Conflict[];
-}
+};

@@ -993,8 +993,23 @@ export interface components {
         /** @description One user action on several files, done as a whole or not at all. */
         ChangesRequest: {
             /** @default  */
-            message: string;
+            message?: string;
             files: components["schemas"]["FileChangeRequest"][];
+        };
+        /** @description What was sent has errors, or cannot be read; findings of the translator are in `diagnostics`. */
+        CheckProblem: {
+            type: string;
+            title: string;
+            status: number;
+            /** @description Stable; programs go by it. */
+            code: string;
+            /** @description One sentence for the user. */
+            detail: string;
+            /** @description What to do now; may be empty. */
+            hint: string;
+            /** @description The part of the request that is wrong. */
+            field?: string;
+            diagnostics?: components["schemas"]["Diagnostic"][];
         };
         /** @description Files that differ from what is stored, for a check before saving. */
         CheckRequest: {
@@ -1026,9 +1041,13 @@ export interface components {
         /** @description A new project. */
         CreateProjectRequest: {
             /** @default  */
-            name: string;
+            name?: string;
             /** @default empty */
-            template: string;
+            template?: string;
+        };
+        /** @description The user's own name, typed again. */
+        DeleteMeRequest: {
+            username: string;
         };
         /** @description One finding of the translator. */
         Diagnostic: {
@@ -1071,7 +1090,7 @@ export interface components {
         /** @description The name of the copy; without one it gets a number. */
         DuplicateProjectRequest: {
             /** @default  */
-            name: string;
+            name?: string;
         };
         /** @description A piece of text to be replaced. */
         Edit: {
@@ -1108,9 +1127,9 @@ export interface components {
             content?: string;
             content_base64?: string;
             /** @default false */
-            delete: boolean;
+            delete?: boolean;
             /** @default  */
-            rename_to: string;
+            rename_to?: string;
         };
         /** @description One file that differs; `diff` is null when a side is not text. */
         FileDiff: {
@@ -1183,9 +1202,9 @@ export interface components {
         /** @description The lifetime of an invitation, and the number of accounts that it may make. */
         InviteRequest: {
             /** @default 14 */
-            days: number;
+            days?: number;
             /** @default 30 */
-            max_uses: number;
+            max_uses?: number;
         };
         /** @description A read-only link. */
         Link: {
@@ -1480,7 +1499,7 @@ export interface components {
         SourceRequest: {
             source: string;
             /** @default action.py */
-            filename: string;
+            filename?: string;
         };
         /** @enum {string} */
         StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
@@ -1518,7 +1537,7 @@ export interface components {
         /** @description A file to import. */
         UploadRequest: {
             /** Format: binary */
-            file: string;
+            file: Blob;
             /** @description Escape bare & and < in attributes of XML. */
             repair?: boolean;
         };
@@ -1537,7 +1556,7 @@ export interface components {
              * @description An earlier text, to be patched.
              * @default
              */
-            base: string;
+            base?: string;
             /** @description The nodes of `base`, in the order of the text. */
             ids?: string[];
         };
@@ -1714,7 +1733,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "image/webp": string;
+                    "image/webp": Blob;
                 };
             };
             /** @description A problem document. */
@@ -1832,7 +1851,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "image/webp": string;
+                    "image/webp": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2171,7 +2190,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2192,7 +2211,11 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DeleteMeRequest"];
+            };
+        };
         responses: {
             /** @description No response body */
             204: {
@@ -2455,6 +2478,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["App"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -2753,7 +2785,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2786,7 +2818,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": string;
+                    "application/octet-stream": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2822,7 +2854,16 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -2857,6 +2898,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PackagePreview"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -3036,7 +3086,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": string;
+                    "application/octet-stream": Blob;
                 };
             };
             /** @description A problem document. */
@@ -3467,6 +3517,15 @@ export interface operations {
                     "text/xml": string;
                 };
             };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
             /** @description A problem document. */
             default: {
                 headers: {
@@ -3498,7 +3557,7 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                "application/octet-stream": string;
+                "application/octet-stream": Blob;
                 "multipart/form-data": components["schemas"]["UploadRequest"];
             };
         };
@@ -3509,6 +3568,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProjectDetail"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */

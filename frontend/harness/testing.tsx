@@ -271,7 +271,9 @@ async function bodyOf(request: Request): Promise<unknown> {
  */
 export function fakeServer(answers: Readonly<Record<string, unknown>>) {
   const requests: FakeRequest[] = [];
-  vi.stubGlobal('fetch', async (request: Request) => {
+  vi.stubGlobal('fetch', async (input: string | Request, init?: RequestInit) => {
+    const request =
+      typeof input === 'string' ? new Request(new URL(input, window.location.origin), init) : input;
     const { method } = request;
     const { pathname, search } = new URL(request.url);
     const path = pathname.replace(/^\/api\/v1/, '') + search;

@@ -1,4 +1,4 @@
-"""The metrics of the web server: their names, labels and values, as a reader of Prometheus' format finds them."""
+"""The metrics of the web server, as a reader of Prometheus' format finds them."""
 
 from __future__ import annotations
 

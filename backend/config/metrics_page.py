@@ -25,7 +25,7 @@ CONTENT_TYPE: Final = CONTENT_TYPE_PLAIN_0_0_4
 
 
 class Counted:
-    """What the workers counted."""
+    """Counts of all workers."""
 
     def collect(self) -> Iterator[Metric]:
         yield counter_family(metrics.requests)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from prometheus_client import Metric
 
-    from executor.manager.traffic import Traffic
+    from executor.manager.server import Traffic
     from executor.session.protocol import Session
 
 __all__ = ["CONTENT_TYPE", "metrics_text"]

@@ -39,7 +39,7 @@ class ProblemSchema(AutoSchema):
 
     def _get_request_body(self, direction: Literal["request", "response"] = "request") -> Any:
         if self.method != "DELETE":
-            return super()._get_request_body(direction)
+            return super()._get_request_body(direction)  # type: ignore[no-untyped-call]
         # The base class takes it that no DELETE has one.
         serializer = self.get_request_serializer()
         if serializer is None:

@@ -18,7 +18,7 @@ class ConflictProblemSerializer(ProblemSerializer):
 
 
 class CheckProblemSerializer(ProblemSerializer):
-    """What was sent has errors, or cannot be read; findings of the translator are in `diagnostics`."""
+    """A project or file with errors, or one that cannot be read; `diagnostics` say where."""
 
     diagnostics = DiagnosticSerializer(many=True, required=False)
 

@@ -996,7 +996,7 @@ export interface components {
             message?: string;
             files: components["schemas"]["FileChangeRequest"][];
         };
-        /** @description What was sent has errors, or cannot be read; findings of the translator are in `diagnostics`. */
+        /** @description A project or file with errors, or one that cannot be read; `diagnostics` say where. */
         CheckProblem: {
             type: string;
             title: string;

@@ -5,7 +5,7 @@ from __future__ import annotations
 from prometheus_client.parser import text_string_to_metric_families
 
 from executor.manager.metrics import metrics_text
-from executor.manager.traffic import Traffic
+from executor.manager.server import Traffic
 from executor.session.ladder import State
 from executor.session.protocol import About, Session
 

@@ -1,5 +1,6 @@
 /** Writes the types of the REST API: `src/generated/api.ts`, of the server's OpenAPI document. */
 import { writeFileSync } from 'node:fs';
+import { URL } from 'node:url';
 import openapiTS, { astToString, COMMENT_HEADER } from 'openapi-typescript';
 import ts from 'typescript';
 

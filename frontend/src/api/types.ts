@@ -13,7 +13,6 @@ export type Severity = Server['DiagnosticSeverityEnum'];
 /** A finding of the checks, at a block, a port, or a line. */
 export type Diagnostic = Needs<Server['Diagnostic'], 'code' | 'severity' | 'message'>;
 
-export type PortDirection = Server['DirectionEnum'];
 export type ActionPort = Needs<Server['Port'], 'name' | 'direction' | 'type'>;
 
 /** What reading an action's source says about it. */

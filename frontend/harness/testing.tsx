@@ -20,6 +20,7 @@ import { flush, useSessionStore } from '@/store/session/store';
 import { useTopicsStore } from '@/store/session/topics';
 import { projectDetail, projectFile } from '@/store/testing';
 import { theme } from '@/ui/theme';
+import { sentBodies } from './sentBodies';
 
 // A refused request is an answer, and not to be tried again after a second.
 queries.setDefaultOptions({ queries: { retry: false } });
@@ -259,12 +260,6 @@ interface FakeRequest {
   readonly body: unknown;
 }
 
-async function bodyOf(request: Request): Promise<unknown> {
-  if (!request.headers.get('Content-Type')?.includes('json'))
-    return request.body ? request.blob() : undefined;
-  return request.json();
-}
-
 /**
  * Replaces `fetch`: answers by method and path, 404 for any other, and records the requests. A list is sent
  * under `items`, as the server sends all its lists.
@@ -277,7 +272,8 @@ export function fakeServer(answers: Readonly<Record<string, unknown>>) {
     const { method } = request;
     const { pathname, search } = new URL(request.url);
     const path = pathname.replace(/^\/api\/v1/, '') + search;
-    requests.push({ method, path, body: await bodyOf(request) });
+    const body = sentBodies.get(request);
+    requests.push({ method, path, body: typeof body === 'string' ? JSON.parse(body) : body });
     const answer = answers[`${method} ${path}`];
     if (answer instanceof Response) return answer.clone();
     return answer === undefined

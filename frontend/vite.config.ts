@@ -2,12 +2,13 @@ import react from '@vitejs/plugin-react';
 import { fileURLToPath } from 'node:url';
 import { defineConfig } from 'vitest/config';
 import { fontNotices, NOTICES } from './notices.ts';
+import { validators } from './validators.ts';
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const backend = process.env.BT_STUDIO_BACKEND ?? 'http://127.0.0.1:8000';
 
 export default defineConfig({
-  plugins: [react(), fontNotices()],
+  plugins: [react(), validators(), fontNotices()],
   resolve: {
     alias: { '@': here('./src'), '@catalog': here('../tree_gardener/catalog.json') },
   },

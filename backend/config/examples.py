@@ -48,8 +48,7 @@ def _illustrate(operation: dict[str, Any], example: dict[str, Any]) -> None:
         if parameter["name"] in PARAMETERS:
             parameter["example"] = PARAMETERS[parameter["name"]]
     if "request" in example:
-        # The generator describes no body of a DELETE.
-        _put(operation.get("requestBody", {}).get("content", {}), example["request"])
+        _put(operation["requestBody"]["content"], example["request"])
     responses = operation["responses"]
     for status, answer in example.get("answers", {}).items():
         if status in responses:

@@ -126,7 +126,7 @@ async def _answer(scope: HTTPScope, threads: Threads) -> tuple[int, str, str]:
         return _health(late or await sync_to_async(trouble)())
     if not shows_token and not _may_measure(scope, headers):
         return 403, "text/plain", "Show BT_STUDIO_METRICS_TOKEN as a bearer token.\n"
-    return 200, "text/plain; version=0.0.4; charset=utf-8", await sync_to_async(_metrics)()
+    return 200, *await sync_to_async(_metrics)()
 
 
 def _late(what: str, seconds: float, limit_s: float) -> str:
@@ -172,13 +172,8 @@ def trouble() -> str:
     return ""
 
 
-def _metrics() -> str:
-    from backend.sessions.queries import counts  # noqa: PLC0415 - Django must be set up first
-    from backend.workers.lanes import pool  # noqa: PLC0415 - as above
+def _metrics() -> tuple[str, str]:
+    # Django must be set up first, and the server starts sooner without Prometheus' client.
+    from backend.config.metrics_page import CONTENT_TYPE, page  # noqa: PLC0415
 
-    states = {state: float(n) for state, n in counts().items()}
-    parts = [metrics.requests.text(), metrics.request_seconds.text(), metrics.sockets.text()]
-    parts.append(metrics.gauges("bt_studio_sessions", "Executors by state.", "state", states))
-    jobs = {"waiting": float(pool().waiting)}
-    parts.append(metrics.gauges("bt_studio_work_jobs", "Work for the pool of processes.", "state", jobs))
-    return "".join(parts)
+    return CONTENT_TYPE, page()

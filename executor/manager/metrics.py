@@ -3,68 +3,84 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
+
+from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4, CollectorRegistry, generate_latest
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily
 
 from executor.session.ladder import State
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from prometheus_client import Metric
+
+    from executor.manager.server import Traffic
     from executor.session.protocol import Session
 
-__all__ = ["CONTENT_TYPE", "Traffic", "metrics_text"]
+__all__ = ["CONTENT_TYPE", "metrics_text"]
 
-CONTENT_TYPE: Final = "text/plain; version=0.0.4; charset=utf-8"
+CONTENT_TYPE: Final = CONTENT_TYPE_PLAIN_0_0_4
 
 
-@dataclass
-class Traffic:
-    """Counters of a server."""
+class _Manager:
+    """The numbers of one session, read when the page is asked for."""
 
-    clients: int = 0
-    streams: int = 0
-    commands: int = 0
-    refusals: int = 0
-    events: int = 0
-    frames: int = 0
-    snapshots: int = 0
+    def __init__(self, session: Session, traffic: Traffic) -> None:
+        self._session, self._traffic = session, traffic
+
+    def collect(self) -> Iterator[Metric]:
+        yield from self._of_traffic()
+        yield from self._of_the_run()
+        yield from self._of_the_process()
+
+    def _of_traffic(self) -> Iterator[Metric]:
+        traffic = self._traffic
+        state = GaugeMetricFamily(
+            "bt_studio_session_state", "The rung on which the ladder stands.", labels=["state"]
+        )
+        for rung in State:
+            state.add_metric([rung], int(rung is self._session.state))
+        yield state
+        yield GaugeMetricFamily("bt_studio_clients", "Clients that are connected.", traffic.clients)
+        yield GaugeMetricFamily("bt_studio_streams", "Clients that are sent frames.", traffic.streams)
+        yield CounterMetricFamily("bt_studio_commands_total", "Commands that came.", traffic.commands)
+        yield CounterMetricFamily(
+            "bt_studio_commands_refused_total", "Commands answered with an error.", traffic.refusals
+        )
+        yield CounterMetricFamily(
+            "bt_studio_events_total", "Events sent, once for all clients.", traffic.events
+        )
+        yield CounterMetricFamily("bt_studio_frames_total", "Frames that the world sent.", traffic.frames)
+        yield CounterMetricFamily(
+            "bt_studio_snapshots_total", "Snapshots for clients too slow.", traffic.snapshots
+        )
+
+    def _of_the_run(self) -> Iterator[Metric]:
+        mirror = self._session.mirror
+        yield GaugeMetricFamily("bt_studio_faults", "Faults of this run.", len(mirror.faults))
+        yield GaugeMetricFamily("bt_studio_ticks", "Ticks of this run.", mirror.tick)
+        yield GaugeMetricFamily(
+            "bt_studio_tick_seconds", "How long a tick takes of late.", mirror.tick_ms / 1000
+        )
+        yield GaugeMetricFamily("bt_studio_simulated_seconds", "Simulated time.", self._session.sim_time_s)
+        yield GaugeMetricFamily("bt_studio_speed_wanted", "Requested real-time factor.", mirror.speed)
+        yield GaugeMetricFamily("bt_studio_real_time_factor", "Of the last second.", mirror.real_time_factor)
+
+    def _of_the_process(self) -> Iterator[Metric]:
+        children = len(self._session.children.living)
+        yield GaugeMetricFamily("bt_studio_children", "World, application and those that wait.", children)
+        descriptors = len(list(Path("/proc/self/fd").iterdir()))
+        yield GaugeMetricFamily("bt_studio_open_descriptors", "Of the manager.", descriptors)
+        yield GaugeMetricFamily("bt_studio_memory_bytes", "Resident, of the manager.", _resident_bytes())
 
 
 def metrics_text(session: Session, traffic: Traffic) -> str:
     """Returns all metrics of a session."""
-    mirror = session.mirror
-    states = [f'bt_studio_session_state{{state="{state}"}} {int(state is session.state)}' for state in State]
-    lines = [
-        *_head("session_state", "gauge", "The rung on which the ladder stands."),
-        *states,
-        *_metric("clients", "gauge", "Clients that are connected.", traffic.clients),
-        *_metric("streams", "gauge", "Clients that are sent frames.", traffic.streams),
-        *_metric("commands_total", "counter", "Commands that came.", traffic.commands),
-        *_metric("commands_refused_total", "counter", "Commands answered with an error.", traffic.refusals),
-        *_metric("events_total", "counter", "Events sent, once for all clients.", traffic.events),
-        *_metric("frames_total", "counter", "Frames that the world sent.", traffic.frames),
-        *_metric("snapshots_total", "counter", "Snapshots for clients too slow.", traffic.snapshots),
-        *_metric("faults", "gauge", "Faults of this run.", len(mirror.faults)),
-        *_metric("ticks", "gauge", "Ticks of this run.", mirror.tick),
-        *_metric("tick_seconds", "gauge", "How long a tick takes of late.", mirror.tick_ms / 1000),
-        *_metric("simulated_seconds", "gauge", "Simulated time.", session.sim_time_s),
-        *_metric("speed_wanted", "gauge", "Requested real-time factor.", mirror.speed),
-        *_metric("real_time_factor", "gauge", "Of the last second.", mirror.real_time_factor),
-        *_metric(
-            "children", "gauge", "World, application and those that wait.", len(session.children.living)
-        ),
-        *_metric("open_descriptors", "gauge", "Of the manager.", len(list(Path("/proc/self/fd").iterdir()))),
-        *_metric("memory_bytes", "gauge", "Resident, of the manager.", _resident_bytes()),
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def _head(name: str, kind: str, text: str) -> list[str]:
-    return [f"# HELP bt_studio_{name} {text}", f"# TYPE bt_studio_{name} {kind}"]
-
-
-def _metric(name: str, kind: str, text: str, value: float) -> list[str]:
-    return [*_head(name, kind, text), f"bt_studio_{name} {value:g}"]
+    registry = CollectorRegistry()
+    registry.register(_Manager(session, traffic))
+    return generate_latest(registry).decode()
 
 
 def _resident_bytes() -> int:

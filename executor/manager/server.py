@@ -14,6 +14,7 @@ import asyncio
 import contextlib
 import logging
 import time
+from dataclasses import dataclass
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any, Final
 from urllib.parse import parse_qs, urlsplit
@@ -25,7 +26,6 @@ from websockets.exceptions import ConnectionClosed
 
 from executor.manager.admission import Admission, is_loopback
 from executor.manager.allowance import Allowance
-from executor.manager.metrics import CONTENT_TYPE, Traffic, metrics_text
 from executor.messages import COMMANDS, ClientMessage, Empty, Error, ServerMessage
 from executor.session.events import (
     ClientJoined,
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     from executor.child_messages import Frame
     from executor.session.protocol import Session
 
-__all__ = ["SessionServer"]
+__all__ = ["SessionServer", "Traffic"]
 
 _log = logging.getLogger(__name__)
 
@@ -62,6 +62,19 @@ READ_BYTES: Final = 4 << 10
 COMMANDS_IN_TURN: Final = 8
 MESSAGES_IN_TURN: Final = 16
 _encode = msgspec.json.Encoder().encode
+
+
+@dataclass
+class Traffic:
+    """Counters of a server."""
+
+    clients: int = 0
+    streams: int = 0
+    commands: int = 0
+    refusals: int = 0
+    events: int = 0
+    frames: int = 0
+    snapshots: int = 0
 
 
 class SessionServer:
@@ -179,6 +192,9 @@ class SessionServer:
         return response
 
     def _metrics(self, connection: ServerConnection) -> Response:
+        # Prometheus' client takes 60 ms to import, for which no start of a session should wait.
+        from executor.manager.metrics import CONTENT_TYPE, metrics_text  # noqa: PLC0415
+
         self.traffic.clients, self.traffic.streams = len(self._controls), len(self._streams)
         response = connection.respond(HTTPStatus.OK, metrics_text(self._session, self.traffic))
         del response.headers["Content-Type"]

@@ -1,4 +1,5 @@
-import type { ActionModel, ProjectDetail, ProjectFile } from '@/api/types';
+import type { ActionModel, ProjectDetail } from '@/api/types';
+import { projectDetail, projectFile } from '@/store/testing';
 import bumpAndGo from '../../examples/laser_bump_and_go/trees/MainTree.json';
 
 const port = (name: string, type: string, value: string, direction: 'input' | 'output' = 'input') => ({
@@ -10,29 +11,32 @@ const port = (name: string, type: string, value: string, direction: 'input' | 'o
   description: `${name} of the action.`,
 });
 
+const action = (
+  name: string,
+  kind: string,
+  doc: string,
+  ports: ActionModel['ports'],
+  open = false,
+): ActionModel => ({
+  name,
+  kind,
+  doc,
+  ports,
+  open,
+  path: `actions/${name}.py`,
+  line: 1,
+  imports: [],
+  diagnostics: [],
+});
+
 export const actions: ActionModel[] = [
-  {
-    name: 'CheckObstacle',
-    kind: 'Condition',
-    open: false,
-    doc: 'Succeeds if the LIDAR sees something near, ahead of the robot.',
-    ports: [port('obs_dist', 'float', '1.0'), port('amplitude', 'float', '30.0')],
-  },
-  {
-    name: 'Turn',
-    kind: 'Action',
-    open: false,
-    doc: 'Turns on the spot.',
-    ports: [port('ang_speed', 'float', '0.6')],
-  },
-  {
-    name: 'Forward',
-    kind: 'Action',
-    open: false,
-    doc: 'Drives ahead.',
-    ports: [port('lin_speed', 'float', '0.3')],
-  },
-  { name: 'Legacy', kind: 'Action', open: true, doc: '', ports: [] },
+  action('CheckObstacle', 'Condition', 'Succeeds if the LIDAR sees something near, ahead of the robot.', [
+    port('obs_dist', 'float', '1.0'),
+    port('amplitude', 'float', '30.0'),
+  ]),
+  action('Turn', 'Action', 'Turns on the spot.', [port('ang_speed', 'float', '0.6')]),
+  action('Forward', 'Action', 'Drives ahead.', [port('lin_speed', 'float', '0.3')]),
+  action('Legacy', 'Action', '', [], true),
 ];
 
 /** A tree that shows one of everything, mistakes included. */
@@ -99,26 +103,6 @@ export function fixture(count: number): ProjectDetail {
     ['Large', large(count)],
     ['Empty', { format: 'bt-studio/diagram', version: 1, id: 'Empty', root: null, nodes: {}, drafts: [] }],
   ];
-  const files: ProjectFile[] = trees.map(([id, tree]) => ({
-    path: `trees/${id}.json`,
-    revision: 1,
-    size: 0,
-    sha256: '',
-    content: JSON.stringify(tree),
-  }));
-  return {
-    id: 'p1',
-    name: 'Laser bump and go',
-    description: '',
-    main_tree: 'MainTree',
-    universe: 'walled_room',
-    revision: 1,
-    created_at: '',
-    updated_at: '',
-    root_diagram: null,
-    settings: { name: 'Laser bump and go', main_tree: 'MainTree' },
-    files,
-    actions,
-    diagnostics: [],
-  };
+  const files = trees.map(([id, tree]) => projectFile(`trees/${id}.json`, 1, JSON.stringify(tree)));
+  return { ...projectDetail(1, files), name: 'Laser bump and go', universe: 'walled_room', actions };
 }

@@ -20,6 +20,7 @@ import { flush, useSessionStore } from '@/store/session/store';
 import { useTopicsStore } from '@/store/session/topics';
 import { projectDetail, projectFile } from '@/store/testing';
 import { theme } from '@/ui/theme';
+import { sentBodies } from './sentBodies';
 
 // A refused request is an answer, and not to be tried again after a second.
 queries.setDefaultOptions({ queries: { retry: false } });
@@ -95,9 +96,13 @@ export const port = (name: string, type: string, more: Partial<ActionModel['port
 export const action = (name: string, more: Partial<ActionModel> = {}): ActionModel => ({
   name,
   kind: 'Action',
+  path: `actions/${name}.py`,
   open: false,
   doc: '',
+  line: 1,
   ports: [],
+  imports: [],
+  diagnostics: [],
   ...more,
 });
 
@@ -255,17 +260,25 @@ interface FakeRequest {
   readonly body: unknown;
 }
 
-/** Replaces `fetch`: answers by method and path, 404 for any other, and records the requests. */
+/**
+ * Replaces `fetch`: answers by method and path, 404 for any other, and records the requests. A list is sent
+ * under `items`, as the server sends all its lists.
+ */
 export function fakeServer(answers: Readonly<Record<string, unknown>>) {
   const requests: FakeRequest[] = [];
-  vi.stubGlobal('fetch', async (url: string, { method = 'GET', body }: RequestInit = {}) => {
-    const path = url.replace(/^\/api\/v1/, '');
+  vi.stubGlobal('fetch', async (input: string | Request, init?: RequestInit) => {
+    const request =
+      typeof input === 'string' ? new Request(new URL(input, window.location.origin), init) : input;
+    const { method } = request;
+    const { pathname, search } = new URL(request.url);
+    const path = pathname.replace(/^\/api\/v1/, '') + search;
+    const body = sentBodies.get(request);
     requests.push({ method, path, body: typeof body === 'string' ? JSON.parse(body) : body });
     const answer = answers[`${method} ${path}`];
     if (answer instanceof Response) return answer.clone();
     return answer === undefined
       ? Response.json({ title: 'Not found', code: 'not_found' }, { status: 404 })
-      : Response.json(answer);
+      : Response.json(Array.isArray(answer) ? { items: answer } : answer);
   });
   onTestFinished(() => {
     cleanup();

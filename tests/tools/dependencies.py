@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 import tomllib
 from importlib import metadata
@@ -51,6 +52,12 @@ def shipped() -> list[str]:
     """Returns the normalised names of the packages that users install."""
     table = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     return _names(table["project"]["dependencies"])
+
+
+def of_the_page() -> list[str]:
+    """Returns the names of the packages that the page and its build declare."""
+    table = json.loads((ROOT / "frontend" / "package.json").read_text(encoding="utf-8"))
+    return sorted({*table["dependencies"], *table["devDependencies"]})
 
 
 def _names(lines: list[str]) -> list[str]:

@@ -9,6 +9,7 @@ from tests.tools.dependencies import (
     declared,
     imported,
     normal,
+    of_the_page,
     shipped,
     used_elsewhere,
 )
@@ -34,3 +35,13 @@ def test_the_table_of_uses_holds_only_packages_that_no_source_imports():
 def test_the_page_of_dependencies_names_every_package():
     page = normal((ROOT / "docs" / "explanation" / "dependencies.md").read_text(encoding="utf-8"))
     assert [name for name in declared() if name not in page] == []
+
+
+def test_it_names_every_package_of_the_page():
+    page = (ROOT / "docs" / "explanation" / "dependencies.md").read_text(encoding="utf-8")
+    missing = [
+        name
+        for name in of_the_page()
+        if f"`{name}`" not in page and f"`{name.partition('/')[0]}/*`" not in page
+    ]
+    assert missing == []

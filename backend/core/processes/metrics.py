@@ -1,7 +1,7 @@
-"""Counters and histograms in Prometheus' text format: those of this process and its siblings, in sum.
+"""Counters and histograms of this process and its siblings, in sum.
 
 Names are `bt_studio_<noun>_<unit>`. Every value of a label exists before it first happens, so that a rate
-over it is right from the start.
+over it is right from the start. `backend/config/metrics_page.py` writes them for Prometheus.
 """
 
 from __future__ import annotations
@@ -19,8 +19,7 @@ class Counter:
     """A number that only grows, for each value of one label."""
 
     def __init__(self, name: str, help_text: str, label: str, values: tuple[str, ...]) -> None:
-        self._head = f"# HELP {name} {help_text}\n# TYPE {name} counter\n"
-        self._name, self._label = name, label
+        self.name, self.help_text, self.label = name, help_text, label
         first = numbers.take(len(values))
         self._places = {value: first + index for index, value in enumerate(values)}
         self._lock = Lock()
@@ -34,21 +33,16 @@ class Counter:
         with self._lock:
             numbers.add(self._places[value], amount)
 
-    def text(self) -> str:
-        """As Prometheus reads it."""
-        rows = (
-            f'{self._name}{{{self._label}="{value}"}} {numbers.total(place):.0f}\n'
-            for value, place in self._places.items()
-        )
-        return self._head + "".join(rows)
+    def totals(self) -> dict[str, float]:
+        """Returns the sum over all workers for each value of the label."""
+        return {value: numbers.total(place) for value, place in self._places.items()}
 
 
 class Histogram:
     """A histogram of durations."""
 
     def __init__(self, name: str, help_text: str) -> None:
-        self._head = f"# HELP {name} {help_text}\n# TYPE {name} histogram\n"
-        self._name = name
+        self.name, self.help_text = name, help_text
         self._first = numbers.take(len(BUCKETS_S) + 2)
         self._sum_s = self._first + len(BUCKETS_S) + 1
         self._lock = Lock()
@@ -59,21 +53,17 @@ class Histogram:
             numbers.add(self._first + bisect_left(BUCKETS_S, seconds), 1)
             numbers.add(self._sum_s, seconds)
 
-    def text(self) -> str:
-        """As Prometheus reads it: each bucket holds those before it, too."""
-        buckets = [int(numbers.total(self._first + index)) for index in range(len(BUCKETS_S) + 1)]
-        total_s = numbers.total(self._sum_s)
-        rows, count = [], 0
-        for bound, n in zip([*map(str, BUCKETS_S), "+Inf"], buckets, strict=True):
-            count += n
-            rows.append(f'{self._name}_bucket{{le="{bound}"}} {count}\n')
-        return self._head + "".join(rows) + f"{self._name}_sum {total_s:.6f}\n{self._name}_count {count}\n"
+    def buckets(self) -> list[tuple[str, float]]:
+        """Returns the bounds with the sums over all workers; each bucket also holds those before it."""
+        found, count = [], 0.0
+        for index, bound in enumerate([*map(str, BUCKETS_S), "+Inf"]):
+            count += numbers.total(self._first + index)
+            found.append((bound, count))
+        return found
 
-
-def gauges(name: str, help_text: str, label: str, values: dict[str, float]) -> str:
-    """Numbers of this moment, as Prometheus reads them."""
-    rows = (f'{name}{{{label}="{key}"}} {value:g}\n' for key, value in values.items())
-    return f"# HELP {name} {help_text}\n# TYPE {name} gauge\n" + "".join(rows)
+    def sum_s(self) -> float:
+        """Returns the sum of all durations."""
+        return numbers.total(self._sum_s)
 
 
 requests: Final = Counter(

@@ -23,13 +23,29 @@ class ProblemSerializer(serializers.Serializer[Any]):
     field = serializers.CharField(required=False, help_text="The part of the request that is wrong.")
 
 
-def problem_of(serializer: type[serializers.Serializer[Any]], description: str) -> dict[tuple[int, str], Any]:
+def problem_of(
+    serializer: type[serializers.Serializer[Any]], description: str, *, status: int = 409
+) -> dict[tuple[int, str], Any]:
     """For an operation's `responses`: a problem with members of its own."""
-    return {(409, MEDIA_TYPE): OpenApiResponse(serializer, description=description)}
+    return {(status, MEDIA_TYPE): OpenApiResponse(serializer, description=description)}
 
 
 class ProblemSchema(AutoSchema):
     """Adds the problem document to every operation, and takes names from the view's own."""
+
+    def get_request_serializer(self) -> Any:
+        """A DELETE has a body only where the view's own description says so."""
+        return None if self.method == "DELETE" else super().get_request_serializer()
+
+    def _get_request_body(self, direction: Literal["request", "response"] = "request") -> Any:
+        if self.method != "DELETE":
+            return super()._get_request_body(direction)  # type: ignore[no-untyped-call]
+        # The base class takes it that no DELETE has one.
+        serializer = self.get_request_serializer()
+        if serializer is None:
+            return None
+        component = self.resolve_serializer(serializer, direction)
+        return {"content": {"application/json": {"schema": component.ref}}, "required": True}
 
     def _get_response_bodies(self, direction: Literal["request", "response"] = "response") -> Any:
         bodies = super()._get_response_bodies(direction)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from rest_framework import serializers
 
-from backend.core.rest.openapi import ProblemSerializer
-from backend.projects.api.serializers import ConflictSerializer
+from backend.core.rest.openapi import ProblemSerializer, problem_of
+from backend.projects.api.serializers import ConflictSerializer, DiagnosticSerializer
 
 
 class ConflictProblemSerializer(ProblemSerializer):
@@ -13,3 +15,13 @@ class ConflictProblemSerializer(ProblemSerializer):
 
     revision = serializers.IntegerField(required=False)
     conflicts = ConflictSerializer(many=True, required=False)
+
+
+class CheckProblemSerializer(ProblemSerializer):
+    """A project or file with errors, or one that cannot be read; `diagnostics` say where."""
+
+    diagnostics = DiagnosticSerializer(many=True, required=False)
+
+
+NOT_SOUND: Final = problem_of(CheckProblemSerializer, "The project has errors.", status=422)
+"""For the `responses` of operations that translate a project."""

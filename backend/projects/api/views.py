@@ -17,7 +17,7 @@ from backend.core.rest.openapi import IDEMPOTENCY_KEY, IF_MATCH, IF_NONE_MATCH, 
 from backend.projects.api import presentation
 from backend.projects.api import serializers as s
 from backend.projects.api.idempotency import once
-from backend.projects.api.schema import ConflictProblemSerializer
+from backend.projects.api.schema import NOT_SOUND, ConflictProblemSerializer
 from backend.projects.documents import checking, templates
 from backend.projects.storage import names, queries, writes
 from backend.projects.storage.access import Need
@@ -262,7 +262,7 @@ class Projects(ResourceViewSet):
     @extend_schema(
         operation_id="get_app",
         parameters=[OpenApiParameter("universe", str, description="Where to run, if not where it says.")],
-        responses=s.AppSerializer,
+        responses={200: s.AppSerializer} | NOT_SOUND,
         tags=["projects"],
     )
     @action(detail=True)

@@ -20,6 +20,7 @@ from backend.core.problems import InvalidInputError
 from backend.core.rest.openapi import IDEMPOTENCY_KEY
 from backend.ingress.bodies import body_of
 from backend.projects.api import serializers as s
+from backend.projects.api.schema import NOT_SOUND
 from backend.projects.api.views import opened
 from backend.projects.documents import archive, checking
 from backend.projects.storage import names, queries, writes
@@ -132,7 +133,7 @@ class ProjectFiles(ResourceViewSet):
     @extend_schema(
         operation_id="get_xml",
         parameters=[OpenApiParameter("self_contained", bool, description="With the actions' source.")],
-        responses={(200, "text/xml"): OpenApiTypes.STR},
+        responses={(200, "text/xml"): OpenApiTypes.STR} | NOT_SOUND,
         tags=["files"],
     )
     @action(detail=True)
@@ -166,7 +167,7 @@ class ProjectFiles(ResourceViewSet):
             OpenApiParameter("name", str, description="Name of the ROS package; else made of the project's."),
             OpenApiParameter("dockerized", bool, description="The app that the manager runs."),
         ],
-        responses={(200, "application/zip"): OpenApiTypes.BINARY},
+        responses={(200, "application/zip"): OpenApiTypes.BINARY} | NOT_SOUND,
         tags=["files"],
     )
     @action(detail=True, expensive=("GET",))
@@ -182,7 +183,7 @@ class ProjectFiles(ResourceViewSet):
     @extend_schema(
         operation_id="preview_package",
         parameters=[OpenApiParameter("name", str, description="Name of the ROS package.")],
-        responses=PackagePreviewSerializer,
+        responses={200: PackagePreviewSerializer} | NOT_SOUND,
         tags=["files"],
     )
     @action(detail=True, url_path="package/preview")
@@ -203,7 +204,7 @@ class ProjectFiles(ResourceViewSet):
             OpenApiParameter("repair", bool, description="Escape bare & and < in attributes of XML."),
         ],
         request={"application/octet-stream": OpenApiTypes.BINARY, "multipart/form-data": UploadSerializer},
-        responses={201: OpenApiResponse(s.ProjectDetailSerializer)},
+        responses={201: OpenApiResponse(s.ProjectDetailSerializer)} | NOT_SOUND,
         tags=["files"],
     )
     @action(

@@ -1,114 +1,146 @@
-import { requestJson, requestText, urlOf } from './http';
-import type { PythonFinding } from './python';
+import type { components, operations } from '@/generated/api';
+import { dataOf, done, rest, urlOf } from './http';
 import type {
   ActionModel,
-  AppBundle,
-  BehaviourInfo,
   ChangesResult,
   CheckResult,
   FileChange,
-  Me,
   PackagePreview,
   ProjectDetail,
-  ProjectPage,
   ProjectSettings,
+  ProjectSummary,
   SessionInfo,
   TemplateInfo,
   UniverseInfo,
 } from './types';
 
-export type ProjectSort = 'name' | '-updated_at';
-export type ProjectShelf = 'current' | 'archived' | 'deleted';
+type ProjectQuery = Required<NonNullable<operations['list_projects']['parameters']['query']>>;
+export type ProjectSort = ProjectQuery['sort'];
+export type ProjectShelf = ProjectQuery['shelf'];
 
-interface ProjectQuery {
-  search: string;
-  sort: ProjectSort;
-  shelf: ProjectShelf;
-  offset: number;
-}
+/** One page of a list that may be long. */
+type ProjectPage = Omit<components['schemas']['ProjectList'], 'items'> & { items: ProjectSummary[] };
 
-/** The number of cards that fills a large screen twice. */
+/** As many cards as fill a large screen twice. */
 const PAGE = 48;
 
 const project = (id: string) => `/projects/${encodeURIComponent(id)}`;
+const inProject = (project_id: string) => ({ path: { project_id } });
+const abortedBy = (signal: AbortSignal | undefined) => ({ signal: signal ?? null });
 
-/** Every call of the REST API, one function each. Each throws an `ApiError` if the server refuses. */
+/** Every call of the REST API, one function each. Refusals are thrown as `ApiError`. */
 export const api = {
-  me: () => requestJson<Me>('/me'),
+  me: () => dataOf(rest.GET('/api/v1/me')),
 
-  listProjects: ({ search, sort, shelf, offset }: ProjectQuery, signal?: AbortSignal) => {
-    const query = new URLSearchParams({ search, sort, shelf, offset: String(offset), limit: String(PAGE) });
-    return requestJson<ProjectPage>(`/projects?${query}`, { signal });
+  listProjects: (asked: Omit<ProjectQuery, 'limit'>, signal?: AbortSignal): Promise<ProjectPage> => {
+    const query = { ...asked, limit: PAGE };
+    return dataOf(rest.GET('/api/v1/projects', { params: { query }, ...abortedBy(signal) }));
   },
-  createProject: (body: { name?: string; template?: string }) =>
-    requestJson<ProjectDetail>('/projects', { method: 'POST', body }),
-  getProject: (id: string, signal?: AbortSignal) => requestJson<ProjectDetail>(project(id), { signal }),
+  createProject: (body: { name?: string; template?: string }): Promise<ProjectDetail> =>
+    dataOf(rest.POST('/api/v1/projects', { body })),
+  getProject: (id: string, signal?: AbortSignal): Promise<ProjectDetail> =>
+    dataOf(rest.GET('/api/v1/projects/{project_id}', { params: inProject(id), ...abortedBy(signal) })),
   patchProject: (
     id: string,
     body: { name?: string; description?: string; settings?: Partial<ProjectSettings>; base_revision: number },
-  ) => requestJson<ProjectDetail>(project(id), { method: 'PATCH', body }),
-  deleteProject: (id: string) => requestJson<undefined>(project(id), { method: 'DELETE' }),
-  restoreProject: (id: string) => requestJson<unknown>(`${project(id)}/restore`, { method: 'POST' }),
-  archiveProject: (id: string) => requestJson<unknown>(`${project(id)}/archive`, { method: 'POST' }),
-  unarchiveProject: (id: string) => requestJson<unknown>(`${project(id)}/unarchive`, { method: 'POST' }),
-  duplicateProject: (id: string) =>
-    requestJson<ProjectDetail>(`${project(id)}/duplicate`, { method: 'POST', body: {} }),
-  // The file is the whole body, so that it may be larger than the body of any other request.
-  importProject: ({ file, repair }: { file: File; repair: boolean }) => {
-    const asked = new URLSearchParams({ filename: file.name, ...(repair ? { repair: 'true' } : {}) });
-    return requestJson<ProjectDetail>(`/projects/import?${asked}`, { method: 'POST', body: file });
+  ): Promise<ProjectDetail> =>
+    dataOf(rest.PATCH('/api/v1/projects/{project_id}', { params: inProject(id), body })),
+  deleteProject: (id: string) =>
+    done(rest.DELETE('/api/v1/projects/{project_id}', { params: inProject(id) })),
+  restoreProject: (id: string) =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/restore', { params: inProject(id) })),
+  archiveProject: (id: string) =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/archive', { params: inProject(id) })),
+  unarchiveProject: (id: string) =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/unarchive', { params: inProject(id) })),
+  duplicateProject: (id: string): Promise<ProjectDetail> =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/duplicate', { params: inProject(id), body: {} })),
+  // The file is the body itself: it may then be larger than any other request.
+  importProject: ({ file, repair }: { file: File; repair: boolean }): Promise<ProjectDetail> => {
+    const query = { filename: file.name, ...(repair ? { repair } : {}) };
+    return dataOf(
+      rest.POST('/api/v1/projects/import', {
+        params: { query },
+        body: file,
+        bodySerializer: (body) => body,
+        headers: { 'Content-Type': 'application/octet-stream' },
+      }),
+    );
   },
   exportUrl: (id: string) => urlOf(`${project(id)}/export`),
   xmlUrl: (id: string, isSelfContained: boolean) =>
     urlOf(`${project(id)}/xml?self_contained=${String(isSelfContained)}`),
   packageUrl: (id: string, name: string) =>
     urlOf(`${project(id)}/package?${new URLSearchParams({ name }).toString()}`),
-  previewPackage: (id: string, name: string, signal?: AbortSignal) =>
-    requestJson<PackagePreview>(
-      `${project(id)}/package/preview?${new URLSearchParams({ name }).toString()}`,
-      { signal },
-    ),
-
-  saveChanges: (id: string, body: { message: string; files: FileChange[] }, keepalive = false) =>
-    requestJson<ChangesResult>(`${project(id)}/changes`, { method: 'POST', body, keepalive }),
-  check: (id: string, files: { path: string; content: string }[] = [], signal?: AbortSignal) =>
-    requestJson<CheckResult>(`${project(id)}/check`, { method: 'POST', body: { files }, signal }),
-  xml: (id: string) => requestText(`${project(id)}/xml`),
-  inspectAction: (source: string, filename: string) =>
-    requestJson<ActionModel>('/actions/inspect', { method: 'POST', body: { source, filename } }),
-
-  formatPython: (source: string, filename: string) =>
-    requestJson<{ source: string }>('/python/format', { method: 'POST', body: { source, filename } }),
-  lintPython: async (source: string, filename: string, signal?: AbortSignal) => {
-    const body = { source, filename };
-    const answer = await requestJson<{ findings: PythonFinding[] }>('/python/lint', {
-      method: 'POST',
-      body,
-      signal,
-    });
-    return answer.findings;
+  previewPackage: (id: string, name: string, signal?: AbortSignal): Promise<PackagePreview> => {
+    const params = { ...inProject(id), query: { name } };
+    return dataOf(
+      rest.GET('/api/v1/projects/{project_id}/package/preview', { params, ...abortedBy(signal) }),
+    );
   },
 
-  /**
-   * The application in the form that the executor runs, optionally in another universe than the project's.
-   */
-  app: (id: string, universe?: string | null) =>
-    requestJson<AppBundle>(`${project(id)}/app${universe ? `?${new URLSearchParams({ universe })}` : ''}`),
-  startSession: (id: string) => requestJson<SessionInfo>(`${project(id)}/session`, { method: 'POST' }),
-  getSession: (sessionId: string) => requestJson<SessionInfo>(`/sessions/${sessionId}`),
-  endSession: (sessionId: string) => requestJson<undefined>(`/sessions/${sessionId}`, { method: 'DELETE' }),
+  saveChanges: (
+    id: string,
+    body: { message: string; files: FileChange[] },
+    keepalive = false,
+  ): Promise<ChangesResult> =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/changes', { params: inProject(id), body, keepalive })),
+  check: (
+    id: string,
+    files: { path: string; content: string }[] = [],
+    signal?: AbortSignal,
+  ): Promise<CheckResult> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/check', {
+        params: inProject(id),
+        body: { files },
+        ...abortedBy(signal),
+      }),
+    ),
+  xml: (id: string) =>
+    dataOf(rest.GET('/api/v1/projects/{project_id}/xml', { params: inProject(id), parseAs: 'text' })),
+  inspectAction: (source: string, filename: string): Promise<ActionModel> =>
+    dataOf(rest.POST('/api/v1/actions/inspect', { body: { source, filename } })),
 
-  templates: () => requestItems<TemplateInfo>('/catalog/templates', 'templates'),
-  behaviours: () => requestItems<BehaviourInfo>('/catalog/behaviours', 'behaviours'),
-  universes: () => requestItems<UniverseInfo>('/catalog/universes', 'universes'),
-  universeText: (id: string) => requestText(`/catalog/universes/${encodeURIComponent(id)}/text`),
-  robotConfig: (id: string) => requestText(`/catalog/robots/${encodeURIComponent(id)}/config`),
-  robotUrdf: (id: string) => requestText(`/catalog/robots/${encodeURIComponent(id)}/urdf`),
-  robots: () => requestItems<UniverseInfo>('/catalog/robots', 'robots'),
+  formatPython: (source: string, filename: string) =>
+    dataOf(rest.POST('/api/v1/python/format', { body: { source, filename } })),
+  lintPython: async (source: string, filename: string, signal?: AbortSignal) => {
+    const body = { source, filename };
+    return (await dataOf(rest.POST('/api/v1/python/lint', { body, ...abortedBy(signal) }))).findings;
+  },
+
+  /** The application as it runs, optionally in another universe than the project names. */
+  app: (id: string, universe?: string | null) => {
+    const params = { ...inProject(id), ...(universe ? { query: { universe } } : {}) };
+    return dataOf(rest.GET('/api/v1/projects/{project_id}/app', { params }));
+  },
+  startSession: (id: string): Promise<SessionInfo> =>
+    dataOf(rest.POST('/api/v1/projects/{project_id}/session', { params: inProject(id) })),
+  getSession: (session_id: string): Promise<SessionInfo> =>
+    dataOf(rest.GET('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
+  endSession: (session_id: string) =>
+    done(rest.DELETE('/api/v1/sessions/{session_id}', { params: { path: { session_id } } })),
+
+  templates: async (): Promise<TemplateInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/templates'))).items,
+  behaviours: async () => (await dataOf(rest.GET('/api/v1/catalog/behaviours'))).items,
+  universes: async (): Promise<UniverseInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/universes'))).items,
+  universeText: (universe_id: string) =>
+    dataOf(
+      rest.GET('/api/v1/catalog/universes/{universe_id}/text', {
+        params: { path: { universe_id } },
+        parseAs: 'text',
+      }),
+    ),
+  robotConfig: (robot_id: string) =>
+    dataOf(
+      rest.GET('/api/v1/catalog/robots/{robot_id}/config', {
+        params: { path: { robot_id } },
+        parseAs: 'text',
+      }),
+    ),
+  robotUrdf: (robot_id: string) =>
+    dataOf(
+      rest.GET('/api/v1/catalog/robots/{robot_id}/urdf', { params: { path: { robot_id } }, parseAs: 'text' }),
+    ),
+  robots: async (): Promise<UniverseInfo[]> => (await dataOf(rest.GET('/api/v1/catalog/robots'))).items,
 };
-
-/** The catalogue answers with a list, or with a list under `items` or under its own name. */
-async function requestItems<T>(path: string, name: string): Promise<T[]> {
-  const body = await requestJson<T[] | Record<string, T[]>>(path);
-  return Array.isArray(body) ? body : (body['items'] ?? body[name] ?? []);
-}

@@ -45,7 +45,7 @@ describe('api', () => {
       theirs: { revision: 2, content: 'theirs' },
       mine: { content: 'mine' },
     };
-    const fetched = vi.fn((_url: string, _init: RequestInit) =>
+    const fetched = vi.fn((_request: Request) =>
       Promise.resolve(answer({ title: 'x', code: 'revision_conflict', conflicts: [conflict] }, 409)),
     );
     vi.stubGlobal('fetch', fetched);
@@ -54,8 +54,8 @@ describe('api', () => {
       .saveChanges('p1', { message: 'Edit', files })
       .catch((reason: unknown) => reason)) as ApiError;
     expect(error.conflicts).toEqual([conflict]);
-    const [url, init] = fetched.mock.calls[0]!;
-    expect(url).toBe('/api/v1/projects/p1/changes');
-    expect(JSON.parse(String(init.body))).toEqual({ message: 'Edit', files });
+    const [request] = fetched.mock.calls[0]!;
+    expect(new URL(request.url).pathname).toBe('/api/v1/projects/p1/changes');
+    expect(await request.json()).toEqual({ message: 'Edit', files });
   });
 });

@@ -1,59 +1,61 @@
+import createClient, { type Middleware } from 'openapi-fetch';
+import type { paths } from '@/generated/api';
 import { errorFrom, offlineError } from './errors';
 
 const BASE = '/api/v1';
 
-interface Options {
-  method?: 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
-  body?: unknown;
-  signal?: AbortSignal | undefined;
-  /** Lets a small request finish although the page closes. */
-  keepalive?: boolean;
-}
+const judge: Middleware = {
+  onError: ({ error }) => {
+    const isAborted = error instanceof Error && error.name === 'AbortError';
+    return isAborted ? undefined : offlineError(error);
+  },
+  onResponse: async ({ response }) => {
+    // The session has ended, in another tab or by itself.
+    if (response.status === 401) window.location.assign(signInPath());
+    if (!response.ok) throw await errorFrom(response);
+  },
+};
 
-async function send(path: string, { method = 'GET', body, signal, keepalive }: Options): Promise<Response> {
-  const isFile = body instanceof Blob;
-  const headers: Record<string, string> = { Accept: 'application/json' };
-  if (body !== undefined) headers['Content-Type'] = isFile ? 'application/octet-stream' : 'application/json';
-  let response: Response;
-  try {
-    response = await fetch(BASE + path, {
-      method,
-      headers,
-      credentials: 'same-origin',
-      ...(body === undefined ? {} : { body: isFile ? body : JSON.stringify(body) }),
-      ...(signal ? { signal } : {}),
-      ...(keepalive ? { keepalive } : {}),
-    });
-  } catch (cause) {
-    if (cause instanceof DOMException && cause.name === 'AbortError') throw cause;
-    throw offlineError(cause);
-  }
-  // The user signed out in another tab, or the sign-in has expired.
-  if (response.status === 401) window.location.assign(signInPath());
-  if (!response.ok) throw await errorFrom(response);
-  return response;
-}
+/** The REST API by its generated paths. Refusals are thrown as `ApiError`. */
+export const rest = createClient<paths>({
+  baseUrl: window.location.origin,
+  credentials: 'same-origin',
+  headers: { Accept: 'application/json' },
+  // Looked up at each call, so that tests can replace it.
+  fetch: (request) => globalThis.fetch(request),
+  pathSerializer: (template, values) =>
+    template.replace(/\{(\w+)\}/g, (_, name: string) => encoded(name, String(values[name]))),
+});
+rest.use(judge);
+
+/** A file's path keeps its slashes. */
+const encoded = (name: string, value: string): string =>
+  name === 'path' ? value.split('/').map(encodeURIComponent).join('/') : encodeURIComponent(value);
 
 function signInPath(): string {
   return `/accounts/login/?next=${encodeURIComponent(window.location.pathname)}`;
 }
 
-export async function requestJson<T>(path: string, options: Options = {}): Promise<T> {
-  const response = await send(path, options);
-  if (response.status === 204) return undefined as T;
-  return (await response.json()) as T;
+/** What a call answered; the middleware has thrown its refusal already. */
+export async function dataOf<Data>(
+  answer: Promise<{ readonly data: Data } | { readonly error: unknown }>,
+): Promise<Data> {
+  const found = await answer;
+  if ('error' in found) throw offlineError(found.error);
+  return found.data;
 }
 
-export async function requestText(path: string, options: Options = {}): Promise<string> {
-  return (await send(path, options)).text();
+/** For calls that answer nothing. */
+export async function done(answer: Promise<unknown>): Promise<void> {
+  await answer;
 }
 
-/** The URL of a resource that the browser fetches itself, such as a download. */
+/** The address of something that the browser itself fetches, such as a download. */
 export function urlOf(path: string): string {
   return BASE + path;
 }
 
-/** The URL of a socket on the page's own origin. */
+/** A socket's address on the page's own origin. */
 export function socketUrl(path: string): string {
   const { protocol, host } = window.location;
   return `${protocol === 'https:' ? 'wss' : 'ws'}://${host}${path}`;

@@ -1,22 +1,7 @@
+import type { components } from '@/generated/api';
+
 /** A place in a source; both count from 1, columns in code points. */
-export interface PythonPlace {
-  readonly line: number;
-  readonly column: number;
-}
+export type PythonPlace = Readonly<components['schemas']['Place']>;
 
 /** A finding of ruff, with the edits that fix it. */
-export interface PythonFinding {
-  readonly code: string;
-  readonly severity: 'error' | 'warning';
-  readonly message: string;
-  readonly start: PythonPlace;
-  readonly end: PythonPlace;
-  readonly fix: {
-    readonly message: string;
-    readonly edits: readonly {
-      readonly start: PythonPlace;
-      readonly end: PythonPlace;
-      readonly content: string;
-    }[];
-  } | null;
-}
+export type PythonFinding = Readonly<components['schemas']['Finding']>;

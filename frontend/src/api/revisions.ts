@@ -1,61 +1,56 @@
+import type { components } from '@/generated/api';
 import { ApiError } from './errors';
-import { requestJson, requestText } from './http';
+import { dataOf, rest } from './http';
 import type { ProjectDetail } from './types';
 
-export interface RevisionFile {
-  readonly path: string;
-  readonly change: 'written' | 'deleted' | 'renamed';
-  readonly renamed_from: string;
-}
-
-/** One entry of a project's history. */
-export interface Revision {
-  readonly number: number;
-  readonly message: string;
-  readonly label: string;
-  readonly author: string;
-  readonly created_at: string;
-  readonly files: readonly RevisionFile[];
-}
-
-export interface RevisionPage {
-  readonly items: readonly Revision[];
-  readonly next_before: number | null;
-}
-
-export interface FileDifference {
-  readonly path: string;
-  readonly change: 'added' | 'removed' | 'changed';
-  /** null: one side is not text, or the texts are too long to compare on the server. */
-  readonly diff: string | null;
-}
+/** One change of a project, as its history tells it. */
+export type Revision = Readonly<components['schemas']['Revision']>;
+/** Its `diff` is null where a side is no text, or too long to be compared there. */
+export type FileDifference = Readonly<components['schemas']['FileDiff']>;
 
 const PAGE = 100;
-const base = (projectId: string) => `/projects/${encodeURIComponent(projectId)}/revisions`;
+const at = (project_id: string, number: number) => ({ path: { project_id, number } });
 
 /** The history of a project. */
 export const revisions = {
-  list: (projectId: string, path: string, before: number | null, signal?: AbortSignal) => {
-    const query = new URLSearchParams({ limit: String(PAGE) });
-    if (path) query.set('path', path);
-    if (before !== null) query.set('before', String(before));
-    return requestJson<RevisionPage>(`${base(projectId)}?${query}`, { signal });
+  list: (project_id: string, path: string, before: number | null, signal?: AbortSignal) => {
+    const query = { limit: PAGE, ...(path ? { path } : {}), ...(before === null ? {} : { before }) };
+    const params = { path: { project_id }, query };
+    return dataOf(rest.GET('/api/v1/projects/{project_id}/revisions', { params, signal: signal ?? null }));
   },
   label: (projectId: string, number: number, label: string) =>
-    requestJson<Revision>(`${base(projectId)}/${number}`, { method: 'PATCH', body: { label } }),
-  /** Makes a new revision in which these files, or all files, are as they were. */
-  restore: (projectId: string, number: number, paths: readonly string[]) =>
-    requestJson<ProjectDetail>(`${base(projectId)}/${number}/restore`, { method: 'POST', body: { paths } }),
+    dataOf(
+      rest.PATCH('/api/v1/projects/{project_id}/revisions/{number}', {
+        params: at(projectId, number),
+        body: { label },
+      }),
+    ),
+  /** Makes a new revision with these files, or all, as they were. */
+  restore: (projectId: string, number: number, paths: readonly string[]): Promise<ProjectDetail> =>
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/revisions/{number}/restore', {
+        params: at(projectId, number),
+        body: { paths: [...paths] },
+      }),
+    ),
   differences: async (projectId: string, newer: number, older: number, signal?: AbortSignal) => {
-    const path = `${base(projectId)}/${newer}/diff?against=${older}`;
-    return (await requestJson<{ files: FileDifference[] }>(path, { signal })).files;
+    const params = { ...at(projectId, newer), query: { against: older } };
+    const answer = await dataOf(
+      rest.GET('/api/v1/projects/{project_id}/revisions/{number}/diff', { params, signal: signal ?? null }),
+    );
+    return answer.files;
   },
-  /** The content of a file in a revision; null if it did not exist or is not text. */
-  text: async (projectId: string, number: number, path: string, signal?: AbortSignal) => {
+  /** A file as it was; null where it was not there, or is no text. */
+  text: async (project_id: string, number: number, path: string, signal?: AbortSignal) => {
     if (number === 0) return null;
-    const address = path.split('/').map(encodeURIComponent).join('/');
     try {
-      const text = await requestText(`${base(projectId)}/${number}/files/${address}`, { signal });
+      const text = await dataOf(
+        rest.GET('/api/v1/projects/{project_id}/revisions/{number}/files/{path}', {
+          params: { path: { project_id, number, path } },
+          parseAs: 'text',
+          signal: signal ?? null,
+        }),
+      );
       return text.includes('\u0000') ? null : text;
     } catch (error) {
       if (error instanceof ApiError && error.status === 404) return null;

@@ -1,33 +1,23 @@
-import { requestJson } from './http';
+import type { components } from '@/generated/api';
+import { dataOf, rest } from './http';
 import type { Diagnostic } from './types';
 
-/** The place of a node in a text; offsets count UTF-16 code units, as in JavaScript. */
-export interface NodeRange {
-  readonly node: string;
-  readonly start: number;
-  /** The offset behind its start tag. */
-  readonly open_end: number;
-  readonly end: number;
-}
+/** Where a node stands in a text; offsets as JavaScript counts. */
+export type NodeRange = Readonly<components['schemas']['NodeRange']>;
 
 /** The XML of one tree, and its nodes in the order of the text. */
-export interface TreeText {
-  readonly xml: string;
-  readonly ranges: readonly NodeRange[];
-}
+export type TreeText = components['schemas']['TreeText'];
 
-/** The tree that results from an edited text. */
-export interface ReadTree extends TreeText {
-  /** null: the text cannot be read; the diagnostics explain why. */
-  readonly diagram: string | null;
+/** The tree that an edited text stands for; `diagnostics` say why there is no diagram. */
+export type ReadTree = Omit<components['schemas']['ReadTreeDone'], 'diagnostics'> & {
   readonly diagnostics: readonly Diagnostic[];
-}
+};
 
-/** The translator in both directions: from one tree to its XML, and back. */
+/** The translator's two ways between one tree and its XML. */
 export const trees = {
-  /** `base` is an earlier text whose comments and blanks are kept; `ids` are the nodes in it. */
-  write: (diagram: string, base = '', ids: readonly string[] = []) =>
-    requestJson<TreeText>('/trees/xml', { method: 'POST', body: { diagram, base, ids } }),
-  read: (xml: string, diagram: string) =>
-    requestJson<ReadTree>('/trees/diagram', { method: 'POST', body: { xml, diagram } }),
+  /** `base` and `ids`: an earlier text whose comments and blanks are kept, and the nodes in it. */
+  write: (diagram: string, base = '', ids: readonly string[] = []): Promise<TreeText> =>
+    dataOf(rest.POST('/api/v1/trees/xml', { body: { diagram, base, ids: [...ids] } })),
+  read: (xml: string, diagram: string): Promise<ReadTree> =>
+    dataOf(rest.POST('/api/v1/trees/diagram', { body: { xml, diagram } })),
 };

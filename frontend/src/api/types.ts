@@ -1,218 +1,86 @@
-/** Types of the REST API; field names are the server's. */
+/**
+ * What the REST API speaks, by the generated types. Of some answers the page also makes its own, with less in
+ * them: these types ask for no more than the page needs.
+ */
+import type { components } from '@/generated/api';
 import type { OnError, OnFinish } from '@/generated/messages';
 
-export type Severity = 'error' | 'warning' | 'note';
+type Server = components['schemas'];
+type Needs<T, Field extends keyof T> = Pick<T, Field> & Partial<Omit<T, Field>>;
+
+export type Severity = Server['DiagnosticSeverityEnum'];
 
 /** A finding of the checks, at a block, a port, or a line. */
-export interface Diagnostic {
-  code: string;
-  severity: Severity;
-  message: string;
-  hint?: string | null;
-  /** The values that fill the placeholders of message and hint, for a translation. */
-  values?: Readonly<Record<string, string>>;
-  tree?: string | null;
-  node?: string | null;
-  port?: string | null;
-  file?: string | null;
-  line?: number | null;
-  column?: number | null;
-}
+export type Diagnostic = Needs<Server['Diagnostic'], 'code' | 'severity' | 'message'>;
 
-export type PortDirection = 'input' | 'output' | 'inout';
+export type ActionPort = Needs<Server['Port'], 'name' | 'direction' | 'type'>;
 
-export interface ActionPort {
-  name: string;
-  direction: PortDirection;
-  type: string;
-  default?: string | number | boolean | null;
-  required?: boolean;
-  description?: string;
-}
-
-/** The declarations in an action's source. */
-export interface ActionModel {
-  name: string;
-  path?: string;
-  doc?: string;
-  kind: string;
-  /** Absent until the server has read the class. */
-  children?: { min: number; max: number | null };
+/** What reading an action's source says about it. */
+export type ActionModel = Needs<Omit<Server['Action'], 'ports' | 'diagnostics'>, 'name' | 'kind' | 'open'> & {
   ports: ActionPort[];
-  /** The action declares no ports, so that any port is accepted. */
-  open: boolean;
   diagnostics?: Diagnostic[];
-}
+};
 
+/** Answers that tell of a project what the translator found in it. */
+type Checked<T extends Server['Report']> = Omit<T, keyof Server['Report'] | 'files' | 'settings'> & {
+  diagnostics: Diagnostic[];
+  actions: ActionModel[];
+  /** `false`: the project could not be checked, and its actions are not known. */
+  checked?: boolean;
+};
+
+/** `project.json`, which is a file of the user: other keys stay as they are. */
 export interface ProjectSettings {
-  format?: string;
-  version?: number;
   name: string;
   description?: string;
   main_tree: string;
   tick_hz?: number;
   universe?: string;
-  /** If absent, the universe's own robot. */
+  /** Absent: the universe's own. */
   robot?: string | undefined;
   on_finish?: OnFinish;
   on_error?: OnError;
   [key: string]: unknown;
 }
 
-export type ProjectRole = 'viewer' | 'editor' | 'owner';
+export type ProjectRole = Server['ProjectRole'];
+type Kept = 'role' | 'owner' | 'size' | 'archived_at' | 'deleted_at';
+export type ProjectSummary = Needs<Server['ProjectSummary'], Exclude<keyof Server['ProjectSummary'], Kept>>;
+export type ProjectFile = Needs<Server['File'], keyof Server['FileInfo'] | 'content'>;
+export type ProjectDetail = ProjectSummary &
+  Checked<Server['Report']> & { settings: Server['ProjectDetail']['settings']; files: ProjectFile[] };
 
-export interface ProjectSummary {
-  id: string;
-  name: string;
-  description: string;
-  main_tree: string;
-  universe: string;
-  revision: number;
-  created_at: string;
-  updated_at: string;
-  /** The user's role in the project. */
-  role?: ProjectRole;
-  owner?: string;
-  /** The main tree's diagram, for the picture on the card. */
-  root_diagram: unknown;
-}
+/** One file of a change set; `base_revision` 0 says that it must not exist yet. */
+export type FileChange = Server['FileChangeRequest'];
+export type ChangesResult = Checked<Server['ChangesDone']> & {
+  files: Needs<Server['FileInfo'], 'path' | 'revision'>[];
+};
+/** Two versions of one file: what the server holds, and what was sent on an older base. */
+export type Conflict = Omit<Server['Conflict'], 'theirs'> & {
+  /** `null`: the file was deleted there. */
+  theirs: Needs<Server['Theirs'], 'revision' | 'content'> | null;
+};
+export type CheckResult = Checked<Server['Report']>;
 
-/** One page of a list that may be long. */
-export interface ProjectPage {
-  items: ProjectSummary[];
-  total: number;
-  next_offset: number | null;
-}
+/** What the executor runs. */
+export type AppBundle = Server['App'];
+export type SessionInfo = Needs<
+  Server['Session'],
+  'id' | 'state' | 'position' | 'control_url' | 'stream_url'
+>;
 
-/** The content of a ROS 2 package, before it is downloaded. */
-export interface PackagePreview {
-  name: string;
-  files: { path: string; size: number }[];
-  /** The text of `package.xml`. */
-  manifest: string;
-  diagnostics: Diagnostic[];
-}
+/** What a ROS 2 package will hold, before it is downloaded. */
+export type PackagePreview = Omit<Server['PackagePreview'], 'diagnostics'> & { diagnostics: Diagnostic[] };
 
-export interface ProjectFile {
-  path: string;
-  revision: number;
-  size: number;
-  sha256: string;
-  /** `null` for a binary file. */
-  content: string | null;
-}
-
-export interface ProjectDetail extends ProjectSummary {
-  settings: ProjectSettings;
-  files: ProjectFile[];
-  actions: ActionModel[];
-  diagnostics: Diagnostic[];
-}
-
-/** One file of a change set; with `base_revision` 0 the file must not exist yet. */
-export interface FileChange {
-  path: string;
-  base_revision: number;
-  content?: string;
-  content_base64?: string;
-  delete?: true;
-  rename_to?: string;
-}
-
-export interface SavedFile {
-  path: string;
-  revision: number;
-  size?: number;
-  sha256?: string;
-  deleted?: boolean;
-}
-
-export interface ChangesResult extends CheckResult {
-  revision: number;
-  files: SavedFile[];
-}
-
-/** Two versions of one file: the server's, and one that was sent with an older base. */
-export interface Conflict {
-  path: string;
-  base_revision: number;
-  /** `null`: the file was deleted on the server. */
-  theirs: { revision: number; content: string | null; updated_at?: string } | null;
-  mine: { content: string | null };
-}
-
-export interface CheckResult {
-  diagnostics: Diagnostic[];
-  actions: ActionModel[];
-  /** `false`: the check itself failed, so the project's actions are unknown. */
-  checked?: boolean;
-}
-
-/** The application as the executor runs it. */
-export interface AppBundle {
-  app_zip_base64: string;
-  tick_hz: number;
-  on_finish: OnFinish;
-  on_error: OnError;
-  universe: string | { document: string; assets_zip_base64: string; file: string };
-  robot: string | null;
-}
-
-export interface SessionInfo {
-  id: string;
-  state: 'queued' | 'starting' | 'ready' | 'failed' | 'ended';
-  position: number | null;
-  control_url: string;
-  stream_url: string;
-  error?: string;
-}
-
-export interface TemplateInfo {
-  id: string;
-  name: string;
-  description: string;
-  root_diagram?: unknown;
-}
-
+export type TemplateInfo = Needs<Server['Template'], 'id' | 'name' | 'description'>;
 /** A behaviour of the built-in library; texts are by language. */
-export interface BehaviourInfo {
-  id: string;
-  version: string;
-  group: string;
-  universe: string;
-  summary: Record<string, string>;
-  doc: Record<string, string>;
-  diagram: unknown;
-  files: Record<string, string>;
-}
+export type BehaviourInfo = Server['Behaviour'];
+/** A universe or a robot to choose; `preview` is the address of its picture. */
+export type UniverseInfo = Needs<Server['Entry'], 'id' | 'name'>;
+export type Me = Server['Me'];
 
-/** A universe or a robot to choose; `preview` is the URL of its picture. */
-export interface UniverseInfo {
-  id: string;
-  name: string;
-  description?: string;
-  preview?: string;
-}
-
-export interface Me {
-  mode: string;
-  /** Empty for a guest, who uses a read-only link. */
-  user: string;
-  name: string;
-  email: string;
-  role: 'local' | 'administrator' | 'teacher' | 'user' | 'guest';
-  version: string;
-}
-
-/** The body of every refusal (RFC 9457). */
-export interface Problem {
-  type?: string;
-  title: string;
-  status: number;
-  code: string;
-  detail?: string;
-  hint?: string;
-  field?: string;
+/** RFC 9457 body of every refusal; the page makes some itself, when no server answers. */
+export type Problem = Needs<Server['Problem'], 'title' | 'status' | 'code'> & {
   diagnostics?: Diagnostic[];
   conflicts?: Conflict[];
-}
+};

@@ -998,8 +998,23 @@ export interface components {
         /** @description One user action on several files, done as a whole or not at all. */
         ChangesRequest: {
             /** @default  */
-            message: string;
+            message?: string;
             files: components["schemas"]["FileChangeRequest"][];
+        };
+        /** @description A project or file with errors, or one that cannot be read; `diagnostics` say where. */
+        CheckProblem: {
+            type: string;
+            title: string;
+            status: number;
+            /** @description Stable; programs go by it. */
+            code: string;
+            /** @description One sentence for the user. */
+            detail: string;
+            /** @description What to do now; may be empty. */
+            hint: string;
+            /** @description The part of the request that is wrong. */
+            field?: string;
+            diagnostics?: components["schemas"]["Diagnostic"][];
         };
         /** @description Files that differ from what is stored, for a check before saving. */
         CheckRequest: {
@@ -1036,9 +1051,13 @@ export interface components {
         /** @description A new project. */
         CreateProjectRequest: {
             /** @default  */
-            name: string;
+            name?: string;
             /** @default empty */
-            template: string;
+            template?: string;
+        };
+        /** @description The user's own name, typed again. */
+        DeleteMeRequest: {
+            username: string;
         };
         /** @description One finding of the translator. */
         Diagnostic: {
@@ -1081,7 +1100,7 @@ export interface components {
         /** @description The name of the copy; without one it gets a number. */
         DuplicateProjectRequest: {
             /** @default  */
-            name: string;
+            name?: string;
         };
         /** @description A range of a text, and its replacement. */
         Edit: {
@@ -1118,9 +1137,9 @@ export interface components {
             content?: string;
             content_base64?: string;
             /** @default false */
-            delete: boolean;
+            delete?: boolean;
             /** @default  */
-            rename_to: string;
+            rename_to?: string;
         };
         /** @description One file that differs; `diff` is null if a side is not text. */
         FileDiff: {
@@ -1193,9 +1212,9 @@ export interface components {
         /** @description The lifetime of an invitation, and the number of accounts that it may make. */
         InviteRequest: {
             /** @default 14 */
-            days: number;
+            days?: number;
             /** @default 30 */
-            max_uses: number;
+            max_uses?: number;
         };
         /** @description A read-only link. */
         Link: {
@@ -1490,7 +1509,7 @@ export interface components {
         SourceRequest: {
             source: string;
             /** @default action.py */
-            filename: string;
+            filename?: string;
         };
         /** @enum {string} */
         StateEnum: "queued" | "starting" | "ready" | "failed" | "ended";
@@ -1528,7 +1547,7 @@ export interface components {
         /** @description A file to import. */
         UploadRequest: {
             /** Format: binary */
-            file: string;
+            file: Blob;
             /** @description Escape bare & and < in attributes of XML. */
             repair?: boolean;
         };
@@ -1547,7 +1566,7 @@ export interface components {
              * @description An earlier text, to be patched.
              * @default
              */
-            base: string;
+            base?: string;
             /** @description The nodes of `base`, in the order of the text. */
             ids?: string[];
         };
@@ -1724,7 +1743,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "image/webp": string;
+                    "image/webp": Blob;
                 };
             };
             /** @description A problem document. */
@@ -1842,7 +1861,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "image/webp": string;
+                    "image/webp": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2181,7 +2200,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2202,7 +2221,11 @@ export interface operations {
             path?: never;
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DeleteMeRequest"];
+            };
+        };
         responses: {
             /** @description No response body */
             204: {
@@ -2465,6 +2488,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["App"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -2763,7 +2795,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2796,7 +2828,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": string;
+                    "application/octet-stream": Blob;
                 };
             };
             /** @description A problem document. */
@@ -2832,7 +2864,16 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/zip": string;
+                    "application/zip": Blob;
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -2867,6 +2908,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["PackagePreview"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */
@@ -3046,7 +3096,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/octet-stream": string;
+                    "application/octet-stream": Blob;
                 };
             };
             /** @description A problem document. */
@@ -3477,6 +3527,15 @@ export interface operations {
                     "text/xml": string;
                 };
             };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
+                };
+            };
             /** @description A problem document. */
             default: {
                 headers: {
@@ -3508,7 +3567,7 @@ export interface operations {
         };
         requestBody?: {
             content: {
-                "application/octet-stream": string;
+                "application/octet-stream": Blob;
                 "multipart/form-data": components["schemas"]["UploadRequest"];
             };
         };
@@ -3519,6 +3578,15 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ProjectDetail"];
+                };
+            };
+            /** @description The project has errors. */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["CheckProblem"];
                 };
             };
             /** @description A problem document. */

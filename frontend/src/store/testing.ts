@@ -6,6 +6,7 @@ export const projectFile = (path: string, revision: number, content: string): Pr
   revision,
   size: content.length,
   sha256: '',
+  updated_at: '',
   content,
 });
 
@@ -32,11 +33,17 @@ export const projectDetail = (
   main_tree: mainTree,
   universe: '',
   revision,
+  size: 0,
   created_at: '',
   updated_at: '',
+  archived_at: null,
+  deleted_at: null,
+  role: 'owner',
+  owner: '',
   root_diagram: null,
   settings: { name: 'Test', main_tree: mainTree },
   files: [...files],
   actions: [],
   diagnostics: [],
+  checked: true,
 });

@@ -1,79 +1,80 @@
-import { requestJson, urlOf } from '@/api/http';
+import { dataOf, done, rest, urlOf } from '@/api/http';
+import type { components } from '@/generated/api';
 
-export type SharedRole = 'viewer' | 'editor';
+type Server = components['schemas'];
 
-export interface Person {
-  username: string;
-  name: string;
-}
+export type SharedRole = Server['SharedRole'];
+export type Shares = Server['Shares'];
+export type UserGroup = Server['Group'];
 
-export interface Shares {
-  owner: Person;
-  people: (Person & { role: SharedRole })[];
-  groups: { id: string; name: string; role: SharedRole }[];
-  links: { id: string; url: string; expires_at: string | null; created_at: string }[];
-}
-
-export interface Invitation {
-  id: string;
-  url: string;
-  expires_at: string;
-  uses: number;
-  max_uses: number;
-}
-
-export interface UserGroup {
-  id: string;
-  name: string;
-  owner: string;
-  /** The user manages the group, and sees its members and invitations. */
-  mine: boolean;
-  members: Person[];
-  invitations: Invitation[];
-}
-
-export interface Usage {
-  projects: number;
-  max_projects: number;
-  bytes: number;
-  max_bytes: number;
-}
-
-const part = encodeURIComponent;
-const shares = (projectId: string) => `/projects/${part(projectId)}/shares`;
+const inProject = (project_id: string) => ({ path: { project_id } });
+const inGroup = (group_id: string) => ({ path: { group_id } });
 
 /** The calls of sharing, groups, and the user's own data. */
 export const accounts = {
-  shares: (projectId: string) => requestJson<Shares>(shares(projectId)),
+  shares: (projectId: string) =>
+    dataOf(rest.GET('/api/v1/projects/{project_id}/shares', { params: inProject(projectId) })),
   shareWithPerson: (projectId: string, name: string, role: SharedRole) =>
-    requestJson<Shares>(shares(projectId), { method: 'POST', body: { name, role } }),
-  unshareWithPerson: (projectId: string, username: string) =>
-    requestJson<undefined>(`${shares(projectId)}/people/${part(username)}`, { method: 'DELETE' }),
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/shares', {
+        params: inProject(projectId),
+        body: { name, role },
+      }),
+    ),
+  unshareWithPerson: (project_id: string, username: string) =>
+    done(
+      rest.DELETE('/api/v1/projects/{project_id}/shares/people/{username}', {
+        params: { path: { project_id, username } },
+      }),
+    ),
   makeOwner: (projectId: string, name: string) =>
-    requestJson<Shares>(`/projects/${part(projectId)}/transfer`, { method: 'POST', body: { name } }),
-  shareWithGroup: (projectId: string, groupId: string, role: SharedRole) =>
-    requestJson<Shares>(`${shares(projectId)}/groups/${groupId}`, { method: 'PUT', body: { role } }),
-  unshareWithGroup: (projectId: string, groupId: string) =>
-    requestJson<undefined>(`${shares(projectId)}/groups/${groupId}`, { method: 'DELETE' }),
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/transfer', { params: inProject(projectId), body: { name } }),
+    ),
+  shareWithGroup: (project_id: string, group_id: string, role: SharedRole) =>
+    dataOf(
+      rest.PUT('/api/v1/projects/{project_id}/shares/groups/{group_id}', {
+        params: { path: { project_id, group_id } },
+        body: { role },
+      }),
+    ),
+  unshareWithGroup: (project_id: string, group_id: string) =>
+    done(
+      rest.DELETE('/api/v1/projects/{project_id}/shares/groups/{group_id}', {
+        params: { path: { project_id, group_id } },
+      }),
+    ),
   makeLink: (projectId: string) =>
-    requestJson<Shares>(`${shares(projectId)}/links`, { method: 'POST', body: {} }),
-  revokeLink: (projectId: string, linkId: string) =>
-    requestJson<undefined>(`${shares(projectId)}/links/${linkId}`, { method: 'DELETE' }),
+    dataOf(
+      rest.POST('/api/v1/projects/{project_id}/shares/links', { params: inProject(projectId), body: {} }),
+    ),
+  revokeLink: (project_id: string, link_id: string) =>
+    done(
+      rest.DELETE('/api/v1/projects/{project_id}/shares/links/{link_id}', {
+        params: { path: { project_id, link_id } },
+      }),
+    ),
 
-  groups: async () => (await requestJson<{ items: UserGroup[] }>('/groups')).items,
-  createGroup: (name: string) => requestJson<UserGroup>('/groups', { method: 'POST', body: { name } }),
-  deleteGroup: (id: string) => requestJson<undefined>(`/groups/${id}`, { method: 'DELETE' }),
-  removeMember: (id: string, username: string) =>
-    requestJson<undefined>(`/groups/${id}/members/${part(username)}`, { method: 'DELETE' }),
+  groups: async () => (await dataOf(rest.GET('/api/v1/groups'))).items,
+  createGroup: (name: string) => dataOf(rest.POST('/api/v1/groups', { body: { name } })),
+  deleteGroup: (id: string) => done(rest.DELETE('/api/v1/groups/{group_id}', { params: inGroup(id) })),
+  removeMember: (group_id: string, username: string) =>
+    done(
+      rest.DELETE('/api/v1/groups/{group_id}/members/{username}', {
+        params: { path: { group_id, username } },
+      }),
+    ),
   invite: (id: string) =>
-    requestJson<Invitation>(`/groups/${id}/invitations`, {
-      method: 'POST',
-      body: { days: 14, max_uses: 40 },
-    }),
-  revokeInvitation: (id: string) => requestJson<undefined>(`/invitations/${id}`, { method: 'DELETE' }),
+    dataOf(
+      rest.POST('/api/v1/groups/{group_id}/invitations', {
+        params: inGroup(id),
+        body: { days: 14, max_uses: 40 },
+      }),
+    ),
+  revokeInvitation: (invitation_id: string) =>
+    done(rest.DELETE('/api/v1/invitations/{invitation_id}', { params: { path: { invitation_id } } })),
 
-  usage: () => requestJson<Usage>('/me/usage'),
-  deleteMe: (username: string) =>
-    requestJson<undefined>('/me/data', { method: 'DELETE', body: { username } }),
+  usage: () => dataOf(rest.GET('/api/v1/me/usage')),
+  deleteMe: (username: string) => done(rest.DELETE('/api/v1/me/data', { body: { username } })),
   dataUrl: urlOf('/me/data'),
 };

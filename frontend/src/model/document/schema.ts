@@ -1,129 +1,144 @@
+import type { ErrorObject } from 'ajv';
 import { similarNames } from '../similar';
-import { isObject, type Json, type JsonObject, type Path } from './values';
+import { isObject, type Json, type Path } from './values';
 
-/** A problem of a document; `kind` is a key of `universe:problem`, and `params` fill its text. */
+/** Something wrong with a document; `kind` names a text of `universe:problem`, `params` fill it in. */
 export interface Issue {
   readonly path: Path;
   readonly kind: string;
   readonly params: Readonly<Record<string, string | number>>;
 }
 
-type Schema = Readonly<Record<string, unknown>>;
+type Fault = ErrorObject<string, Record<string, unknown>>;
 
-const issue = (path: Path, kind: string, params: Issue['params'] = {}): Issue => ({ path, kind, params });
-
-/** Checks the subset of JSON Schema that our generated schemas use. */
-export function checkSchema(value: Json, root: Schema, schema: Schema = root, path: Path = []): Issue[] {
-  const reference = schema['$ref'];
-  if (typeof reference === 'string') return checkSchema(value, root, definition(root, reference), path);
-  if ('const' in schema && value !== schema['const']) {
-    return [issue(path, 'constant', { expected: String(schema['const']) })];
-  }
-  const choices = schema['enum'];
-  if (Array.isArray(choices)) {
-    if (choices.includes(value)) return [];
-    return [issue(path, 'choice', { choices: choices.join(', ') })];
-  }
-  const kinds = schema['anyOf'];
-  if (Array.isArray(kinds)) {
-    const tried = (kinds as Schema[]).map((kind) => checkSchema(value, root, kind, path));
-    return tried.some((found) => found.length === 0) ? [] : (tried[0] ?? []);
-  }
-  if (Array.isArray(schema['oneOf'])) return checkChosen(value, root, schema, path);
-  switch (schema['type']) {
-    case 'null':
-      return value === null ? [] : [issue(path, 'number')];
-    case 'object':
-      return isObject(value) ? checkObject(value, root, schema, path) : [issue(path, 'object')];
-    case 'array':
-      return Array.isArray(value) ? checkArray(value, root, schema, path) : [issue(path, 'list')];
-    case 'string':
-      return checkString(value, schema, path);
-    case 'boolean':
-      return typeof value === 'boolean' ? [] : [issue(path, 'boolean')];
-    default:
-      return checkNumber(value, schema, path);
-  }
+/** A schema as a function, compiled by ajv when the page is built. */
+export interface Validator {
+  (value: unknown): boolean;
+  errors?: readonly Fault[] | null;
 }
 
-/** Checks a value of one of several kinds, which a key of the value selects. */
-function checkChosen(value: Json, root: Schema, schema: Schema, path: Path): Issue[] {
-  if (!isObject(value)) return [issue(path, 'object')];
-  const { propertyName = 'kind', mapping = {} } = schema['discriminator'] as {
-    propertyName?: string;
-    mapping?: Readonly<Record<string, string>>;
-  };
-  const chosen = value[propertyName];
-  if (chosen === undefined) return [issue(path, 'missing', { name: propertyName })];
-  const reference =
-    typeof chosen === 'string' && Object.hasOwn(mapping, chosen) ? mapping[chosen] : undefined;
-  if (reference !== undefined) return checkSchema(value, root, definition(root, reference), path);
-  return [issue([...path, propertyName], 'choice', { choices: Object.keys(mapping).join(', ') })];
-}
-
-function definition(root: Schema, reference: string): Schema {
-  const name = reference.replace('#/$defs/', '');
-  return (root['$defs'] as Record<string, Schema>)[name] ?? {};
-}
-
-function checkObject(value: JsonObject, root: Schema, schema: Schema, path: Path): Issue[] {
-  const known = (schema['properties'] ?? {}) as Record<string, Schema>;
-  const others = schema['additionalProperties'];
-  const found: Issue[] = [];
-  for (const name of (schema['required'] ?? []) as string[]) {
-    if (!Object.hasOwn(value, name)) found.push(issue(path, 'missing', { name }));
-  }
-  for (const [name, part] of Object.entries(value)) {
-    const at = [...path, name];
-    const own = Object.hasOwn(known, name) ? known[name] : undefined;
-    if (own) found.push(...checkSchema(part, root, own, at));
-    else if (others && typeof others === 'object') {
-      found.push(...checkSchema(part, root, others as Schema, at));
-    } else {
-      const [near] = similarNames(name, Object.keys(known), 1);
-      found.push(issue(at, near ? 'unknownNear' : 'unknown', { name, ...(near ? { near } : {}) }));
-    }
-  }
-  return found;
-}
-
-function checkArray(value: readonly Json[], root: Schema, schema: Schema, path: Path): Issue[] {
-  const least = (schema['minItems'] as number | undefined) ?? 0;
-  const most = (schema['maxItems'] as number | undefined) ?? Infinity;
-  if (value.length < least || value.length > most) {
-    if (least === most) return [issue(path, 'exactly', { count: least })];
-    return [value.length < least ? issue(path, 'atLeast', { least }) : issue(path, 'atMost', { most })];
-  }
-  const prefix = (schema['prefixItems'] ?? []) as Schema[];
-  const items = schema['items'] as Schema | undefined;
-  return value.flatMap((part, index) => {
-    const own = prefix[index] ?? items;
-    return own ? checkSchema(part, root, own, [...path, index]) : [];
+/** Everything wrong with a value: of each value the first reason, of each object all names. */
+export function checkSchema(value: Json, validate: Validator): Issue[] {
+  if (validate(value)) return [];
+  const found = (validate.errors ?? []).flatMap((fault) => {
+    const issue = issueOf(fault, value);
+    return issue ? [{ ...issue, rank: RANKS.indexOf(fault.keyword) }] : [];
   });
+  const tooMany = found.filter(({ kind }) => LENGTHS.includes(kind)).map(({ path }) => keyOf(path));
+  const seen = new Set<string>();
+  return found
+    .sort((a, b) => a.rank - b.rank)
+    .filter(({ path, kind, params }) => {
+      // Of a list with a wrong length the items mean nothing.
+      if (tooMany.some((list) => keyOf(path).startsWith(`${list}/`))) return false;
+      const key = kind === 'missing' ? `${keyOf(path)} ${params['name'] ?? ''}` : keyOf(path);
+      return !seen.has(key) && seen.add(key);
+    })
+    .map(({ path, kind, params }) => ({ path, kind, params }));
 }
 
-function checkString(value: Json, schema: Schema, path: Path): Issue[] {
-  if (typeof value !== 'string') return [issue(path, 'text')];
-  const most = (schema['maxLength'] as number | undefined) ?? Infinity;
-  if (value.length > most) return [issue(path, 'tooLong', { most })];
-  if (value.length < ((schema['minLength'] as number | undefined) ?? 0)) return [issue(path, 'empty')];
-  const pattern = schema['pattern'] as string | undefined;
-  if (pattern === undefined || new RegExp(pattern).test(value)) return [];
-  if (pattern.startsWith('^#')) return [issue(path, 'color')];
-  return [issue(path, pattern.startsWith('^/') ? 'topic' : 'name')];
+/** Keywords of a schema: a value that fails more than one is reported for the first. */
+const RANKS = [
+  ...['required', 'additionalProperties', 'const', 'enum', 'discriminator', 'type', 'minItems', 'maxItems'],
+  ...['maxLength', 'minLength', 'pattern', 'exclusiveMinimum', 'exclusiveMaximum', 'minimum', 'maximum'],
+];
+const LENGTHS = ['exactly', 'atLeast', 'atMost'];
+
+const keyOf = (path: Path): string => path.map((step) => `/${step}`).join('');
+
+/** The path of a JSON pointer; steps into lists are numbers. */
+function pathOf(pointer: string, value: Json): Path {
+  let at: Json | undefined = value;
+  return pointer
+    .split('/')
+    .slice(1)
+    .map((part) => {
+      const name = part.replace(/~1/g, '/').replace(/~0/g, '~');
+      const step = Array.isArray(at) ? Number(name) : name;
+      at = Array.isArray(at) ? (at[Number(name)] as Json) : isObject(at) ? at[name] : undefined;
+      return step;
+    });
 }
 
-function checkNumber(value: Json, schema: Schema, path: Path): Issue[] {
-  if (typeof value !== 'number' || !Number.isFinite(value)) return [issue(path, 'number')];
-  if (schema['type'] === 'integer' && !Number.isInteger(value)) return [issue(path, 'integer')];
-  const low = schema['minimum'] as number | undefined;
-  const above = schema['exclusiveMinimum'] as number | undefined;
-  const high = (schema['maximum'] as number | undefined) ?? Infinity;
-  if (above !== undefined && value <= above) return [issue(path, 'above', { above })];
-  const under = schema['exclusiveMaximum'] as number | undefined;
-  if (under !== undefined && value >= under) return [issue(path, 'under', { under })];
-  if ((low !== undefined && value < low) || value > high) {
-    return [issue(path, 'range', { low: low ?? above ?? '−∞', high })];
+function issueOf(fault: Fault, value: Json): Issue | null {
+  const path = pathOf(fault.instancePath, value);
+  const { keyword, params, data, parentSchema: schema = {} } = fault;
+  const issue = (kind: string, filled: Issue['params'] = {}): Issue => ({ path, kind, params: filled });
+  switch (keyword) {
+    case 'required':
+      return issue('missing', { name: String(params['missingProperty']) });
+    case 'additionalProperties':
+      return unknownName(path, String(params['additionalProperty']), schema['properties']);
+    case 'const':
+      return issue('constant', { expected: String(params['allowedValue']) });
+    case 'enum':
+      return issue('choice', { choices: listed(params['allowedValues']) });
+    case 'discriminator':
+      return unknownKind(path, String(params['tag']), params['tagValue'], schema['kinds']);
+    case 'type':
+      return wrongType(path, String(params['type']), data);
+    case 'minItems':
+    case 'maxItems':
+      return wrongLength(path, keyword, schema);
+    case 'maxLength':
+      return issue('tooLong', { most: Number(params['limit']) });
+    case 'minLength':
+      return issue('empty');
+    case 'pattern':
+      return issue(wordFor(String(params['pattern'])));
+    case 'exclusiveMinimum':
+      return issue('above', { above: Number(params['limit']) });
+    case 'exclusiveMaximum':
+      return issue('under', { under: Number(params['limit']) });
+    case 'minimum':
+    case 'maximum':
+      return issue('range', {
+        low: schema['minimum'] ?? schema['exclusiveMinimum'] ?? '−∞',
+        high: schema['maximum'] ?? Infinity,
+      });
+    default:
+      // `anyOf`: the first of its choices has told why.
+      return null;
   }
-  return [];
+}
+
+const listed = (values: unknown): string => (Array.isArray(values) ? values.join(', ') : '');
+
+const wordFor = (pattern: string): string =>
+  pattern.startsWith('^#') ? 'color' : pattern.startsWith('^/') ? 'topic' : 'name';
+
+function unknownName(path: Path, name: string, known: unknown): Issue {
+  const [near] = similarNames(name, isObject(known) ? Object.keys(known) : [], 1);
+  const kind = near ? 'unknownNear' : 'unknown';
+  return { path: [...path, name], kind, params: { name, ...(near ? { near } : {}) } };
+}
+
+/** One of several kinds, told apart by a key of its own. */
+function unknownKind(path: Path, key: string, chosen: unknown, kinds: unknown): Issue {
+  return chosen === undefined
+    ? { path, kind: 'missing', params: { name: key } }
+    : { path: [...path, key], kind: 'choice', params: { choices: listed(kinds) } };
+}
+
+const TYPES: Readonly<Record<string, string>> = {
+  object: 'object',
+  array: 'list',
+  string: 'text',
+  boolean: 'boolean',
+  number: 'number',
+};
+
+/** Null stands in our schemas only as the second choice of a value that may be left out. */
+function wrongType(path: Path, type: string, value: unknown): Issue | null {
+  if (type === 'null') return null;
+  const isNumber = type === 'integer' && Number.isFinite(value);
+  return { path, kind: isNumber ? 'integer' : (TYPES[type] ?? 'number'), params: {} };
+}
+
+function wrongLength(path: Path, keyword: string, schema: Readonly<Record<string, unknown>>): Issue {
+  const [least, most] = [Number(schema['minItems'] ?? 0), Number(schema['maxItems'] ?? Infinity)];
+  if (least === most) return { path, kind: 'exactly', params: { count: least } };
+  return keyword === 'minItems'
+    ? { path, kind: 'atLeast', params: { least } }
+    : { path, kind: 'atMost', params: { most } };
 }

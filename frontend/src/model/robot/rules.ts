@@ -1,4 +1,5 @@
 import schema from '@/generated/robot.schema.json';
+import { validate } from '@/generated/robot.schema.json?validator';
 import { checkSchema, type Issue } from '../document/schema';
 import { isObject, type Json, type JsonObject, type Path } from '../document/values';
 import { similarNames } from '../similar';
@@ -7,7 +8,7 @@ import type { Urdf } from './urdf';
 
 /** All problems of a `robot.yaml` alone. */
 export function checkConfig(raw: Json): Issue[] {
-  const found = checkSchema(raw, schema);
+  const found = checkSchema(raw, validate);
   const sensors = isObject(raw) && Array.isArray(raw['sensors']) ? (raw['sensors'] as Json[]) : [];
   for (const [index, sensor] of sensors.entries()) {
     if (!isObject(sensor) || sensor['kind'] !== 'lidar') continue;

@@ -1,7 +1,7 @@
 import { checkSchema, type Issue } from '../document/schema';
 import { isObject, type Json, type JsonObject, type Path } from '../document/values';
 import { FILES, PICTURE, TEXTURES, SECTIONS, SIZE_MEANING, type Shape } from './types';
-import schema from '@/generated/universe.schema.json';
+import { validate } from '@/generated/universe.schema.json?validator';
 
 const AXES = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'];
 const RANDOM_KEY = /^(?<id>[\w-]+)\.(?:pose\.(?<axis>\w+)|(?<field>mass|friction|speed))$/;
@@ -18,7 +18,7 @@ const VARIABLE: Readonly<Record<string, readonly string[]>> = {
  * that a schema cannot express (executor/universes/model.py).
  */
 export function checkUniverse(raw: Json): Issue[] {
-  const found = checkSchema(raw, schema);
+  const found = checkSchema(raw, validate);
   if (!isObject(raw)) return found;
   const models = Array.isArray(raw['models']) ? (raw['models'] as Json[]) : [];
   const own = models.flatMap((model, index) => (isObject(model) ? checkModel(model, ['models', index]) : []));

@@ -6,6 +6,7 @@ import { emptyUndo, redo, seal, undo, type Renaming, type Travel } from '@/model
 import { applySaved, currentText, openFiles, pendingChanges, tryParse } from './files';
 import { renamed as tellNavigator } from './navigation';
 import { refusingViewers } from './readOnly';
+import { readSettings } from './settings';
 import { withActionRenamed } from './edits/renameAction';
 import { actionPath, treeIdOf, type ProjectData, type ProjectState } from './state';
 import {
@@ -75,7 +76,8 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
 
     load: (detail) => {
       const opened = openFiles(detail.files);
-      const main = detail.settings.main_tree;
+      const settings = readSettings(detail);
+      const main = settings.main_tree;
       const data: ProjectData = {
         ...initialData,
         ...opened,
@@ -83,7 +85,7 @@ export const useProjectStore = create<ProjectState>()((setState, get) => {
         role: detail.role ?? 'owner',
         name: detail.name,
         description: detail.description,
-        settings: detail.settings,
+        settings,
         mainTree: main,
         revision: detail.revision,
         actions: detail.actions,

@@ -1,6 +1,7 @@
 import type { ProjectDetail } from '@/api/types';
 import { emptyUndo } from '@/model/undo';
 import { currentText, openFiles } from './files';
+import { readSettings } from './settings';
 import type { ProjectData } from './state';
 import { knowing } from './transitions';
 
@@ -61,7 +62,8 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
   }
   const active = data.activeTree;
   const isActiveGone = active !== null && !(active in diagrams);
-  const main = detail.settings.main_tree;
+  const settings = readSettings(detail);
+  const main = settings.main_tree;
   const next: ProjectData = {
     ...data,
     files,
@@ -72,7 +74,7 @@ export function mergeRemote(data: ProjectData, detail: ProjectDetail): Merged {
     diagnostics: detail.diagnostics,
     ...(kept.includes('project.json')
       ? {}
-      : { settings: detail.settings, mainTree: main, name: detail.name, description: detail.description }),
+      : { settings, mainTree: main, name: detail.name, description: detail.description }),
     activeTree: isActiveGone ? (main in diagrams ? main : (Object.keys(diagrams)[0] ?? null)) : active,
     selection: data.selection.filter((id) => active !== null && diagrams[active]?.nodes[id] !== undefined),
   };

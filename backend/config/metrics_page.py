@@ -1,0 +1,72 @@
+"""The page `/metrics`: the sums over all workers, and the numbers of this moment, in Prometheus' text format.
+
+The multiprocess mode of `prometheus_client` is not used. It keeps files for each process that ever ran, and
+our workers share pages of memory, which outlive a worker and are free again with the server (`numbers.py`).
+Its registry, metric families and text format fit both.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from prometheus_client import CONTENT_TYPE_PLAIN_0_0_4, CollectorRegistry, generate_latest
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily
+
+from backend.core.processes import metrics
+from backend.sessions.queries import counts
+from backend.workers.lanes import pool
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from prometheus_client import Metric
+
+CONTENT_TYPE: Final = CONTENT_TYPE_PLAIN_0_0_4
+
+
+class Counted:
+    """Counts of all workers."""
+
+    def collect(self) -> Iterator[Metric]:
+        yield counter_family(metrics.requests)
+        yield histogram_family(metrics.request_seconds)
+        yield counter_family(metrics.sockets)
+
+
+class Current:
+    """The sessions and the waiting work of this moment."""
+
+    def collect(self) -> Iterator[Metric]:
+        yield _gauges("bt_studio_sessions", "Executors by state.", counts())
+        yield _gauges("bt_studio_work_jobs", "Work for the pool of processes.", {"waiting": pool().waiting})
+
+
+def counter_family(counter: metrics.Counter) -> CounterMetricFamily:
+    """Returns a counter with one sample for each value of its label."""
+    family = CounterMetricFamily(counter.name, counter.help_text, labels=[counter.label])
+    for value, total in counter.totals().items():
+        family.add_metric([value], total)
+    return family
+
+
+def histogram_family(histogram: metrics.Histogram) -> HistogramMetricFamily:
+    """Returns a histogram with its buckets."""
+    buckets, total_s = histogram.buckets(), histogram.sum_s()
+    return HistogramMetricFamily(histogram.name, histogram.help_text, buckets=buckets, sum_value=total_s)
+
+
+def _gauges(name: str, help_text: str, values: Mapping[str, float]) -> GaugeMetricFamily:
+    family = GaugeMetricFamily(name, help_text, labels=["state"])
+    for state, value in values.items():
+        family.add_metric([state], value)
+    return family
+
+
+_registry: Final = CollectorRegistry()
+_registry.register(Counted())
+_registry.register(Current())
+
+
+def page() -> str:
+    """Returns the page."""
+    return generate_latest(_registry).decode()

@@ -1,0 +1,25 @@
+import { expect, it } from 'vitest';
+import { projectDetail } from '@/store/testing';
+import { readSettings } from './settings';
+
+const read = (settings: Record<string, unknown>) => readSettings({ ...projectDetail(1, []), settings });
+
+it('keeps what it does not know', () => {
+  const settings = {
+    name: 'Mine',
+    main_tree: 'Patrol',
+    tick_hz: 50,
+    license: 'MIT',
+    maintainer: { name: 'A' },
+  };
+  expect(read(settings)).toEqual(settings);
+});
+
+it('leaves out a setting of a wrong type', () => {
+  const wrong = { tick_hz: '20', universe: 7, robot: null, on_finish: 'never', on_error: 'failure' };
+  expect(read(wrong)).toEqual({ name: 'Test', main_tree: 'MainTree', on_error: 'failure' });
+});
+
+it('takes name and main tree of the project where the file has none', () => {
+  expect(read({})).toEqual({ name: 'Test', main_tree: 'MainTree' });
+});

@@ -1,0 +1,35 @@
+import type { ProjectDetail, ProjectSettings } from '@/api/types';
+
+const isText = (value: unknown): boolean => typeof value === 'string';
+const isOneOf =
+  (...choices: readonly unknown[]) =>
+  (value: unknown): boolean =>
+    choices.includes(value);
+
+const FITS: Readonly<Record<string, (value: unknown) => boolean>> = {
+  name: isText,
+  description: isText,
+  main_tree: isText,
+  tick_hz: Number.isFinite,
+  universe: isText,
+  robot: isText,
+  on_finish: isOneOf('stop', 'repeat'),
+  on_error: isOneOf('stop', 'failure'),
+};
+
+const fits = (key: string, value: unknown): boolean => FITS[key]?.(value) ?? true;
+
+const areSettings = (settings: Readonly<Record<string, unknown>>): settings is ProjectSettings =>
+  ['name', 'main_tree'].every((key) => key in settings) &&
+  Object.entries(settings).every(([key, value]) => fits(key, value));
+
+/** A project's settings as the page uses them: one of a wrong type has its default, as for the translator. */
+export function readSettings({
+  name,
+  main_tree,
+  settings,
+}: Pick<ProjectDetail, 'name' | 'main_tree' | 'settings'>): ProjectSettings {
+  const said = Object.entries(settings).filter(([key, value]) => fits(key, value));
+  const read: Readonly<Record<string, unknown>> = { name, main_tree, ...Object.fromEntries(said) };
+  return areSettings(read) ? read : { name, main_tree };
+}

@@ -23,7 +23,7 @@ function purposeOf({ goal }: QuickAddState): Purpose {
 
 /** A name that is a question is probably a condition: that choice comes first. */
 function kindsFor(name: string): readonly ActionKind[] {
-  return /^(is|has|can|check)([A-Z_]|$)/i.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
+  return /^([Ii]s|[Hh]as|[Cc]an|[Cc]heck)([A-Z_]|$)/.test(name) ? ['Condition', 'Action'] : ['Action', 'Condition'];
 }
 
 interface QuickAddProps {

@@ -40,9 +40,7 @@ it('tells the name, the type and the place of the selected block', () => {
 
 it('tells what is wrong with it, and that it is disabled', () => {
   select('Main', 'b');
-  expect(text()).toBe(
-    'Nap, Sleep, child 2 of 2 of Work, It is wrong. Control and full stop show the fixes.',
-  );
+  expect(text()).toBe('Nap, Sleep, child 2 of 2 of Work, It is wrong. Control and full stop show the fixes.');
   select('Main', 'a');
   expect(text()).toBe('Sleep, Sleep, child 1 of 2 of Work, disabled');
 });

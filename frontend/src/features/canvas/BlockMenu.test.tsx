@@ -40,11 +40,7 @@ function groups(): string[][] {
   return found;
 }
 
-const COMMON = [
-  ['rename', 'comment', 'disable'],
-  ['cut', 'copy', 'paste', 'duplicate'],
-  ['delete'],
-];
+const COMMON = [['rename', 'comment', 'disable'], ['cut', 'copy', 'paste', 'duplicate'], ['delete']];
 
 describe('BlockMenu', () => {
   it('is closed without a point', () => {

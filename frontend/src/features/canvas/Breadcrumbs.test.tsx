@@ -27,9 +27,10 @@ function open(treeId: string, ...selected: string[]) {
   useProjectStore.getState().select(treeId, selected);
   show(<Breadcrumbs treeId={treeId} />);
 }
-const crumbs = () => [...screen.getByRole('navigation').children]
-  .filter((each) => each.tagName !== 'svg')
-  .map(({ textContent }) => textContent);
+const crumbs = () =>
+  [...screen.getByRole('navigation').children]
+    .filter((each) => each.tagName !== 'svg')
+    .map(({ textContent }) => textContent);
 
 describe('Breadcrumbs', () => {
   it('lead from the main tree over its callers to this one', async () => {

@@ -71,7 +71,11 @@ describe('the layout', () => {
 describe('the overview', () => {
   it('is on for trees of more than fourteen blocks, until the user decides', async () => {
     expect(button('Overview')).toHaveAttribute('aria-pressed', 'false');
-    act(() => useProjectStore.getState().apply('Main', 'add', [(draft) => void Object.assign(draft.nodes, manyBlocks)]));
+    act(() =>
+      useProjectStore
+        .getState()
+        .apply('Main', 'add', [(draft) => void Object.assign(draft.nodes, manyBlocks)]),
+    );
     expect(button('Overview')).toHaveAttribute('aria-pressed', 'true');
     await press('Overview');
     expect(now.editor().minimap).toBe(false);

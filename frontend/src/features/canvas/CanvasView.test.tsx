@@ -287,7 +287,9 @@ describe('a box over the canvas', () => {
 
   it('is for another tree drawn there', () => {
     open();
-    act(() => setEditor({ quickAdd: { tree: 'Dock', goal: { does: 'wrap', nodes: [] }, x: 0, y: 0, text: '' } }));
+    act(() =>
+      setEditor({ quickAdd: { tree: 'Dock', goal: { does: 'wrap', nodes: [] }, x: 0, y: 0, text: '' } }),
+    );
     expect(screen.queryByTestId('quick-add')).toBeNull();
   });
 

@@ -62,7 +62,8 @@ const boxOf = (id: string) => {
   return { ...position, width, height };
 };
 const shrinking = shrink(boundsOf(['r', 'a', 'b'].map(boxOf)), PICTURE);
-const at = (x: number, y: number) => [shrinking.left + x * shrinking.sx, shrinking.top + y * shrinking.sy] as const;
+const at = (x: number, y: number) =>
+  [shrinking.left + x * shrinking.sx, shrinking.top + y * shrinking.sy] as const;
 
 describe('the picture', () => {
   it('has each block in its colour, and errors on top', () => {

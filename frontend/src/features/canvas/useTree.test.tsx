@@ -13,7 +13,11 @@ beforeEach(() => {
   forgetEditor();
   openProject({
     trees: {
-      Main: { r: { type: 'Sequence', children: ['s', 'x'] }, s: { type: 'SubTree', tree: 'Dock' }, x: { type: 'Lost' } },
+      Main: {
+        r: { type: 'Sequence', children: ['s', 'x'] },
+        s: { type: 'SubTree', tree: 'Dock' },
+        x: { type: 'Lost' },
+      },
       Dock: { d: { type: 'AlwaysSuccess' } },
     },
     diagnostics: [{ code: 'X1', severity: 'warning', message: 'Odd.', tree: 'Main', node: 's' }],

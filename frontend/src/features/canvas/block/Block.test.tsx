@@ -65,7 +65,12 @@ const marks = (block: HTMLElement) =>
 describe('Block', () => {
   it('says what it is, and nothing that it is not', () => {
     const block = open();
-    expect(block.dataset).toEqual({ testid: 'node-a', type: 'Sequence', family: 'control', status: 'IDLE' });
+    expect({ ...block.dataset }).toEqual({
+      testid: 'node-a',
+      type: 'Sequence',
+      family: 'control',
+      status: 'IDLE',
+    });
     expect(block.className).not.toMatch(/horizontal/);
     expect(screen.queryByTestId('problem-mark')).toBeNull();
     expect(screen.queryByTestId('look-a')).toBeNull();
@@ -168,7 +173,8 @@ describe('Block', () => {
 });
 
 describe('the ends of connections', () => {
-  const handle = (block: HTMLElement, type: string) => block.querySelector<HTMLElement>(`.react-flow__handle.${type}`)!;
+  const handle = (block: HTMLElement, type: string) =>
+    block.querySelector<HTMLElement>(`.react-flow__handle.${type}`)!;
 
   it('are above and below, or left and right', () => {
     const block = open();

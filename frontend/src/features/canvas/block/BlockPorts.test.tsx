@@ -1,6 +1,6 @@
 import { screen } from '@testing-library/react';
+import i18next from 'i18next';
 import { describe, expect, it } from 'vitest';
-import i18n from '@/i18n';
 import type { PortSpec } from '@/model/ports';
 import { vocabulary } from '@/model/testing';
 import type { NodeSpec } from '@/model/vocabulary';
@@ -13,7 +13,7 @@ const specOf = (...ports: ReturnType<typeof port>[]): NodeSpec => ({
 });
 
 function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
-  show(<BlockPorts node={{ type: 'Turn', ports }} spec={spec} t={i18n.getFixedT('en', 'canvas')} />);
+  show(<BlockPorts node={{ type: 'Turn', ports }} spec={spec} t={i18next.getFixedT('en', 'canvas')} />);
   return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
 }
 
@@ -28,7 +28,12 @@ describe('BlockPorts', () => {
 
   it('shows values, defaults, and what is missing', () => {
     const rows = open(
-      specOf(port('a', 'int'), port('b', 'int', { default: '3' }), port('c', 'int', { required: true }), port('d', 'int')),
+      specOf(
+        port('a', 'int'),
+        port('b', 'int', { default: '3' }),
+        port('c', 'int', { required: true }),
+        port('d', 'int'),
+      ),
       { a: '1' },
     );
     expect(rows).toEqual([' a1', ' b3', ' crequired', ' d—']);
@@ -36,7 +41,11 @@ describe('BlockPorts', () => {
 
   it('shows which way a value goes', () => {
     const rows = open(
-      specOf(port('in', 'int'), port('out', 'int', { direction: 'output' }), port('both', 'int', { direction: 'inout' })),
+      specOf(
+        port('in', 'int'),
+        port('out', 'int', { direction: 'output' }),
+        port('both', 'int', { direction: 'inout' }),
+      ),
     );
     expect(rows).toEqual([' in—', '→ out—', '⇄ both—']);
   });

@@ -19,7 +19,9 @@ describe('BlockShape', () => {
     expect(svg).toHaveAttribute('width', '140');
     expect(svg).toHaveAttribute('height', '66');
     expect(svg).toHaveAttribute('aria-hidden', 'true');
-    expect(new Set(paths.map((path) => path.getAttribute('d')))).toEqual(new Set([outline('action', 140, 66)]));
+    expect(new Set(paths.map((path) => path.getAttribute('d')))).toEqual(
+      new Set([outline('action', 140, 66)]),
+    );
     expect(paths).toHaveLength(3);
   });
 

@@ -1,6 +1,6 @@
 import { act, screen } from '@testing-library/react';
+import i18next from 'i18next';
 import { beforeEach, describe, expect, it } from 'vitest';
-import i18n from '@/i18n';
 import { setEditor } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { now, openDiagram } from '../../../../harness/canvas';
@@ -9,7 +9,12 @@ import { BlockTitle } from './BlockTitle';
 
 function Title({ id }: { readonly id: string }) {
   const node = useProjectStore((state) => state.diagrams['Main']?.nodes[id]);
-  return node ? <BlockTitle id={id} node={node} t={i18n.getFixedT('en', 'canvas')} /> : null;
+  if (!node) return null;
+  return (
+    <div data-testid="canvas" tabIndex={-1}>
+      <BlockTitle id={id} node={node} t={i18next.getFixedT('en', 'canvas')} />
+    </div>
+  );
 }
 
 beforeEach(() => {

@@ -52,7 +52,8 @@ beforeEach(() => {
 const command = (id: string) => blockCommands.find((each) => each.id === id)!;
 const run = (id: string) => command(id).run();
 const select = (...ids: string[]) => useProjectStore.getState().select('Main', ids);
-const enabled = (): string[] => blockCommands.filter((each) => each.enabled?.() !== false).map(({ id }) => id);
+const enabled = (): string[] =>
+  blockCommands.filter((each) => each.enabled?.() !== false).map(({ id }) => id);
 const children = () => childrenOf(now.diagram(), 'r');
 const typesOf = (ids: readonly string[]) => ids.map((id) => nodeOf('Main', id)?.type);
 

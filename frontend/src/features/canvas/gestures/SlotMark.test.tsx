@@ -13,7 +13,12 @@ it('is drawn between blocks, where the slot is', () => {
     </ReactFlow>,
   );
   expect(screen.queryByTestId('insertion-mark')).toBeNull();
-  const slot = { parent: 'r', index: 1, kind: 'between', mark: { x: 10, y: 20, width: 4, height: 50 } } as const;
+  const slot = {
+    parent: 'r',
+    index: 1,
+    kind: 'between',
+    mark: { x: 10, y: 20, width: 4, height: 50 },
+  } as const;
   act(() => setEditor({ slot }));
   expect(screen.getByTestId('insertion-mark')).toHaveStyle({
     transform: 'translate(10px, 20px)',

@@ -12,7 +12,10 @@ const translates = () =>
 
 beforeEach(() => {
   canvas.innerHTML = ['top', 'below', 'other']
-    .map((id) => `<i class="react-flow__node" data-id="${id}"></i><i class="react-flow__edge" data-id="${id}"></i>`)
+    .map(
+      (id) =>
+        `<i class="react-flow__node" data-id="${id}"></i><i class="react-flow__edge" data-id="${id}"></i>`,
+    )
     .join('');
 });
 

@@ -32,14 +32,14 @@ describe('neighbour', () => {
     ['a', 'after', 'f'],
     ['f', 'before', 'a'],
     ['a', 'before', null],
-    ['g', 'after', null],
+    ['g', 'after', 'd'],
     ['r', 'after', 'd'],
     ['d', 'before', 'r'],
     ['d', 'after', null],
     ['y', 'after', 'z'],
     ['z', 'before', 'y'],
     ['x', 'before', 'a'],
-    ['s', 'after', null],
+    ['s', 'after', 'd'],
   ] as const)('of %s %s is %s', (id, direction, expected) => {
     expect(neighbour(main, id, direction)).toBe(expected);
   });

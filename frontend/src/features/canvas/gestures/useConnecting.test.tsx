@@ -131,7 +131,10 @@ describe('a connection that ends', () => {
     end(used, { isValid: true });
     end(used, { from: null });
     act(() =>
-      used().onConnectEnd({ touches: [] } as unknown as TouchEvent, { fromNode: { id: 'r' } } as FinalConnectionState),
+      used().onConnectEnd(
+        { touches: [] } as unknown as TouchEvent,
+        { fromNode: { id: 'r' } } as FinalConnectionState,
+      ),
     );
     expect(now.editor().quickAdd).toBeNull();
   });

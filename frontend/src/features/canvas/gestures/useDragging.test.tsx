@@ -33,7 +33,9 @@ beforeEach(() => {
 
 function begin() {
   const canvas = document.createElement('div');
-  canvas.innerHTML = [...ids, 's n1'].map((id) => `<i class="react-flow__node" data-id="${id}"></i>`).join('');
+  canvas.innerHTML = [...ids, 's n1']
+    .map((id) => `<i class="react-flow__node" data-id="${id}"></i>`)
+    .join('');
   const { used, unmount } = inFlow(() => {
     const tree = useTree('Main');
     return { tree, ...useDragging(tree, useRef<HTMLElement | null>(canvas)) };
@@ -107,9 +109,17 @@ describe('while a block is carried', () => {
 
   it('a touch, or a block that is not in the tree, moves nothing', () => {
     const { used, translated } = begin();
-    act(() => used().onDrag({ touches: [] } as unknown as TouchEvent, { id: 'a', position: { x: 0, y: 0 } } as BlockNode));
     act(() =>
-      used().onDrag({ clientX: 1, clientY: 1 } as MouseEvent, { id: 'gone', position: { x: 0, y: 0 } } as BlockNode),
+      used().onDrag(
+        { touches: [] } as unknown as TouchEvent,
+        { id: 'a', position: { x: 0, y: 0 } } as BlockNode,
+      ),
+    );
+    act(() =>
+      used().onDrag(
+        { clientX: 1, clientY: 1 } as MouseEvent,
+        { id: 'gone', position: { x: 0, y: 0 } } as BlockNode,
+      ),
     );
     expect(translated()).toEqual([]);
     expect(used().held).toBeNull();

@@ -1,7 +1,7 @@
 import { MantineProvider } from '@mantine/core';
-import { act, renderHook } from '@testing-library/react';
+import { renderHook } from '@testing-library/react';
 import { ReactFlowProvider, useStoreApi, type ReactFlowState, type Viewport } from '@xyflow/react';
-import type { ReactNode } from 'react';
+import { useState, type ReactNode } from 'react';
 import { onTestFinished, vi } from 'vitest';
 import { emptyDiagram, type Diagram } from '@/model/diagram';
 import { useEditorStore } from '@/store/project/editor';
@@ -22,27 +22,34 @@ const recordingView = () => ({
 /** The size of a canvas in these tests. */
 export const PANE = { width: 800, height: 600 } as const;
 
+type View = ReturnType<typeof recordingView>;
+
+/** Gives the store a view and a size before anything below looks for them. */
+function Pane({ view, children }: { readonly view: View; readonly children: ReactNode }) {
+  const store = useStoreApi();
+  useState(() => store.setState({ panZoom: view as unknown as ReactFlowState['panZoom'], ...PANE }));
+  return children;
+}
+
 /**
  * Calls a hook, and shows an element beside it, where React Flow has its store and draws nothing:
  * points of the window are points of the flow then.
  */
 export function inFlow<T>(use: () => T, element: ReactNode = null) {
+  const view = recordingView();
   const { result, rerender, unmount } = renderHook(() => ({ used: use(), store: useStoreApi() }), {
     wrapper: ({ children }) => (
       <MantineProvider theme={theme} env="test" withCssVariables={false} withGlobalClasses={false}>
         <ReactFlowProvider>
-          {element}
-          {children}
+          <Pane view={view}>
+            {element}
+            {children}
+          </Pane>
         </ReactFlowProvider>
       </MantineProvider>
     ),
   });
-  const view = recordingView();
-  const { store } = result.current;
-  act(() => {
-    store.setState({ panZoom: view as unknown as ReactFlowState['panZoom'], ...PANE });
-  });
-  return { used: () => result.current.used, store, view, rerender, unmount };
+  return { used: () => result.current.used, store: result.current.store, view, rerender, unmount };
 }
 
 /** Shows an element where React Flow has its store and draws nothing. */

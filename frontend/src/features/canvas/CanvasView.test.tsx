@@ -1,4 +1,5 @@
 import { act, fireEvent, screen, waitFor } from '@testing-library/react';
+import type { ReactFlowState } from '@xyflow/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { childrenOf, emptyDiagram, type Diagram } from '@/model/diagram';
 import { removeSubtrees } from '@/model/edits';
@@ -332,7 +333,9 @@ it('draws only what is in view of a large tree', () => {
 });
 
 it('brings a block into view that is asked for', async () => {
-  const { view } = open();
+  const { view, store: flow } = open();
+  // In place of the view that React Flow has made.
+  act(() => flow.setState({ panZoom: view as unknown as ReactFlowState['panZoom'] }));
   act(() => store().reveal('Main', 'b'));
   await waitFor(() => expect(view.setViewport).toHaveBeenCalled());
   expect(now.selection()).toEqual(['b']);

@@ -10,7 +10,7 @@ import { TreeEdge } from './TreeEdge';
 
 beforeEach(() => forgetEditor());
 
-function open(more: Partial<EdgeProps<TreeEdgeType>> = {}) {
+function open(more: Partial<Record<keyof EdgeProps, unknown>> = {}) {
   const props = {
     id: 'a',
     source: 'r',

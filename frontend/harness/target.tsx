@@ -1,5 +1,5 @@
 import type { ComponentType } from 'react';
-import type { Target } from '@/features/inspector/target';
+import { targetOf, type Target } from '@/features/inspector/target';
 import { useProjectStore } from '@/store/project';
 
 /** A part of the inspector for a block of a tree, as that is now. */
@@ -7,8 +7,7 @@ export function shownTarget(tree: string, Part: ComponentType<Target>) {
   return function Shown({ id }: { readonly id: string }) {
     const diagram = useProjectStore((state) => state.diagrams[tree]);
     const vocabulary = useProjectStore((state) => state.vocabulary);
-    const node = diagram?.nodes[id];
-    if (!diagram || !node) return null;
-    return <Part diagram={diagram} tree={tree} id={id} node={node} spec={vocabulary.specs.get(node.type)} />;
+    const target = targetOf(diagram, id, vocabulary);
+    return target && <Part {...target} />;
   };
 }

@@ -46,7 +46,7 @@ describe('a value', () => {
     expect(sent()).toEqual([]);
   });
 
-  it('that is none of its type is not written, also when the field is left', async () => {
+  it('that does not fit its type is not written, also when the field is left', async () => {
     const field = open('int', 3);
     await user.type(field, '.5{Enter}');
     expect(screen.getByText('x is a whole number, such as 5.')).toBeInTheDocument();

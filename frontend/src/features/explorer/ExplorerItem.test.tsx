@@ -114,7 +114,7 @@ describe('the menu', () => {
     expect(tabs()).toEqual([{ kind: 'file', path: 'README.md' }]);
   });
 
-  it('is none of the settings', () => {
+  it('is missing beside the settings', () => {
     open('project.json');
     expect(screen.queryByRole('button', { name: /^More/ })).toBeNull();
   });

@@ -44,7 +44,7 @@ describe('Hint', () => {
     expect(hint()).toBeUndefined();
   });
 
-  it('is none for a viewer', () => {
+  it('is absent for a viewer', () => {
     act(() => useProjectStore.setState({ role: 'viewer' }));
     open();
     expect(hint()).toBeUndefined();

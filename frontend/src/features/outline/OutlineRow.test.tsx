@@ -38,7 +38,7 @@ describe('a line of the outline', () => {
     expect(row).toHaveAttribute('aria-selected', 'true');
   });
 
-  it('has the status of the run, and says that the block is disabled', () => {
+  it('shows the status in the run, and says that the block is disabled', () => {
     act(() =>
       useProjectStore
         .getState()

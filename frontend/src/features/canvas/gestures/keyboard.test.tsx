@@ -225,7 +225,7 @@ describe('letters', () => {
     ['Tab', {}],
     ['Delete', {}],
     ['ö', {}],
-  ])('%s with %o is none of the canvas without a selection', (key, held) => {
+  ])('%s with %o does nothing on the canvas without a selection', (key, held) => {
     expect(press(key, held)).toBe(false);
     expect(now.editor().quickAdd).toBeNull();
   });

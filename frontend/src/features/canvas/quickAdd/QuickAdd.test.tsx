@@ -198,7 +198,7 @@ describe('a name that no block has', () => {
     expect(screen.getByTestId('quick-add-new-Action')).toBeInTheDocument();
   });
 
-  it.each(['Grasp', '3D', 'a b', 'class'])('is none for “%s”', (name) => {
+  it.each(['Grasp', '3D', 'a b', 'class'])('does not follow from “%s”', (name) => {
     open({ text: name });
     expect(screen.queryByTestId('quick-add-new-Action')).toBeNull();
   });

@@ -35,16 +35,16 @@ function Pane({ view, children }: { readonly view: View; readonly children: Reac
  * Calls a hook, and shows an element beside it, where React Flow has its store and draws nothing:
  * points of the window are points of the flow then.
  */
-export function inFlow<T>(use: () => T, element: ReactNode = null) {
+export function inFlow<T>(use: () => T, element: ReactNode = null, Room: typeof Pane = Pane) {
   const view = recordingView();
   const { result, rerender, unmount } = renderHook(() => ({ used: use(), store: useStoreApi() }), {
     wrapper: ({ children }) => (
       <MantineProvider theme={theme} env="test" withCssVariables={false} withGlobalClasses={false}>
         <ReactFlowProvider>
-          <Pane view={view}>
+          <Room view={view}>
             {element}
             {children}
-          </Pane>
+          </Room>
         </ReactFlowProvider>
       </MantineProvider>
     ),
@@ -54,6 +54,14 @@ export function inFlow<T>(use: () => T, element: ReactNode = null) {
 
 /** Shows an element where React Flow has its store and draws nothing. */
 export const showInFlow = (element: ReactNode) => inFlow(() => undefined, element);
+
+/** Shows an element in which React Flow draws, and makes the view itself. */
+export const showDrawn = (element: ReactNode) =>
+  inFlow(
+    () => undefined,
+    element,
+    ({ children }) => children,
+  );
 
 /** Opens a project whose first tree is any diagram: with drafts, places, or from left to right. */
 export function openDiagram(diagram: Partial<Diagram>, { texts, ...more }: Omit<TestProject, 'trees'> = {}) {

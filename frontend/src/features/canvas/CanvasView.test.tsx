@@ -6,7 +6,7 @@ import { removeSubtrees } from '@/model/edits';
 import { setEditor, toggleExpanded } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
 import { oneBlock } from '@/store/testing';
-import { now, openDiagram, showInFlow } from '../../../harness/canvas';
+import { now, openDiagram, showDrawn } from '../../../harness/canvas';
 import { nodeOf, watchNavigation } from '../../../harness/testing';
 import { CanvasView } from './CanvasView';
 
@@ -30,7 +30,7 @@ const items = () => screen.queryAllByRole('menuitem').map((item) => item.dataset
 
 function open(more: Partial<Diagram> = {}) {
   openDiagram({ ...main, ...more }, { texts: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess') } });
-  return showInFlow(<CanvasView treeId="Main" />);
+  return showDrawn(<CanvasView treeId="Main" />);
 }
 
 beforeEach(() => {

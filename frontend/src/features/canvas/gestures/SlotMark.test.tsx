@@ -2,12 +2,12 @@ import { act, screen } from '@testing-library/react';
 import { ReactFlow } from '@xyflow/react';
 import { expect, it } from 'vitest';
 import { setEditor } from '@/store/project/editor';
-import { forgetEditor, showInFlow } from '../../../../harness/canvas';
+import { forgetEditor, showDrawn } from '../../../../harness/canvas';
 import { SlotMark } from './SlotMark';
 
 it('is drawn between blocks, where the slot is', () => {
   forgetEditor();
-  showInFlow(
+  showDrawn(
     <ReactFlow>
       <SlotMark />
     </ReactFlow>,

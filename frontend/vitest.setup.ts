@@ -44,6 +44,9 @@ if (!('fonts' in document)) Object.assign(document, { fonts: new EventTarget() }
 
 Element.prototype.scrollIntoView ??= () => undefined;
 
+// An editor measures its text once it is changed.
+Range.prototype.getClientRects ??= () => [] as unknown as DOMRectList;
+
 // Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
 configure({ defaultHidden: true });
 

@@ -12,6 +12,7 @@ import { NodeDocs } from './NodeDocs';
 import { NodeHeader } from './NodeHeader';
 import { NodeProblems } from './NodeProblems';
 import { PortList } from './PortList';
+import { targetOf } from './target';
 import { TreeField } from './TreeField';
 import classes from './Inspector.module.css';
 
@@ -41,8 +42,8 @@ export function Inspector() {
 const Fields = memo(function Fields({ diagram, count, id }: Shown) {
   const { t } = useTranslation('inspector');
   const vocabulary = useProjectStore((state) => state.vocabulary);
-  const node = id === undefined ? undefined : diagram?.nodes[id];
-  if (!diagram || id === undefined || !node || count > 1) {
+  const target = count > 1 ? null : targetOf(diagram, id, vocabulary);
+  if (!target) {
     return (
       <section className={classes['empty']} aria-label={t('empty.title')} data-testid="inspector">
         <strong>{count > 1 ? t('empty.many', { count }) : t('empty.title')}</strong>
@@ -57,18 +58,17 @@ const Fields = memo(function Fields({ diagram, count, id }: Shown) {
       </section>
     );
   }
-  const spec = vocabulary.specs.get(node.type);
-  const target = { diagram, tree: diagram.id, id, node, spec };
+  const { node, spec, tree } = target;
   return (
     <section className={classes['inspector']} aria-label={node.name ?? node.type} data-testid="inspector">
       <NodeHeader {...target} />
-      <NodeProblems diagram={diagram} id={id} />
+      <NodeProblems diagram={target.diagram} id={target.id} />
       {node.type === 'SubTree' && <TreeField {...target} />}
       <PortList {...target} />
       <ConditionList {...target} />
       <CommentField {...target} />
       <LookFields {...target} />
-      <NodeStatistics tree={diagram.id} node={id} />
+      <NodeStatistics tree={tree} node={target.id} />
       <NodeDocs spec={spec} />
       {spec?.source === 'action' && <ActionSource action={node.type} />}
     </section>

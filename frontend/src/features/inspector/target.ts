@@ -1,5 +1,5 @@
 import type { Diagram, DiagramNode, NodeId } from '@/model/diagram';
-import type { NodeSpec } from '@/model/vocabulary';
+import { specOf, type NodeSpec, type Vocabulary } from '@/model/vocabulary';
 
 /** The block that the inspector shows. */
 export interface Target {
@@ -9,4 +9,15 @@ export interface Target {
   readonly node: DiagramNode;
   /** Absent if the type is unknown. */
   readonly spec: NodeSpec | undefined;
+}
+
+/** The block with what is known of its type; null where there is no such block. */
+export function targetOf(
+  diagram: Diagram | undefined,
+  id: NodeId | undefined,
+  vocabulary: Vocabulary,
+): Target | null {
+  const node = id === undefined ? undefined : diagram?.nodes[id];
+  if (!diagram || id === undefined || !node) return null;
+  return { diagram, tree: diagram.id, id, node, spec: specOf(vocabulary, node) };
 }

@@ -1,4 +1,4 @@
-import { screen, within } from '@testing-library/react';
+import { screen, waitFor, within } from '@testing-library/react';
 import { describe, expect, it } from 'vitest';
 import { useProjectStore } from '@/store/project';
 import { oneBlock, projectDetail, projectFile } from '@/store/testing';
@@ -24,7 +24,7 @@ const other = {
 
 function open(answers: Record<string, unknown> = {}) {
   openProject({ trees: { Main: { r: { type: 'Sequence', children: [] } } } });
-  fakeServer({
+  const server = fakeServer({
     'GET /catalog/behaviours': [behaviour('Dock', 'Goes home.'), behaviour('Follow', 'Follows a wall.')],
     [`GET ${PROJECTS}`]: {
       items: [
@@ -38,6 +38,7 @@ function open(answers: Record<string, unknown> = {}) {
     ...answers,
   });
   show(<Library />);
+  return server;
 }
 
 const offers = () => screen.queryAllByTestId(/^behaviour-/).map((row) => row.dataset['testid']?.slice(10));
@@ -96,5 +97,76 @@ describe('Library', () => {
     await user.click(screen.getByRole('option', { name: 'Other' }));
     expect(await screen.findByTestId('behaviour-Patrol')).toHaveTextContent('Goes around.');
     expect(offers()).toEqual(['Patrol']);
+  });
+
+  it('finds a project by its name, and keeps the chosen one in the list', async () => {
+    const found = PROJECTS.replace('search=', 'search=Ro');
+    const { requests } = open({
+      [`GET ${found}`]: { items: [{ id: 'p3', name: 'Rover' }], total: 1, next_offset: null },
+    });
+    await screen.findByTestId('behaviour-Dock');
+    const source = screen.getByRole('combobox', { name: 'Where from' });
+    expect(source).toHaveValue('Built-in library');
+    await user.click(source);
+    await user.click(await screen.findByRole('option', { name: 'Other' }));
+    await screen.findByTestId('behaviour-Patrol');
+    await user.clear(source);
+    await user.type(source, 'Ro');
+    expect(await screen.findByRole('option', { name: 'Rover' })).toBeInTheDocument();
+    const searches = requests.filter(({ path }) => path.startsWith('/projects?')).map(({ path }) => path);
+    expect(searches).toContain(found);
+    expect(searches.some((path) => path.includes('Built'))).toBe(false);
+    expect(searches.some((path) => path.includes('Other'))).toBe(false);
+    await user.clear(source);
+    await user.type(source, 'zz');
+    expect(await screen.findByText('No project has this name.')).toBeInTheDocument();
+    await user.clear(source);
+    await user.click(screen.getByRole('option', { name: 'Built-in library' }));
+    await waitFor(() => expect(offers()).toEqual(['Dock', 'Follow']));
+  });
+
+  it('says that it is loading, and not yet that there is nothing', async () => {
+    open();
+    expect(screen.getByLabelText('Loading the behaviours')).toBeInTheDocument();
+    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+    await screen.findByTestId('behaviour-Dock');
+    expect(screen.queryByLabelText('Loading the behaviours')).toBeNull();
+    expect(screen.queryByText('No behaviour is like that.')).toBeNull();
+  });
+
+  it('finds words of the summary, the name and the description, whatever their case', async () => {
+    open();
+    await screen.findByTestId('behaviour-Dock');
+    const search = screen.getByLabelText('Search behaviours');
+    for (const [words, expected] of [
+      ['HOME', ['Dock']],
+      ['more  ABOUT', ['Dock', 'Follow']],
+      ['follow', ['Follow']],
+    ] as const) {
+      await user.clear(search);
+      await user.type(search, words);
+      expect(offers()).toEqual(expected);
+    }
+  });
+
+  it('updates a behaviour that the project has in another version', async () => {
+    openProject({
+      trees: { Main: { r: { type: 'Sequence' } } },
+      texts: {
+        'assets/library.json': JSON.stringify({
+          behaviours: {
+            'library/Dock': { source: 'library', version: '1.0', places: {} },
+            'library/Follow': { source: 'library', version: '1.1', places: {} },
+          },
+        }),
+      },
+    });
+    fakeServer({
+      'GET /catalog/behaviours': [behaviour('Dock', 'Goes home.'), behaviour('Follow', 'Follows a wall.')],
+      [`GET ${PROJECTS}`]: { items: [], total: 0, next_offset: null },
+    });
+    show(<Library />);
+    expect(await screen.findByTestId('update-Dock')).toBeInTheDocument();
+    expect(screen.queryByTestId('update-Follow')).toBeNull();
   });
 });

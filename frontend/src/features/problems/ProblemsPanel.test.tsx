@@ -90,4 +90,30 @@ describe('ProblemsPanel', () => {
     });
     expect(nodeOf('Main', 'a')?.ports?.['msec']).toBe('{');
   });
+
+  it('says what is wrong and what to do, with its code', () => {
+    open(finding({ hint: 'Do this.', severity: 'warning' }), finding({ code: 'X2', message: 'No hint.' }));
+    const [error, warning] = rows();
+    expect(error).toHaveTextContent('No hint. X2');
+    expect(warning).toHaveTextContent('It is wrong. Do this.X1');
+    expect(warning?.dataset).toMatchObject({ severity: 'warning', code: 'X1' });
+    expect(screen.getByRole('list', { name: 'Problems' })).toBeInTheDocument();
+  });
+
+  it('keeps the order of findings of one severity', () => {
+    open(finding({ code: 'A' }), finding({ code: 'B', severity: 'note' }), finding({ code: 'C' }));
+    expect(rows().map(({ dataset }) => dataset['code'])).toEqual(['A', 'C', 'B']);
+  });
+
+  it('names the tree of a block that is gone, and offers no fixes', () => {
+    open(finding({ code: 'BT0203', tree: 'Main', node: 'gone', port: 'msec' }));
+    expect(rows()[0]).toHaveTextContent('port msec · Main');
+    expect(screen.queryAllByTestId(/^fix-/)).toEqual([]);
+  });
+
+  it('says it in the words of the editor where that finds the same', () => {
+    open(finding({ code: 'BT0203', tree: 'Main', node: 'a', port: 'msec', message: 'Server.' }));
+    expect(rows()[0]).toHaveTextContent('has a brace without its partner');
+    expect(rows()[0]).not.toHaveTextContent('Server.');
+  });
 });

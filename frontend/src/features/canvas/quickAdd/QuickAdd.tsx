@@ -3,10 +3,11 @@ import { useEffect, useLayoutEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 import { allChoices, matchScore, searchChoices, suits, type Purpose } from '@/model/choices';
 import { isPythonName } from '@/model/pythonNames';
-import { createAction, type ActionKind } from '@/store/project/edits/actionTemplate';
+import { createAction } from '@/store/project/edits/actionTemplate';
 import { achieve } from '@/store/project/edits/blocks';
 import { setEditor, type QuickAdd as QuickAddState } from '@/store/project/editor';
 import { useProjectStore } from '@/store/project';
+import { kindsFor } from './actionKinds';
 import { ChoiceRow } from './ChoiceRow';
 import classes from './QuickAdd.module.css';
 
@@ -19,13 +20,6 @@ function purposeOf({ goal }: QuickAddState): Purpose {
     case 'morph':
       return { for: 'morph', node: goal.node };
   }
-}
-
-/** A name that is a question is probably a condition: then conditions come first. */
-function kindsFor(name: string): readonly ActionKind[] {
-  const isQuestion = /^(is|has|can|check)([A-Z_]|$)/i.test(name);
-  const leaves = isQuestion ? (['Condition', 'Action'] as const) : (['Action', 'Condition'] as const);
-  return [...leaves, 'Control', 'Decorator'];
 }
 
 interface QuickAddProps {

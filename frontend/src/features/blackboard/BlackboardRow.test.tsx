@@ -1,0 +1,48 @@
+import { screen } from '@testing-library/react';
+import { describe, expect, it } from 'vitest';
+import { show } from '../../../harness/testing';
+import { BlackboardRow } from './BlackboardRow';
+
+type Row = Parameters<typeof BlackboardRow>[0]['row'];
+
+function open(more: Partial<Row>, canEdit = false) {
+  const row = {
+    scope: '',
+    key: 'goal',
+    type: 'float',
+    value: 0.123456789,
+    preview: false,
+    removed: false,
+    changedAt: 1,
+    ...more,
+  };
+  const table = (shown: Row) => (
+    <table>
+      <tbody>
+        <BlackboardRow row={shown} canEdit={canEdit} />
+      </tbody>
+    </table>
+  );
+  show(table(row as Row));
+  return screen.getByTestId('blackboard-goal');
+}
+
+describe('BlackboardRow', () => {
+  it('has the key, the value and the type, each in full below the pointer', () => {
+    const row = open({});
+    expect([...row.children].map(({ textContent }) => textContent)).toEqual(['goal', '0.123457', 'float']);
+    for (const title of ['goal', '0.123457', 'float']) expect(screen.getByTitle(title)).toBeInTheDocument();
+    expect(screen.getByRole('rowheader')).toHaveAttribute('scope', 'row');
+  });
+
+  it('can be written where that is allowed', () => {
+    expect(open({}, true)).toContainElement(screen.getByRole('textbox', { name: 'Value of goal' }));
+    expect(screen.queryByTitle('0.123457')).toBeNull();
+  });
+
+  it('is read elsewhere', () => {
+    open({ value: [1, 2] });
+    expect(screen.queryByRole('textbox')).toBeNull();
+    expect(screen.getByTitle('[1,2]')).toBeInTheDocument();
+  });
+});

@@ -1,0 +1,69 @@
+import { act, screen } from '@testing-library/react';
+import { beforeEach, expect, it } from 'vitest';
+import { useLiveStore } from '@/store/project/live';
+import type { ShownProblem } from '@/store/project/problems';
+import { useProjectStore } from '@/store/project';
+import { openDiagram } from '../../../harness/canvas';
+import { show } from '../../../harness/testing';
+import { Announcer } from './Announcer';
+
+const problem: ShownProblem = {
+  source: 'server',
+  severity: 'error',
+  node: 'b',
+  code: '',
+  message: 'It is wrong.',
+  hint: '',
+};
+const text = () => document.getElementById('canvas-announcer')?.textContent;
+const select = (tree: string, ...ids: string[]) => act(() => useProjectStore.getState().select(tree, ids));
+
+beforeEach(() => {
+  openDiagram({
+    root: 'r',
+    nodes: {
+      r: { type: 'Sequence', name: 'Work', children: ['a', 'b'] },
+      a: { type: 'Sleep', disabled: true },
+      b: { type: 'Sleep', name: 'Nap' },
+    },
+  });
+  show(<Announcer treeId="Main" problems={new Map([['b', problem]])} />);
+});
+
+it('tells the name, the type and the place of the selected block', () => {
+  expect(text()).toBe('');
+  select('Main', 'r');
+  expect(text()).toBe('Work, Sequence, top of the tree');
+  select('Main', 'b', 'a');
+  expect(text()).toContain('Nap, Sleep, child 2 of 2 of Work');
+});
+
+it('tells what is wrong with it, and that it is disabled', () => {
+  select('Main', 'b');
+  expect(text()).toBe('Nap, Sleep, child 2 of 2 of Work, It is wrong. Control and full stop show the fixes.');
+  select('Main', 'a');
+  expect(text()).toBe('Sleep, Sleep, child 1 of 2 of Work, disabled');
+});
+
+it('tells what the run says of it', () => {
+  select('Main', 'r');
+  act(() => useLiveStore.setState({ statuses: new Map([['Main/r', 'RUNNING']]) }));
+  expect(text()).toBe('Work, Sequence, top of the tree, running');
+  act(() =>
+    useLiveStore.setState({
+      statuses: new Map([['Main/r', 'FAILURE']]),
+      faults: new Map([['Main/r', 'boom.']]),
+    }),
+  );
+  expect(text()).toBe(
+    'Work, Sequence, top of the tree, failure, It failed in the last run: boom. Control and full stop show it.',
+  );
+});
+
+it('is silent while nothing is selected here', () => {
+  select('Main', 'gone');
+  expect(text()).toBe('');
+  select('Other', 'r');
+  expect(text()).toBe('');
+  expect(screen.getByText('', { selector: '#canvas-announcer' })).toHaveAttribute('aria-live', 'polite');
+});

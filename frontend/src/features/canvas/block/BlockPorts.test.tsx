@@ -1,0 +1,89 @@
+import { screen } from '@testing-library/react';
+import i18next from 'i18next';
+import { describe, expect, it } from 'vitest';
+import type { PortSpec } from '@/model/ports';
+import { vocabulary } from '@/model/testing';
+import type { NodeSpec } from '@/model/vocabulary';
+import { port, show } from '../../../../harness/testing';
+import { BlockPorts } from './BlockPorts';
+
+const specOf = (...ports: ReturnType<typeof port>[]): NodeSpec => ({
+  ...vocabulary.specs.get('Turn')!,
+  ports: ports as PortSpec[],
+});
+
+function open(spec: NodeSpec | undefined, ports: Record<string, string> = {}) {
+  show(<BlockPorts node={{ type: 'Turn', ports }} spec={spec} t={i18next.getFixedT('en', 'canvas')} />);
+  return screen.queryAllByRole('listitem').map(({ textContent }) => textContent);
+}
+
+/** How the value of the only port is drawn. */
+const look = () => screen.getByRole('listitem').lastElementChild!.className;
+
+describe('BlockPorts', () => {
+  it('is nothing for a block without ports', () => {
+    expect(open(specOf())).toEqual([]);
+    expect(screen.queryByRole('list')).toBeNull();
+  });
+
+  it('shows values, defaults, and what is missing', () => {
+    const rows = open(
+      specOf(
+        port('a', 'int'),
+        port('b', 'int', { default: '3' }),
+        port('c', 'int', { required: true }),
+        port('d', 'int'),
+      ),
+      { a: '1' },
+    );
+    expect(rows).toEqual([' a1', ' b3', ' crequired', ' d—']);
+  });
+
+  it('shows which way a value goes', () => {
+    const rows = open(
+      specOf(
+        port('in', 'int'),
+        port('out', 'int', { direction: 'output' }),
+        port('both', 'int', { direction: 'inout' }),
+      ),
+    );
+    expect(rows).toEqual([' in—', '→ out—', '⇄ both—']);
+  });
+
+  it('shows ports that are set without being declared', () => {
+    expect(open(undefined, { x: '{goal}' })).toEqual([' x{goal}']);
+  });
+
+  it('shows six ports, and counts the others', () => {
+    const names = ['a', 'b', 'c', 'd', 'e', 'f', 'g'];
+    expect(open(specOf(...names.map((name) => port(name, 'int'))))).toHaveLength(7);
+    expect(screen.getByText('1 more port')).toBeInTheDocument();
+    expect(screen.queryByText(/ g/)).toBeNull();
+  });
+
+  it('says nothing of others where six are all', () => {
+    const names = ['a', 'b', 'c', 'd', 'e', 'f'];
+    expect(open(specOf(...names.map((name) => port(name, 'int'))))).toHaveLength(6);
+    expect(screen.queryByText(/more/)).toBeNull();
+  });
+
+  it.each([
+    ['a literal', '7', {}, /portLiteral/],
+    ['a key', '{goal}', {}, /portKey/],
+    ['the key of its own name', '{=}', {}, /portKey/],
+    ['a broken key', '{goal', {}, /portMissing/],
+    ['a missing value', undefined, { required: true }, /portMissing/],
+    ['a default of a required port', undefined, { required: true, default: '1' }, /portDefault/],
+    ['nothing', undefined, {}, /portDefault/],
+  ])('draws %s as such', (_, value, more, expected) => {
+    open(specOf(port('x', 'int', more)), value === undefined ? {} : { x: value });
+    expect(look()).toMatch(expected);
+  });
+
+  it('cuts values of more than sixteen letters, with the whole one as its title', () => {
+    open(undefined, { x: 'sixteen letters!' });
+    expect(screen.getByTitle('sixteen letters!')).not.toHaveAttribute('data-long');
+    open(undefined, { y: 'seventeen letters' });
+    expect(screen.getByTitle('seventeen letters')).toHaveAttribute('data-long', 'true');
+  });
+});

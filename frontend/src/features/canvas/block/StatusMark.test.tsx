@@ -1,0 +1,34 @@
+import { describe, expect, it } from 'vitest';
+import { show } from '../../../../harness/testing';
+import { StatusMark } from './StatusMark';
+
+type Props = Parameters<typeof StatusMark>[0];
+
+const mark = (status: Props['status'], flash?: Props['flash']) =>
+  show(<StatusMark status={status} flash={flash} />).container.querySelector('span');
+
+describe('StatusMark', () => {
+  it.each(['RUNNING', 'SUCCESS', 'FAILURE', 'SKIPPED'] as const)('shows %s', (status) => {
+    const shown = mark(status);
+    expect(shown).toHaveAttribute('data-status', status);
+    expect(shown?.className).not.toMatch(/passing/);
+    expect(shown?.querySelector('svg')).not.toBeNull();
+  });
+
+  it('shows nothing while the node is idle', () => {
+    expect(mark('IDLE')).toBeNull();
+    expect(mark('IDLE', { status: 'IDLE', count: 1 })).toBeNull();
+  });
+
+  it('shows what an idle node went through in the last tick', () => {
+    const shown = mark('IDLE', { status: 'FAILURE', count: 2 });
+    expect(shown).toHaveAttribute('data-status', 'FAILURE');
+    expect(shown?.className).toMatch(/passing/);
+  });
+
+  it('shows the status of a node that is not idle, whatever flashed', () => {
+    const shown = mark('RUNNING', { status: 'FAILURE', count: 2 });
+    expect(shown).toHaveAttribute('data-status', 'RUNNING');
+    expect(shown?.className).not.toMatch(/passing/);
+  });
+});

@@ -1,0 +1,228 @@
+import { act } from '@testing-library/react';
+import { useRef } from 'react';
+import { beforeEach, describe, expect, it } from 'vitest';
+import { childrenOf } from '@/model/diagram';
+import { useProjectStore } from '@/store/project';
+import { toggleExpanded } from '@/store/project/editor';
+import { oneBlock } from '@/store/testing';
+import { inFlow, now, openDiagram } from '../../../../harness/canvas';
+import { nodeOf } from '../../../../harness/testing';
+import type { BlockNode } from '../flow';
+import { useTree } from '../useTree';
+import { useDraggedBlocks } from './draggedBlocks';
+import { useDragging } from './useDragging';
+
+const ids = ['r', 'a', 'b', 'i', 'c', 's'];
+
+beforeEach(() => {
+  openDiagram(
+    {
+      root: 'r',
+      nodes: {
+        r: { type: 'Sequence', children: ['a', 'b', 'i', 's'] },
+        a: { type: 'Sleep', ports: { msec: '1' } },
+        b: { type: 'Fallback' },
+        i: { type: 'Inverter', children: ['c'] },
+        c: { type: 'AlwaysSuccess' },
+        s: { type: 'SubTree', tree: 'Dock' },
+      },
+    },
+    { texts: { 'trees/Dock.json': oneBlock('Dock', 'AlwaysSuccess') } },
+  );
+});
+
+function begin() {
+  const canvas = document.createElement('div');
+  canvas.innerHTML = [...ids, 's n1']
+    .map((id) => `<i class="react-flow__node" data-id="${id}"></i>`)
+    .join('');
+  const { used, unmount } = inFlow(() => {
+    const tree = useTree('Main');
+    return { tree, ...useDragging(tree, useRef<HTMLElement | null>(canvas)) };
+  });
+  const boxOf = (id: string) => used().tree.layout.positions[id]!;
+  const centreOf = (id: string) => {
+    const { x, y, width, height } = boxOf(id);
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  /** The block as React Flow carries it, off its place by so much, and the pointer. */
+  const held = (id: string, dx: number, dy: number, pointer: { x: number; y: number }, altKey: boolean) =>
+    [
+      { clientX: pointer.x, clientY: pointer.y, altKey } as MouseEvent,
+      { id, position: { x: boxOf(id).x + dx, y: boxOf(id).y + dy } } as BlockNode,
+    ] as const;
+  type Step = [id: string, dx: number, dy: number, pointer?: { x: number; y: number }, altKey?: boolean];
+  const away = { x: 9000, y: 9000 };
+  const drag = (...[id, dx, dy, pointer = away, altKey = false]: Step) =>
+    act(() => used().onDrag(...held(id, dx, dy, pointer, altKey)));
+  const drop = (...[id, dx, dy, pointer = away, altKey = false]: Step) =>
+    act(() => used().onDrop(...held(id, dx, dy, pointer, altKey)));
+  const translated = () =>
+    [...canvas.querySelectorAll<HTMLElement>('i')]
+      .filter(({ style }) => style.translate !== '')
+      .map(({ dataset }) => dataset['id']);
+  return { used, drag, drop, boxOf, centreOf, translated, unmount };
+}
+
+describe('while a block is carried', () => {
+  it('it moves with all below it, and is held', () => {
+    const { used, drag, drop, translated } = begin();
+    expect(used().held).toBeNull();
+    drag('i', 30, 40);
+    expect(used().held).toBe('i');
+    expect(translated()).toEqual(['i', 'c']);
+    expect(useDraggedBlocks.getState()).toEqual({ tops: new Set(['i']), dx: 30, dy: 40 });
+    drop('i', 30, 40);
+    expect(used().held).toBeNull();
+    expect(translated()).toEqual([]);
+  });
+
+  it('an expanded subtree is carried, too', () => {
+    act(() => toggleExpanded('Main', 's'));
+    const { drag, translated } = begin();
+    drag('s', 30, 40);
+    expect(translated()).toEqual(['s', 's n1']);
+  });
+
+  it('the slot below the pointer is marked, once the hand has moved', () => {
+    const { drag, centreOf } = begin();
+    drag('a', 6, 0, centreOf('b'));
+    expect(now.editor().slot).toBeNull();
+    drag('a', 5, 5, centreOf('b'));
+    expect(now.editor().slot).toMatchObject({ kind: 'onto', parent: 'b', index: 0 });
+    const { slot } = now.editor();
+    drag('a', 8, 8, centreOf('b'));
+    expect(now.editor().slot).toBe(slot);
+    drag('a', 8, 8);
+    expect(now.editor().slot).toBeNull();
+  });
+
+  it('its own place is no slot, but one for a copy', () => {
+    const { drag, boxOf } = begin();
+    const [a, b] = [boxOf('a'), boxOf('b')];
+    const between = { x: (a.x + a.width + b.x) / 2, y: a.y + 10 };
+    drag('a', 20, 0, between);
+    expect(now.editor().slot).toBeNull();
+    drag('a', 20, 0, between, true);
+    expect(now.editor().slot).toMatchObject({ kind: 'between', parent: 'r' });
+  });
+
+  it('a touch, or a block that is not in the tree, moves nothing', () => {
+    const { used, translated } = begin();
+    act(() =>
+      used().onDrag(
+        { touches: [] } as unknown as TouchEvent,
+        { id: 'a', position: { x: 0, y: 0 } } as BlockNode,
+      ),
+    );
+    act(() =>
+      used().onDrag(
+        { clientX: 1, clientY: 1 } as MouseEvent,
+        { id: 'gone', position: { x: 0, y: 0 } } as BlockNode,
+      ),
+    );
+    expect(translated()).toEqual([]);
+    expect(used().held).toBeNull();
+  });
+
+  it('nothing stays moved when the canvas goes', () => {
+    const { drag, translated, unmount } = begin();
+    drag('a', 20, 0);
+    expect(translated()).toEqual(['a']);
+    unmount();
+    expect(translated()).toEqual([]);
+  });
+
+  it('another block is taken by the next hand', () => {
+    const { used, drag, translated } = begin();
+    drag('a', 20, 0);
+    drag('b', 20, 0);
+    expect(used().held).toBe('b');
+    expect(translated()).toEqual(['b']);
+  });
+});
+
+describe('a block that is dropped', () => {
+  it('hangs below the marked block, in one step of undo', () => {
+    const { drag, drop, centreOf } = begin();
+    drag('a', 50, 0, centreOf('b'));
+    drop('a', 50, 0, centreOf('b'));
+    expect(childrenOf(now.diagram(), 'b')).toEqual(['a']);
+    expect(childrenOf(now.diagram(), 'r')).toEqual(['b', 'i', 's']);
+    expect(now.selection()).toEqual(['a']);
+    expect(now.editor().slot).toBeNull();
+    act(() => useProjectStore.getState().undo());
+    expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b', 'i', 's']);
+  });
+
+  it('stays where the hand put it on free canvas', () => {
+    const { drag, drop, boxOf } = begin();
+    const { x, y } = boxOf('a');
+    drag('a', 50, 60);
+    drop('a', 50, 60);
+    expect(nodeOf('Main', 'a')?.position).toEqual([x + 50, y + 60]);
+    expect(now.selection()).toEqual(['a']);
+  });
+
+  it('stays in its place after a tremble of six pixels', () => {
+    const { drag, drop } = begin();
+    drag('a', 6, 0);
+    drop('a', 6, 0);
+    expect(nodeOf('Main', 'a')?.position).toBeUndefined();
+    drop('a', 7, 0);
+    expect(nodeOf('Main', 'a')?.position).toBeDefined();
+  });
+
+  it('takes the other selected blocks along, each by as much', () => {
+    act(() => useProjectStore.getState().select('Main', ['i', 'c', 'a']));
+    const { drag, drop, boxOf } = begin();
+    const [a, i] = [boxOf('a'), boxOf('i')];
+    drag('a', 10, 20);
+    drop('a', 10, 20);
+    expect(nodeOf('Main', 'a')?.position).toEqual([a.x + 10, a.y + 20]);
+    expect(nodeOf('Main', 'i')?.position).toEqual([i.x + 10, i.y + 20]);
+    expect(nodeOf('Main', 'c')?.position).toBeUndefined();
+    expect(now.selection()).toEqual(['a', 'i']);
+  });
+
+  it('goes alone where it is not one of the selected', () => {
+    act(() => useProjectStore.getState().select('Main', ['i', 'b']));
+    const { drag, drop } = begin();
+    drag('a', 10, 20);
+    drop('a', 10, 20);
+    expect(nodeOf('Main', 'i')?.position).toBeUndefined();
+    expect(now.selection()).toEqual(['a']);
+  });
+
+  it('is copied into the slot with Alt', () => {
+    const { drag, drop, centreOf } = begin();
+    drag('a', 50, 0, centreOf('b'), true);
+    drop('a', 50, 0, centreOf('b'), true);
+    expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b', 'i', 's']);
+    const [copy] = childrenOf(now.diagram(), 'b');
+    expect(copy).not.toBe('a');
+    expect(nodeOf('Main', copy!)).toEqual({ type: 'Sleep', ports: { msec: '1' } });
+    expect(now.selection()).toEqual([copy]);
+  });
+
+  it('is copied to a place of its own with Alt, all below it included', () => {
+    const { drag, drop, boxOf } = begin();
+    const { x, y } = boxOf('i');
+    drag('i', 50, 60, undefined, true);
+    drop('i', 50, 60, undefined, true);
+    const [copy] = now.diagram().drafts;
+    expect(nodeOf('Main', copy!)).toMatchObject({ type: 'Inverter', position: [x + 50, y + 60] });
+    expect(childrenOf(now.diagram(), copy!)).toHaveLength(1);
+    expect(nodeOf('Main', 'i')?.position).toBeUndefined();
+  });
+
+  it('is not moved to its own place when Alt is released before the button', () => {
+    const { drag, drop, boxOf } = begin();
+    const [a, b] = [boxOf('a'), boxOf('b')];
+    const between = { x: (a.x + a.width + b.x) / 2, y: a.y + 10 };
+    drag('a', 20, 0, between, true);
+    drop('a', 20, 0, between, false);
+    expect(childrenOf(now.diagram(), 'r')).toEqual(['a', 'b', 'i', 's']);
+    expect(nodeOf('Main', 'a')?.position).toEqual([a.x + 20, a.y]);
+  });
+});

@@ -1,0 +1,90 @@
+import { act, waitFor } from '@testing-library/react';
+import type { ReactFlowInstance } from '@xyflow/react';
+import { describe, expect, it, vi } from 'vitest';
+import { emptyDiagram, type Diagram } from '@/model/diagram';
+import type { Layout } from '@/model/layout';
+import { inFlow, now, openDiagram } from '../../../harness/canvas';
+import { nodeOf } from '../../../harness/testing';
+import type { BlockNode, TreeEdge } from './flow';
+import { FIT, useViewport } from './useViewport';
+
+const box = { x: 100, y: 40, width: 200, height: 44 };
+const layoutOf = (width: number, height: number): Layout => ({ width, height, positions: { r: box } });
+const diagram = (layout: Diagram['layout'] = 'vertical'): Diagram => ({
+  ...emptyDiagram('Main'),
+  root: 'r',
+  nodes: { r: { type: 'Sequence' } },
+  layout,
+});
+
+let count = 0;
+/** A tree that nobody has looked at yet. */
+const fresh = () => `Tree${(count += 1)}`;
+
+/** Opens the view of a tree, and returns how it begins. */
+function begin(layout: Layout, tree = diagram(), id = fresh()) {
+  const { used, view } = inFlow(() => useViewport(id, layout, tree));
+  const flow = { fitView: vi.fn(() => Promise.resolve(true)), setViewport: view.setViewport };
+  act(() => used().onInit(flow as unknown as ReactFlowInstance<BlockNode, TreeEdge>));
+  return { fitView: flow.fitView, setViewport: flow.setViewport, used, id };
+}
+
+describe('a view begins', () => {
+  it('with the whole tree where its names can be read then', () => {
+    // The pane has 800 by 600 pixels: this is the smallest readable zoom, with its padding.
+    const { fitView, setViewport } = begin(layoutOf(800 / 0.6 / 1.14 - 1, 600 / 0.6 / 1.14 - 1));
+    expect(fitView).toHaveBeenCalledExactlyOnceWith(FIT);
+    expect(setViewport).not.toHaveBeenCalled();
+  });
+
+  it.each([
+    ['wide', layoutOf(800 / 0.6 / 1.14 + 1, 100)],
+    ['high', layoutOf(100, 600 / 0.6 / 1.14 + 1)],
+  ])('at the root of a tree that is too %s', (_, layout) => {
+    const { fitView, setViewport } = begin(layout);
+    expect(fitView).not.toHaveBeenCalled();
+    const [to] = setViewport.mock.calls[0]!;
+    expect(to.zoom).toBeCloseTo(0.7);
+    expect(to.x).toBeCloseTo(400 - 200 * 0.7);
+    expect(to.y).toBeCloseTo(48 - 40 * 0.7);
+  });
+
+  it('at the left of a tree that grows to the right', () => {
+    const { setViewport } = begin(layoutOf(9000, 100), diagram('horizontal'));
+    const [to] = setViewport.mock.calls[0]!;
+    expect(to.x).toBeCloseTo(48 - 100 * 0.7);
+    expect(to.y).toBeCloseTo(300 - 62 * 0.7);
+  });
+
+  it('with all drafts where there is no root', () => {
+    const { fitView } = begin(layoutOf(9000, 9000), { ...diagram(), root: null });
+    expect(fitView).toHaveBeenCalledOnce();
+  });
+
+  it('as it is while the tree is empty', () => {
+    const { fitView, setViewport, used } = begin({ width: 0, height: 0, positions: {} });
+    expect(used().initial).toEqual({ x: 80, y: 80, zoom: 1 });
+    expect(fitView).not.toHaveBeenCalled();
+    expect(setViewport).not.toHaveBeenCalled();
+  });
+
+  it('where the user looked last', () => {
+    const { used, id } = begin(layoutOf(100, 100));
+    used().onMoveEnd(null, { x: 1, y: 2, zoom: 0.5 });
+    const again = begin(layoutOf(100, 100), diagram(), id);
+    expect(again.used().initial).toEqual({ x: 1, y: 2, zoom: 0.5 });
+    expect(again.fitView).not.toHaveBeenCalled();
+    expect(again.setViewport).not.toHaveBeenCalled();
+  });
+});
+
+it('cuts a block off a little below where it is drawn', async () => {
+  openDiagram({ root: 'r', nodes: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep' } } });
+  const { used } = inFlow(() => useViewport('Main', layoutOf(1, 1), now.diagram()));
+  act(() => used().cut('a', { ...layoutOf(1, 1), positions: { a: box } }));
+  await waitFor(() => {
+    expect(now.diagram().drafts).toEqual(['a']);
+  });
+  expect(nodeOf('Main', 'a')?.position).toEqual([100, 64]);
+  expect(now.selection()).toEqual(['a']);
+});

@@ -1,0 +1,54 @@
+import { beforeEach, expect, it, vi } from 'vitest';
+import { useProjectStore } from '@/store/project';
+import { openProject } from '../../../harness/testing';
+import { fit, fitSelection, isTreeShown, showsTree, zoomIn, zoomOut, zoomReset } from './views';
+
+const recording = () => ({ zoomIn: vi.fn(), zoomOut: vi.fn(), zoomTo: vi.fn(), fitView: vi.fn() });
+const shows = (tree: string, view: ReturnType<typeof recording>) =>
+  showsTree(tree, view as unknown as Parameters<typeof showsTree>[1]);
+
+beforeEach(() => {
+  openProject({
+    trees: { Main: { r: { type: 'Sequence', children: ['a'] }, a: { type: 'Sleep' } }, Dock: {} },
+    selected: ['r', 'a'],
+  });
+});
+
+it('commands the view of the tree in front', () => {
+  const [main, dock] = [recording(), recording()];
+  const ends = [shows('Main', main), shows('Dock', dock)];
+  zoomIn();
+  zoomOut();
+  zoomReset();
+  fit();
+  fitSelection();
+  expect(main.zoomIn).toHaveBeenCalledExactlyOnceWith({ duration: 120 });
+  expect(main.zoomOut).toHaveBeenCalledExactlyOnceWith({ duration: 120 });
+  expect(main.zoomTo).toHaveBeenCalledExactlyOnceWith(1, { duration: 120 });
+  const how = { padding: 0.14, maxZoom: 1.1, minZoom: 0.3, duration: 200 };
+  expect(main.fitView.mock.calls).toEqual([[how], [{ ...how, nodes: [{ id: 'r' }, { id: 'a' }] }]]);
+  expect(dock.zoomIn).not.toHaveBeenCalled();
+  ends.forEach((end) => end());
+});
+
+it('knows whether the tree in front is drawn', () => {
+  expect(isTreeShown()).toBe(false);
+  zoomIn();
+  const end = shows('Main', recording());
+  expect(isTreeShown()).toBe(true);
+  useProjectStore.getState().setActiveTree('Dock');
+  expect(isTreeShown()).toBe(false);
+  useProjectStore.getState().setActiveTree('Main');
+  end();
+  expect(isTreeShown()).toBe(false);
+});
+
+it('keeps the newer view of a tree when the older one ends', () => {
+  const end = shows('Main', recording());
+  const newer = recording();
+  const endNewer = shows('Main', newer);
+  end();
+  zoomIn();
+  expect(newer.zoomIn).toHaveBeenCalledOnce();
+  endNewer();
+});

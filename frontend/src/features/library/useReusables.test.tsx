@@ -1,0 +1,100 @@
+import { QueryClientProvider } from '@tanstack/react-query';
+import { renderHook, waitFor } from '@testing-library/react';
+import { describe, expect, it } from 'vitest';
+import { queries } from '@/api/queries';
+import { oneBlock, projectDetail, projectFile } from '@/store/testing';
+import { fakeServer } from '../../../harness/testing';
+import { useLibrary, useOtherProjects, useTreesOf } from './useReusables';
+
+const query = <T,>(use: () => T) =>
+  renderHook(use, {
+    wrapper: ({ children }) => <QueryClientProvider client={queries}>{children}</QueryClientProvider>,
+  });
+
+const behaviour = {
+  id: 'Dock',
+  version: '1.1',
+  group: 'motion',
+  summary: { en: 'Goes home.', es: 'Va a casa.' },
+  doc: { en: 'More.' },
+  diagram: { id: 'Dock' },
+  files: { 'trees/Dock.json': '{}' },
+};
+
+describe('useLibrary', () => {
+  it.each([
+    ['en', 'Goes home.', 'More.'],
+    ['es-MX', 'Va a casa.', 'More.'],
+    ['de', 'Goes home.', 'More.'],
+  ])('has the behaviours in %s, or in English', async (language, summary, doc) => {
+    fakeServer({ 'GET /catalog/behaviours': [behaviour] });
+    const { result } = query(() => useLibrary(language));
+    await waitFor(() => expect(result.current.data).toBeDefined());
+    expect(result.current.data).toEqual([
+      {
+        id: 'Dock',
+        version: '1.1',
+        group: 'motion',
+        source: 'library',
+        summary,
+        doc,
+        diagram: { id: 'Dock' },
+        files: { 'trees/Dock.json': '{}' },
+      },
+    ]);
+  });
+
+  it('has no words where there are none', async () => {
+    fakeServer({ 'GET /catalog/behaviours': [{ ...behaviour, summary: {} }] });
+    const { result } = query(() => useLibrary('en'));
+    await waitFor(() => expect(result.current.data?.[0]?.summary).toBe(''));
+  });
+});
+
+it('lists the other projects, the newest first, by a search', async () => {
+  const path = '/projects?search=ro&sort=-updated_at&shelf=current&offset=0&limit=48';
+  const items = [
+    { id: 'p1', name: 'Robot' },
+    { id: 'p2', name: 'Rover' },
+  ];
+  const { requests } = fakeServer({ [`GET ${path}`]: { items, total: 2, next_offset: null } });
+  const { result } = query(() => useOtherProjects('p1', 'ro'));
+  await waitFor(() => expect(result.current.data).toEqual([items[1]]));
+  expect(requests.map((each) => each.path)).toEqual([path]);
+});
+
+describe('useTreesOf', () => {
+  const detail = {
+    ...projectDetail(7, [
+      projectFile('trees/Patrol.json', 1, oneBlock('Patrol', 'AlwaysSuccess')),
+      projectFile('actions/Turn.py', 1, 'class Turn: ...'),
+    ]),
+    id: 'p2',
+    description: 'Goes around.',
+  };
+  const files = [...detail.files, { ...projectFile('mesh.stl', 1, ''), content: null }];
+
+  it('has the trees of a project, with what is known of it', async () => {
+    fakeServer({ 'GET /projects/p2': { ...detail, files } });
+    const { result } = query(() => useTreesOf('p2'));
+    await waitFor(() => expect(result.current.data).toBeDefined());
+    expect(result.current.data).toEqual([
+      expect.objectContaining({
+        id: 'Patrol',
+        source: 'p2',
+        version: 'r7',
+        group: 'project',
+        summary: 'Goes around.',
+        doc: '',
+      }),
+    ]);
+    expect(result.current.data?.[0]?.diagram).toMatchObject({ id: 'Patrol', root: 'n1' });
+  });
+
+  it('asks for nothing without a project', () => {
+    const { requests } = fakeServer({});
+    const { result } = query(() => useTreesOf(null));
+    expect(result.current.fetchStatus).toBe('idle');
+    expect(requests).toEqual([]);
+  });
+});

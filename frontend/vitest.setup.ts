@@ -44,7 +44,7 @@ if (!('fonts' in document)) Object.assign(document, { fonts: new EventTarget() }
 Element.prototype.scrollIntoView ??= () => undefined;
 
 // Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
-configure({ defaultHidden: true });
+configure({ defaultHidden: true, asyncUtilTimeout: 20_000 });
 
 afterEach(cleanup);
 

@@ -108,7 +108,6 @@ export function TreeImage({ diagram, layout, vocabulary, palette, children }: Tr
   const isHorizontal = diagram.layout === 'horizontal';
   return (
     <svg
-      xmlns="http://www.w3.org/2000/svg"
       width={width}
       height={height}
       viewBox={`${left} ${top} ${width} ${height}`}

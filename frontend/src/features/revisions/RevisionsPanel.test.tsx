@@ -1,6 +1,7 @@
 import { act, screen, within } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { setScope } from '@/store/revisions/scope';
+import type { DocumentTab } from '@/workspace/documents';
 import { useTabs } from '@/workspace/tabs';
 import { refusal, revision } from '../../../harness/requests';
 import { watchTabs } from '../../../harness/tabs';
@@ -15,10 +16,10 @@ const page = (...numbers: number[]) => ({
   next_before: null,
 });
 
-function open(answers: Record<string, unknown>, front: Parameters<typeof useTabs.setState>[0] = {}) {
+function open(answers: Record<string, unknown>, front: DocumentTab | null = null) {
   const { requests } = fakeServer(answers);
   openProject({ trees: { Main: { r: { type: 'Sequence' } } } });
-  useTabs.setState(front);
+  useTabs.setState({ front });
   show(<RevisionsPanel />);
   return () => requests.map(({ method, path }) => `${method} ${path}`);
 }
@@ -47,7 +48,7 @@ describe('scope', () => {
   });
 
   it('is the tree in front, or the whole project', async () => {
-    const asked = open({ [TREE]: page(2), [LIST]: page(3) }, { front: { kind: 'tree', id: 'Main' } });
+    const asked = open({ [TREE]: page(2), [LIST]: page(3) }, { kind: 'tree', id: 'Main' });
     expect(await screen.findByTestId('revision-2')).toBeInTheDocument();
     expect(screen.getByRole('radio', { name: 'Main' })).toBeChecked();
     await user.click(screen.getByRole('radio', { name: 'Whole project' }));
@@ -58,7 +59,7 @@ describe('scope', () => {
   });
 
   it('is the file in front', async () => {
-    open({ [`${LIST}&path=actions%2FGo.py`]: page(4) }, { front: { kind: 'file', path: 'actions/Go.py' } });
+    open({ [`${LIST}&path=actions%2FGo.py`]: page(4) }, { kind: 'file', path: 'actions/Go.py' });
     expect(await screen.findByTestId('revision-4')).toBeInTheDocument();
     expect(screen.getByRole('radio', { name: 'Go.py' })).toBeEnabled();
   });
@@ -129,7 +130,7 @@ describe('choice', () => {
   });
 
   it('shows the file in front, and stays with the present where that was compared', async () => {
-    open({ [TREE]: page(2) }, { front: { kind: 'tree', id: 'Main' } });
+    open({ [TREE]: page(2) }, { kind: 'tree', id: 'Main' });
     act(() => {
       useComparison.setState({
         comparison: { revision: revision(9), before: 8, against: 'now', path: null },

@@ -23,7 +23,8 @@ const editor = () => {
 };
 const shown = () => editor().state.doc.toString();
 const type = (from: number, insert: string) => act(() => editor().dispatch({ changes: { from, insert } }));
-const marks = () => [...editor().dom.querySelectorAll('[class*="cm-lintRange-"]')].map(({ textContent }) => textContent);
+const marks = () =>
+  [...editor().dom.querySelectorAll('[class*="cm-lintRange-"]')].map(({ textContent }) => textContent);
 
 beforeEach(() => {
   fakeServer({});

@@ -1,6 +1,12 @@
 import { act, screen, waitFor } from '@testing-library/react';
 import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
-import { closeFileDialog, openNewFile, openRename, useFileDialog, type NewFileKind } from '@/store/dialogs/files';
+import {
+  closeFileDialog,
+  openNewFile,
+  openRename,
+  useFileDialog,
+  type NewFileKind,
+} from '@/store/dialogs/files';
 import { useProjectStore } from '@/store/project';
 import { fakeServer, openProject, show, user, watchNavigation } from '../../../harness/testing';
 import { FileDialog } from './FileDialog';

@@ -24,7 +24,9 @@ describe('MergeView', () => {
 
   it('brings a piece over from the server', async () => {
     const onChange = vi.fn();
-    const { container } = show(<MergeView path="a.py" theirs={'a\nb\n'} mine={'a\nc\n'} onChange={onChange} />);
+    const { container } = show(
+      <MergeView path="a.py" theirs={'a\nb\n'} mine={'a\nc\n'} onChange={onChange} />,
+    );
     const arrow = await waitFor(() => {
       const found = container.querySelector('.cm-merge-revert button');
       if (!found) throw new Error('There is no arrow.');

@@ -20,7 +20,11 @@ function open(keys: Parameters<typeof basics>[1] = []) {
 }
 
 const press = (view: EditorView, key: string, keyCode: number, more: KeyboardEventInit = {}) =>
-  runScopeHandlers(view, new KeyboardEvent('keydown', { key, keyCode, ...more } as KeyboardEventInit), 'editor');
+  runScopeHandlers(
+    view,
+    new KeyboardEvent('keydown', { key, keyCode, ...more } as KeyboardEventInit),
+    'editor',
+  );
 
 beforeEach(() => openProject({}));
 
@@ -29,7 +33,9 @@ describe('basics', () => {
     const { contentDOM, dom } = open();
     expect(contentDOM.getAttribute('aria-label')).toBe('Source');
     expect(contentDOM.getAttribute('tabindex')).toBe('0');
-    expect([...dom.querySelectorAll('.cm-lineNumbers .cm-gutterElement')].map(({ textContent }) => textContent)).toContain('2');
+    expect(
+      [...dom.querySelectorAll('.cm-lineNumbers .cm-gutterElement')].map(({ textContent }) => textContent),
+    ).toContain('2');
   });
 
   it('is read-only for viewers', () => {

@@ -61,7 +61,9 @@ describe('marks of findings', () => {
   });
 
   it('leave out other files, and findings without a line', () => {
-    expect(marksFor(doc, PATH, [diagnostic({ file: 'actions/Other.py', line: 1 }), diagnostic({})], [])).toEqual([]);
+    expect(
+      marksFor(doc, PATH, [diagnostic({ file: 'actions/Other.py', line: 1 }), diagnostic({})], []),
+    ).toEqual([]);
   });
 });
 

@@ -59,7 +59,13 @@ describe('renameDocument', () => {
   });
 
   it('moves what is no text on the server, before the old files go', async () => {
-    const file = (path: string, content: string | null) => ({ path, revision: 1, size: 3, sha256: '', content });
+    const file = (path: string, content: string | null) => ({
+      path,
+      revision: 1,
+      size: 3,
+      sha256: '',
+      content,
+    });
     const before = projectDetail(1, [file('robots/mine/robot.yaml', 'x'), file('robots/mine/arm.stl', null)]);
     store().load(before);
     const saved = { revision: 2, files: [], actions: [], diagnostics: [] };

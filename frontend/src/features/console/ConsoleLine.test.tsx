@@ -64,6 +64,8 @@ describe('ConsoleLine', () => {
   it('has the styles of a terminal', () => {
     showLine({ text: 'a\u001b[1;31mb' });
     const spans = [...document.querySelectorAll('span[data-ansi]')];
-    expect(spans.map((span) => [span.textContent, span.getAttribute('data-ansi')])).toEqual([['b', 'bold red']]);
+    expect(spans.map((span) => [span.textContent, span.getAttribute('data-ansi')])).toEqual([
+      ['b', 'bold red'],
+    ]);
   });
 });

@@ -108,12 +108,17 @@ describe('ConsolePanel', () => {
   });
 
   const write = (...lines: Log[]) => act(() => useSessionStore.setState((state) => appendLogs(state, lines)));
-  const texts = () => [...screen.getByRole('log').querySelectorAll('[data-level]')].map((line) => line.lastChild?.textContent);
+  const texts = () =>
+    [...screen.getByRole('log').querySelectorAll('[data-level]')].map((line) => line.lastChild?.textContent);
 
   it('filters by words, source and level', async () => {
     onTestFinished(() => useConsoleFilter.setState(useConsoleFilter.getInitialState(), true));
     show();
-    write(log('hello'), log('careful', { level: 'warning', source: 'world' }), log('why', { level: 'debug' }));
+    write(
+      log('hello'),
+      log('careful', { level: 'warning', source: 'world' }),
+      log('why', { level: 'debug' }),
+    );
     expect(texts()).toEqual(['hello', 'careful']);
     const [source, level] = ['Source', 'Level'].map((name) => screen.getByRole('combobox', { name }));
     expect([...(source as HTMLSelectElement).options].map(({ text }) => text)).toEqual([

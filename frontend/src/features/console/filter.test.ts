@@ -22,7 +22,9 @@ const lines = [
 ];
 
 const texts = (filter: Partial<ConsoleFilter>) =>
-  filterLines(lines, { source: 'all', level: 'debug', search: '', ...filter }).map(({ text }) => text.slice(0, 4));
+  filterLines(lines, { source: 'all', level: 'debug', search: '', ...filter }).map(({ text }) =>
+    text.slice(0, 4),
+  );
 
 describe('filterLines', () => {
   it.each([

@@ -26,7 +26,18 @@ describe('commands of a run', () => {
     ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
   ] as const)('may be given while the executor is %s', (state: State, expected) => {
     executor.emit('state-changed', { state, reason: '' });
-    const asked = ['run', 'pause', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'takeOver', 'end'];
+    const asked = [
+      'run',
+      'pause',
+      'resume',
+      'step',
+      'stop',
+      'step10',
+      'restart',
+      'resetWorld',
+      'takeOver',
+      'end',
+    ];
     expect(asked.filter(isEnabled)).toEqual(expected);
   });
 

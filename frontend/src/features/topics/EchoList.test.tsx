@@ -4,7 +4,11 @@ import { useTopicsStore, type Echo } from '@/store/session/topics';
 import { show, user } from '../../../harness/testing';
 import { EchoList } from './EchoList';
 
-const echo = (topic: string, message: Record<string, unknown> | null, cut?: Record<string, number>): Echo => ({
+const echo = (
+  topic: string,
+  message: Record<string, unknown> | null,
+  cut?: Record<string, number>,
+): Echo => ({
   topic,
   count: message ? 3 : 0,
   last: message ? { topic, type: 'a/msg/A', message, bytes: 64, t: 1, ...(cut ? { cut } : {}) } : null,
@@ -35,21 +39,26 @@ describe('EchoList', () => {
     expect(row('pose.x')).toHaveStyle({ paddingLeft: '22px' });
   });
 
-  it.each(['header', 'covariance', 'ranges', 'intensities', 'data'])('folds %s at first, also within', async (name) => {
-    open(echo('/a', { [name]: { inner: 1 }, pose: { [name]: { inner: 2 } }, [`my_${name}`]: { inner: 3 } }));
-    const isOpen = (path: string) => within(row(path)).getByRole('button').getAttribute('aria-expanded');
-    expect([isOpen(name), isOpen('pose'), isOpen(`pose.${name}`), isOpen(`my_${name}`)]).toEqual([
-      'false',
-      'true',
-      'false',
-      'true',
-    ]);
-    await user.click(within(row(name)).getByRole('button'));
-    expect(isOpen(name)).toBe('true');
-    expect(row(`${name}.inner`)).toHaveTextContent('inner1');
-    await user.click(within(row(name)).getByRole('button'));
-    expect(isOpen(name)).toBe('false');
-  });
+  it.each(['header', 'covariance', 'ranges', 'intensities', 'data'])(
+    'folds %s at first, also within',
+    async (name) => {
+      open(
+        echo('/a', { [name]: { inner: 1 }, pose: { [name]: { inner: 2 } }, [`my_${name}`]: { inner: 3 } }),
+      );
+      const isOpen = (path: string) => within(row(path)).getByRole('button').getAttribute('aria-expanded');
+      expect([isOpen(name), isOpen('pose'), isOpen(`pose.${name}`), isOpen(`my_${name}`)]).toEqual([
+        'false',
+        'true',
+        'false',
+        'true',
+      ]);
+      await user.click(within(row(name)).getByRole('button'));
+      expect(isOpen(name)).toBe('true');
+      expect(row(`${name}.inner`)).toHaveTextContent('inner1');
+      await user.click(within(row(name)).getByRole('button'));
+      expect(isOpen(name)).toBe('false');
+    },
+  );
 
   it('counts the items of a list, also of one that was cut', () => {
     open(echo('/a', { few: [1, 2], many: [1, 2] }, { many: 900 }));

@@ -36,7 +36,10 @@ describe('TopicList', () => {
       topics: [topic('/one', { types: [] }), topic('/two', { types: ['a/msg/A', 'b/msg/B', 'c/msg/C'] })],
     });
     show(<TopicList />);
-    const types = screen.getAllByRole('row').slice(1).map((row) => row.querySelector('td'));
+    const types = screen
+      .getAllByRole('row')
+      .slice(1)
+      .map((row) => row.querySelector('td'));
     expect(types.map((cell) => [cell?.textContent, cell?.title])).toEqual([
       ['a/A', 'a/msg/A'],
       ['a/A +2', 'a/msg/A\nb/msg/B\nc/msg/C'],

@@ -7,11 +7,11 @@ import { EchoList } from './EchoList';
 const echo = (
   topic: string,
   message: Record<string, unknown> | null,
-  cut?: Record<string, number>,
+  cut: Record<string, number> = {},
 ): Echo => ({
   topic,
   count: message ? 3 : 0,
-  last: message ? { topic, type: 'a/msg/A', message, bytes: 64, t: 1, ...(cut ? { cut } : {}) } : null,
+  last: message ? { topic, type: 'a/msg/A', message, bytes: 64, t: 1, cut } : null,
 });
 
 const open = (...echoes: Echo[]) => {

@@ -1,5 +1,5 @@
 import { act, screen } from '@testing-library/react';
-import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
 import { resetTopics, useTopicsStore } from '@/store/session/topics';
 import { show, user } from '../../../harness/testing';
 import { Plot } from './Plot';
@@ -7,7 +7,6 @@ import { Plot } from './Plot';
 const plotted = () => useTopicsStore.getState().plotted.map(({ topic, path }) => `${topic}.${path}`);
 
 beforeEach(() => {
-  vi.stubGlobal('Path2D', class {});
   useTopicsStore.setState({
     plotted: [
       { topic: '/odom', path: 'x' },
@@ -16,7 +15,6 @@ beforeEach(() => {
   });
   onTestFinished(() => {
     act(resetTopics);
-    vi.unstubAllGlobals();
   });
 });
 

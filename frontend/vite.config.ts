@@ -35,7 +35,10 @@ export default defineConfig({
     environment: 'jsdom',
     include: ['src/**/*.test.{ts,tsx}'],
     setupFiles: ['./vitest.setup.ts'],
-    css: false,
+    // Styles are left out, but for the colours that pictures are drawn with.
+    css: { include: [/tokens\.css\?raw$/] },
+    // A busy machine is slow, and nothing is asserted about time.
+    expect: { poll: { timeout: 20_000 } },
     maxWorkers: 2,
     // Property tests on a busy machine: long, and never endless.
     testTimeout: 60_000,

@@ -44,11 +44,12 @@ if (!('fonts' in document)) Object.assign(document, { fonts: new EventTarget() }
 
 Element.prototype.scrollIntoView ??= () => undefined;
 
-// An editor measures its text once it is changed.
+// An editor measures its text.
 Range.prototype.getClientRects ??= () => [] as unknown as DOMRectList;
+Range.prototype.getBoundingClientRect ??= () => new DOMRect();
 
 // Whether an element is hidden follows from all styles above it: jsdom takes half of a test's time for that.
-configure({ defaultHidden: true });
+configure({ defaultHidden: true, asyncUtilTimeout: 20_000 });
 
 afterEach(cleanup);
 

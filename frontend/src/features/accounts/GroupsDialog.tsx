@@ -115,7 +115,12 @@ function GroupCard({ group, me, run }: GroupCardProps) {
                 <Pill
                   key={member.username}
                   withRemoveButton
-                  removeButtonProps={{ 'aria-label': t('share.remove', { who: member.username }) }}
+                  // Mantine hides it from the keyboard and from screen readers, since its pills are in fields.
+                  removeButtonProps={{
+                    'aria-label': t('share.remove', { who: member.username }),
+                    'aria-hidden': false,
+                    tabIndex: 0,
+                  }}
                   onRemove={() => run(() => accounts.removeMember(group.id, member.username))}
                 >
                   {member.name || member.username}

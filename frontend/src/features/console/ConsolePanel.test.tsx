@@ -1,17 +1,15 @@
 import { MantineProvider } from '@mantine/core';
 import { act, fireEvent, render, screen, waitFor } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
-import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
 import '@/i18n';
 import { setNavigator } from '@/store/project/navigation';
 import { useProjectStore } from '@/store/project';
 import { appendLogs, initialSession } from '@/store/session/reduce';
 import { useSessionStore } from '@/store/session/store';
-import type { Log } from '@/generated/messages';
-import { parseAnsi, plainText } from './ansi';
+import type { LaunchNode, Log } from '@/generated/messages';
 import { ConsolePanel } from './ConsolePanel';
-import { filterLines } from './filter';
-import { findLinks } from './links';
+import { useConsoleFilter } from './filter';
 
 const log = (text: string, more: Partial<Log> = {}): Log => ({
   source: 'action',
@@ -22,52 +20,6 @@ const log = (text: string, more: Partial<Log> = {}): Log => ({
   time: 1,
   launch_node: '',
   ...more,
-});
-
-const FILES = new Set(['actions/Forward.py']);
-
-describe('parseAnsi', () => {
-  it('keeps styles until they are reset', () => {
-    expect(parseAnsi('a\u001b[1;31mb\u001b[0mc')).toEqual([
-      { text: 'a', styles: [] },
-      { text: 'b', styles: ['bold', 'red'] },
-      { text: 'c', styles: [] },
-    ]);
-  });
-
-  it('drops sequences that are no style', () => {
-    expect(plainText('x\u001b[2Ky')).toBe('xy');
-    expect(parseAnsi('\u001b[2K')).toEqual([{ text: '', styles: [] }]);
-  });
-});
-
-describe('findLinks', () => {
-  it.each([
-    ['Forward.py:12', 12],
-    ['actions/Forward.py:7', 7],
-    ['File "actions/Forward.py", line 30, in update', 30],
-  ])('finds the line in %s', (text, line) => {
-    expect(findLinks(text, FILES)[0]).toMatchObject({ path: 'actions/Forward.py', line });
-  });
-
-  it('leaves files alone that are not of the project', () => {
-    expect(findLinks('lib/other.py:3', FILES)).toEqual([{ text: 'lib/other.py:3' }]);
-  });
-});
-
-describe('filterLines', () => {
-  it('filters by source, level and text', () => {
-    const { logs } = appendLogs({ logs: [], nextLogId: 1 }, [
-      log('hello'),
-      log('careful', { level: 'warning', source: 'world' }),
-      log('why', { level: 'debug' }),
-    ]);
-    const texts = (filter: Partial<Parameters<typeof filterLines>[1]>) =>
-      filterLines(logs, { source: 'all', level: 'debug', search: '', ...filter }).map(({ text }) => text);
-    expect(texts({ level: 'warning' })).toEqual(['careful']);
-    expect(texts({ source: 'world' })).toEqual(['careful']);
-    expect(texts({ search: 'HELL' })).toEqual(['hello']);
-  });
 });
 
 describe('ConsolePanel', () => {
@@ -153,5 +105,76 @@ describe('ConsolePanel', () => {
     await waitFor(() => {
       expect(scroller.scrollTop).toBe(900);
     });
+  });
+
+  const write = (...lines: Log[]) => act(() => useSessionStore.setState((state) => appendLogs(state, lines)));
+  const texts = () =>
+    [...screen.getByRole('log').querySelectorAll('[data-level]')].map((line) => line.lastChild?.textContent);
+
+  it('filters by words, source and level', async () => {
+    onTestFinished(() => useConsoleFilter.setState(useConsoleFilter.getInitialState(), true));
+    show();
+    write(
+      log('hello'),
+      log('careful', { level: 'warning', source: 'world' }),
+      log('why', { level: 'debug' }),
+    );
+    expect(texts()).toEqual(['hello', 'careful']);
+    const [source, level] = ['Source', 'Level'].map((name) => screen.getByRole('combobox', { name }));
+    expect([...(source as HTMLSelectElement).options].map(({ text }) => text)).toEqual([
+      'All sources',
+      'Actions',
+      'World',
+      'Manager',
+      'Launch',
+    ]);
+    await userEvent.selectOptions(level!, 'Debug and above');
+    expect(texts()).toEqual(['hello', 'careful', 'why']);
+    await userEvent.selectOptions(source!, 'Actions');
+    expect(texts()).toEqual(['hello', 'why']);
+    await userEvent.type(screen.getByRole('searchbox', { name: 'Search the output' }), 'wx');
+    expect(screen.getByText('No line matches the filter.')).toBeInTheDocument();
+  });
+
+  it('filters by an extra node of the run, also when that is gone', async () => {
+    onTestFinished(() => useConsoleFilter.setState(useConsoleFilter.getInitialState(), true));
+    const node = { id: 'n1', name: 'mapper' } as LaunchNode;
+    useSessionStore.setState({ launchNodes: [node] });
+    show();
+    write(log('map', { source: 'launch', launch_node: 'n1' }), log('hello'));
+    const source = screen.getByRole('combobox', { name: 'Source' });
+    await userEvent.selectOptions(source, 'Node mapper');
+    expect(texts()).toEqual(['map']);
+    act(() => useSessionStore.setState({ launchNodes: [] }));
+    expect((source as HTMLSelectElement).selectedOptions[0]?.text).toBe('n1');
+    expect(texts()).toEqual(['map']);
+  });
+
+  it('forgets all lines on demand', async () => {
+    show();
+    const clear = screen.getByRole('button', { name: 'Clear' });
+    expect(clear).toBeDisabled();
+    write(log('hello'));
+    await userEvent.click(clear);
+    expect(useSessionStore.getState().logs).toEqual([]);
+    expect(screen.getByText(/The output of your actions/)).toBeInTheDocument();
+  });
+
+  it('follows the end again on demand', async () => {
+    show();
+    write(log('one'));
+    const scroller = screen.getByRole('log');
+    Object.defineProperties(scroller, {
+      scrollHeight: { value: 900, configurable: true },
+      clientHeight: { value: 100, configurable: true },
+      scrollTop: { value: 100, configurable: true, writable: true },
+    });
+    fireEvent.scroll(scroller);
+    fireEvent.keyDown(scroller);
+    scroller.scrollTop = 50;
+    fireEvent.scroll(scroller);
+    await userEvent.click(screen.getByRole('button', { name: 'Follow the end' }));
+    expect(scroller.scrollTop).toBe(900);
+    expect(screen.queryByRole('button', { name: 'Follow the end' })).toBeNull();
   });
 });

@@ -107,13 +107,7 @@ export function TreeImage({ diagram, layout, vocabulary, palette, children }: Tr
   const height = Math.max(0, ...boxes.map(([, box]) => box.y + box.height)) + MARGIN - top;
   const isHorizontal = diagram.layout === 'horizontal';
   return (
-    <svg
-      xmlns="http://www.w3.org/2000/svg"
-      width={width}
-      height={height}
-      viewBox={`${left} ${top} ${width} ${height}`}
-      fontFamily={SANS}
-    >
+    <svg width={width} height={height} viewBox={`${left} ${top} ${width} ${height}`} fontFamily={SANS}>
       <title>{diagram.id}</title>
       <rect x={left} y={top} width={width} height={height} fill={palette('canvas')} />
       {boxes.flatMap(([id, box]) =>

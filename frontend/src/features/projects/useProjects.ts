@@ -1,5 +1,5 @@
 import { notifications } from '@mantine/notifications';
-import { useInfiniteQuery, useMutation, useQueryClient, keepPreviousData } from '@tanstack/react-query';
+import { useInfiniteQuery, useMutation, useQueryClient } from '@tanstack/react-query';
 import { useTranslation } from 'react-i18next';
 import { api, type ProjectShelf, type ProjectSort } from '@/api/client';
 import type { ProjectDetail, ProjectSummary } from '@/api/types';
@@ -14,7 +14,8 @@ export function useProjects(search: string, sort: ProjectSort, shelf: ProjectShe
     queryFn: ({ pageParam, signal }) => api.listProjects({ search, sort, shelf, offset: pageParam }, signal),
     initialPageParam: 0,
     getNextPageParam: (page) => page.next_offset ?? undefined,
-    placeholderData: keepPreviousData,
+    // A project of one shelf must not show with the commands of another.
+    placeholderData: (previous, query) => (query?.queryKey[3] === shelf ? previous : undefined),
   });
 }
 

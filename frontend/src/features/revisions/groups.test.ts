@@ -1,16 +1,13 @@
 import { expect, it } from 'vitest';
 import type { Revision } from '@/api/revisions';
+import { revision } from '../../../harness/requests';
 import { groupRevisions } from './groups';
 
-const save = (number: number, minute: number, more: Partial<Revision> = {}): Revision => ({
-  number,
-  message: 'Edit MainTree.json',
-  label: '',
-  author: 'ada',
-  created_at: new Date(Date.UTC(2026, 0, 1, 10, minute)).toISOString(),
-  files: [],
-  ...more,
-});
+const save = (number: number, minute: number, more: Partial<Revision> = {}): Revision =>
+  revision(number, {
+    created_at: new Date(Date.UTC(2026, 0, 1, 10, minute)).toISOString(),
+    ...more,
+  });
 
 const numbers = (revisions: readonly Revision[]) =>
   groupRevisions(revisions).map(({ saves }) => saves.map(({ number }) => number));
@@ -29,4 +26,15 @@ it('keeps authors, messages and labels apart', () => {
   ];
   expect(numbers(revisions)).toEqual([[5], [4], [3], [2, 1]]);
   expect(numbers([save(2, 1, { message: 'Import' }), save(1, 0)])).toEqual([[2], [1]]);
+});
+
+it('shows the newest save of each group', () => {
+  const groups = groupRevisions([save(3, 2), save(2, 1), save(1, 0, { author: 'bob' })]);
+  expect(groups.map(({ newest }) => newest.number)).toEqual([3, 1]);
+  expect(groupRevisions([])).toEqual([]);
+});
+
+it('ends a sitting after ten minutes', () => {
+  expect(numbers([save(2, 10), save(1, 0)])).toEqual([[2, 1]]);
+  expect(numbers([save(2, 11), save(1, 0)])).toEqual([[2], [1]]);
 });

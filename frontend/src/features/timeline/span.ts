@@ -34,7 +34,8 @@ export function marks({ from, to }: Span, width: number, apart = 70): number[] {
 /** `12.5 s` below a minute, `3:05` above. */
 export function timeLabel(t: number): string {
   if (t < 60) return `${Number(t.toFixed(2))} s`;
-  const minutes = Math.floor(t / 60);
-  const seconds = t - minutes * 60;
-  return `${minutes}:${seconds.toFixed(seconds % 1 > 0.001 ? 1 : 0).padStart(2, '0')}`;
+  const tenths = Math.round(t * 10);
+  const seconds = Math.floor(tenths / 10) % 60;
+  const rest = tenths % 10 === 0 ? '' : `.${tenths % 10}`;
+  return `${Math.floor(tenths / 600)}:${String(seconds).padStart(2, '0')}${rest}`;
 }

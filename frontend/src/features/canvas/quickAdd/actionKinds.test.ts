@@ -2,9 +2,9 @@ import { expect, it } from 'vitest';
 import { kindsFor } from './actionKinds';
 
 it.each(['IsHome', 'isHome', 'hasBox', 'Can_see', 'check', 'Is', 'CheckDoor'])('%s is a question', (name) => {
-  expect(kindsFor(name)).toEqual(['Condition', 'Action']);
+  expect(kindsFor(name)).toEqual(['Condition', 'Action', 'Control', 'Decorator']);
 });
 
 it.each(['Island', 'Canoe', 'Hasten', 'checkers', 'PickUp', 'ThisIs', ''])('%s is no question', (name) => {
-  expect(kindsFor(name)).toEqual(['Action', 'Condition']);
+  expect(kindsFor(name)).toEqual(['Action', 'Condition', 'Control', 'Decorator']);
 });

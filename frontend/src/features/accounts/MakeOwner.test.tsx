@@ -1,0 +1,24 @@
+import { screen } from '@testing-library/react';
+import { expect, it, vi } from 'vitest';
+import { show, user } from '../../../harness/testing';
+import { MakeOwner } from './MakeOwner';
+
+it('says what a new owner means, and asks', async () => {
+  const onConfirm = vi.fn();
+  const onCancel = vi.fn();
+  const element = (isBusy: boolean) => (
+    <MakeOwner who="bob" isBusy={isBusy} onConfirm={onConfirm} onCancel={onCancel} />
+  );
+  show(element(false));
+  expect(screen.getByRole('alert')).toHaveTextContent('The project becomes bob’s');
+  await user.click(screen.getByRole('button', { name: 'Make bob the owner' }));
+  expect([onConfirm.mock.calls.length, onCancel.mock.calls.length]).toEqual([1, 0]);
+  await user.click(screen.getByRole('button', { name: 'Keep it' }));
+  expect([onConfirm.mock.calls.length, onCancel.mock.calls.length]).toEqual([1, 1]);
+});
+
+it('waits for the answer', () => {
+  show(<MakeOwner who="bob" isBusy onConfirm={() => undefined} onCancel={() => undefined} />);
+  expect(screen.getByRole('button', { name: 'Make bob the owner' })).toBeDisabled();
+  expect(screen.getByRole('button', { name: 'Keep it' })).toBeEnabled();
+});

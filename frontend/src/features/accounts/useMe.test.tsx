@@ -1,0 +1,20 @@
+import { screen } from '@testing-library/react';
+import { expect, it } from 'vitest';
+import { account } from '../../../harness/requests';
+import { fakeServer, show } from '../../../harness/testing';
+import { useMe } from './useMe';
+
+function Name() {
+  return <p>{useMe()?.user ?? 'not known yet'}</p>;
+}
+
+it('asks once who is signed in', async () => {
+  const { requests } = fakeServer({ 'GET /me': account() });
+  const { unmount } = show(<Name />);
+  expect(screen.getByText('not known yet')).toBeInTheDocument();
+  expect(await screen.findByText('ada')).toBeInTheDocument();
+  unmount();
+  show(<Name />);
+  expect(screen.getByText('ada')).toBeInTheDocument();
+  expect(requests).toHaveLength(1);
+});

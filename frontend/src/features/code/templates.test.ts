@@ -1,0 +1,19 @@
+import { expect, it } from 'vitest';
+import { ACTION_TEMPLATES, actionSource } from './templates';
+
+it('offers an action first', () => {
+  expect(ACTION_TEMPLATES).toEqual(['action', 'condition', 'service', 'goal']);
+});
+
+it.each(ACTION_TEMPLATES)('names the class of a template “%s” as its file', (kind) => {
+  const source = actionSource('FollowWall', kind);
+  const base = { control: 'ControlNode', decorator: 'DecoratorNode' }[kind as string];
+  expect(source).toContain(`class FollowWall(${base ?? 'py_trees.behaviour.Behaviour'}):`);
+  expect(source).not.toContain('NewAction');
+});
+
+it('has another text for each', () => {
+  expect(new Set(ACTION_TEMPLATES.map((kind) => actionSource('Go', kind))).size).toBe(4);
+  expect(actionSource('Go', 'condition')).toContain('NODE_KIND = "Condition"');
+  expect(actionSource('Go', 'action')).not.toContain('NODE_KIND = "Condition"');
+});

@@ -1,0 +1,102 @@
+import { beforeEach, describe, expect, it, onTestFinished } from 'vitest';
+import type { State } from '@/generated/messages';
+import { perform, useCommandTable } from '@/commands/registry';
+import { useRunStore } from '@/store/run/store';
+import { useTeleop } from '@/store/run/teleop';
+import { openProject, openSession, type FakeExecutor } from '../../../harness/testing';
+import { registerRunCommands } from './commands';
+import { useFollowing } from './following';
+
+let executor: FakeExecutor;
+const table = () => useCommandTable.getState().commands;
+const isEnabled = (id: string) => table()[`run.${id}`]?.enabled?.() ?? true;
+
+beforeEach(async () => {
+  openProject({});
+  executor = await openSession();
+  onTestFinished(registerRunCommands());
+});
+
+describe('commands of a run', () => {
+  it.each([
+    ['idle', ['run', 'end']],
+    ['connected', ['run', 'end']],
+    ['visualization_ready', ['run', 'resetWorld', 'end']],
+    ['application_running', ['run', 'pause', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
+    ['paused', ['run', 'resume', 'step', 'stop', 'step10', 'restart', 'resetWorld', 'end']],
+  ] as const)('may be given while the executor is %s', (state: State, expected) => {
+    executor.emit('state-changed', { state, reason: '' });
+    const asked = [
+      'run',
+      'pause',
+      'resume',
+      'step',
+      'stop',
+      'step10',
+      'restart',
+      'resetWorld',
+      'takeOver',
+      'end',
+    ];
+    expect(asked.filter(isEnabled)).toEqual(expected);
+  });
+
+  it('start nothing while a run starts, or where it is not allowed', () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    useRunStore.setState({ stage: 'saving' });
+    expect([isEnabled('run'), isEnabled('restart')]).toEqual([false, false]);
+    useRunStore.setState({ stage: null, runBlocker: 'guest' });
+    expect(isEnabled('run')).toBe(false);
+  });
+
+  it('let a viewer take over', async () => {
+    executor.introduce({ role: 'viewer' });
+    expect(isEnabled('takeOver')).toBe(true);
+    perform('run.takeOver');
+    await expect.poll(() => executor.sentAs('take_over')).toEqual([{}]);
+  });
+
+  it.each([
+    ['pause', 'pause', 'application_running'],
+    ['resume', 'resume', 'paused'],
+    ['step', 'step', 'paused'],
+    ['stop', 'terminate_application', 'paused'],
+    ['resetWorld', 'reset_world', 'paused'],
+  ] as const)('%s sends %s', async (id, command, state) => {
+    executor.emit('state-changed', { state, reason: '' });
+    perform(`run.${id}`);
+    await expect.poll(() => executor.sentAs(command)).toEqual([{}]);
+  });
+
+  it('step ten times', async () => {
+    executor.emit('state-changed', { state: 'paused', reason: '' });
+    perform('run.step10');
+    await expect.poll(() => executor.sentAs('step')).toHaveLength(10);
+  });
+
+  it('switch following and driving on and off', () => {
+    const states = () => [useFollowing.getState().isOn, useTeleop.getState().isOn];
+    const before = states();
+    perform('run.followRunning');
+    perform('run.teleop');
+    expect(states()).toEqual(before.map((isOn) => !isOn));
+    perform('run.followRunning');
+    perform('run.teleop');
+    expect(states()).toEqual(before);
+  });
+
+  it('have keys, also within text fields', () => {
+    const keys = Object.values(table()).flatMap(({ id, shortcut, inTextFields }) =>
+      shortcut ? [[id, shortcut, inTextFields]] : [],
+    );
+    expect(keys).toEqual([
+      ['run.run', 'F5', true],
+      ['run.pause', 'F6', true],
+      ['run.resume', 'F7', true],
+      ['run.step', 'F10', true],
+      ['run.stop', 'Shift+F5', true],
+      ['run.step10', 'Shift+F10', true],
+      ['run.restart', '$mod+Shift+F5', true],
+    ]);
+  });
+});

@@ -1,0 +1,83 @@
+import { act } from '@testing-library/react';
+import { beforeEach, describe, expect, it, onTestFinished, vi } from 'vitest';
+import type { Diagnostic } from '@/api/types';
+import type { Fault } from '@/generated/messages';
+import { useProjectStore } from '@/store/project';
+import { useRunStore } from '@/store/run/store';
+import { initialSession } from '@/store/session/reduce';
+import { useSessionStore } from '@/store/session/store';
+import { openProject, show } from '../../../harness/testing';
+import { useRunReactions } from './useRunReactions';
+
+const showPanel = vi.fn();
+const openFile = vi.fn();
+
+function Page() {
+  useRunReactions({ showPanel, openFile });
+  return null;
+}
+
+beforeEach(() => {
+  showPanel.mockClear();
+  openFile.mockClear();
+  openProject({ texts: { 'actions/Go.py': '' } });
+  show(<Page />);
+  onTestFinished(() => {
+    useSessionStore.setState(initialSession, true);
+    useRunStore.setState(useRunStore.getInitialState(), true);
+  });
+});
+
+describe('a run that was refused', () => {
+  const fail = (diagnostics: Diagnostic[]) =>
+    act(() =>
+      useRunStore.setState({ failure: { stage: 'checking', code: 'x', message: '', hint: '', diagnostics } }),
+    );
+
+  it('shows its problems', () => {
+    const diagnostics: Diagnostic[] = [{ code: 'X1', severity: 'error', message: 'bad' }];
+    fail(diagnostics);
+    expect(showPanel).toHaveBeenCalledExactlyOnceWith('problems');
+    expect(useProjectStore.getState().diagnostics).toEqual(diagnostics);
+  });
+
+  it('shows no list where there is none', () => {
+    fail([]);
+    expect(showPanel).not.toHaveBeenCalled();
+  });
+});
+
+describe('a fault', () => {
+  const fault = (more: Partial<Fault>) =>
+    act(() =>
+      useSessionStore.setState({
+        faults: [
+          {
+            kind: 'exception',
+            message: '',
+            hint: '',
+            node_id: '',
+            tree_id: '',
+            node_path: '',
+            file: 'actions/Go.py',
+            line: 3,
+            traceback: '',
+            ...more,
+          },
+        ],
+      }),
+    );
+
+  it('opens its line', () => {
+    fault({});
+    expect(openFile).toHaveBeenCalledExactlyOnceWith('actions/Go.py', 3);
+  });
+
+  it.each([{ kind: 'process' as const }, { line: 0 }, { file: '' }, { file: 'lib/other.py' }])(
+    'opens nothing with %j',
+    (more) => {
+      fault(more);
+      expect(openFile).not.toHaveBeenCalled();
+    },
+  );
+});

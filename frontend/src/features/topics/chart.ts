@@ -1,0 +1,54 @@
+import uPlot from 'uplot';
+import { seriesOf } from '@/store/session/topics';
+
+export const HEIGHT_PX = 190;
+/** Told apart on both themes and by colour-blind people (Okabe and Ito), in turn solid and dashed. */
+const COLORS = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9'];
+
+export const colorOf = (index: number) => COLORS[index % COLORS.length] ?? '#0072b2';
+
+type Plotted = readonly { readonly topic: string; readonly path: string }[];
+
+/** All series over the union of their times; a series without a sample at a time has none there. */
+export function dataOf(plotted: Plotted): uPlot.AlignedData {
+  const tables = plotted.map(({ topic, path }): uPlot.AlignedData => {
+    const { times, values } = seriesOf(topic, path);
+    return [times, values];
+  });
+  const [first] = tables;
+  if (!first) return [[]];
+  return tables.length === 1 ? [[...first[0]], [...(first[1] ?? [])]] : uPlot.join(tables);
+}
+
+export function optionsFor(plotted: Plotted, element: HTMLElement): uPlot.Options {
+  const style = getComputedStyle(element);
+  const line = style.getPropertyValue('--bts-border').trim();
+  const axis: uPlot.Axis = {
+    stroke: style.getPropertyValue('--bts-muted').trim(),
+    grid: { stroke: line, width: 1 },
+    ticks: { stroke: line, width: 1 },
+    font: '11px Inter Variable, system-ui, sans-serif',
+  };
+  return {
+    width: Math.max(element.clientWidth, 100),
+    height: HEIGHT_PX,
+    scales: { x: { time: false } },
+    legend: { show: false },
+    cursor: { drag: { x: true, y: false } },
+    axes: [
+      { ...axis, values: (_, ticks) => ticks.map((tick) => `${tick} s`) },
+      { ...axis, size: 56 },
+    ],
+    series: [
+      {},
+      ...plotted.map(({ topic, path }, index) => ({
+        label: `${topic}.${path}`,
+        stroke: colorOf(index),
+        width: 1.6,
+        spanGaps: true,
+        points: { show: false },
+        ...(Math.floor(index / COLORS.length) % 2 === 1 ? { dash: [6, 4] } : {}),
+      })),
+    ],
+  };
+}

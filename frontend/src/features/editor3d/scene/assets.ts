@@ -37,9 +37,10 @@ export class Assets {
 
   /** What a URDF of the project looks like. */
   model(path: string): Fetched<Shape[]> {
-    return this.fetched(this.models, path, () => {
+    // A promise also where the text is no URDF: the view draws a mark in its place instead of failing.
+    return this.fetched(this.models, path, async () => {
       const text = path.endsWith('.urdf') ? (useProjectStore.getState().currentText(path) ?? '') : '';
-      return Promise.resolve(resolved(urdfShapes(text), path));
+      return resolved(urdfShapes(text), path);
     });
   }
 

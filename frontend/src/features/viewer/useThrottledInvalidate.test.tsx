@@ -1,0 +1,68 @@
+import { afterAll, beforeEach, describe, expect, it, vi } from 'vitest';
+import { showScene } from '../../../harness/scene';
+import { useThrottledInvalidate } from './useThrottledInvalidate';
+
+const none = HTMLCanvasElement.prototype.getContext;
+const SIGNALED = 4;
+let isDone = true;
+const deleted = vi.fn();
+
+// The page asks for the kind of WebGL once: in this file the processor draws.
+Object.assign(HTMLCanvasElement.prototype, {
+  getContext: (kind: string) =>
+    kind === 'webgl2'
+      ? {
+          SIGNALED,
+          getExtension: () => null,
+          getParameter: () => 'SwiftShader',
+          fenceSync: () => ({}),
+          flush: () => undefined,
+          isContextLost: () => false,
+          getSyncParameter: () => (isDone ? SIGNALED : 0),
+          deleteSync: deleted,
+        }
+      : null,
+});
+afterAll(() => {
+  HTMLCanvasElement.prototype.getContext = none;
+});
+
+let draw: () => void = () => undefined;
+function Throttled() {
+  draw = useThrottledInvalidate();
+  return null;
+}
+
+beforeEach(() => {
+  isDone = true;
+  deleted.mockClear();
+});
+
+describe('frames where the processor draws', () => {
+  it('come one by one: those that are asked for meanwhile are one', async () => {
+    const { frames } = showScene(<Throttled />);
+    await vi.waitFor(() => expect(frames()).toBeGreaterThan(0));
+    const before = frames();
+    draw();
+    draw();
+    draw();
+    await vi.waitFor(() => expect(deleted).toHaveBeenCalledOnce());
+    expect(frames()).toBe(before + 1);
+    await vi.waitFor(() => expect(frames()).toBe(before + 2));
+    await vi.waitFor(() => expect(deleted).toHaveBeenCalledTimes(2));
+  });
+
+  it('wait until the last one is drawn, and for a pause after it', async () => {
+    const { frames } = showScene(<Throttled />);
+    isDone = false;
+    const before = frames();
+    const start = performance.now();
+    draw();
+    draw();
+    await vi.waitFor(() => expect(frames()).toBe(before + 1));
+    expect(deleted).not.toHaveBeenCalled();
+    isDone = true;
+    await vi.waitFor(() => expect(frames()).toBe(before + 2));
+    expect(performance.now() - start).toBeGreaterThanOrEqual(80);
+  });
+});
